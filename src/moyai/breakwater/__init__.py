@@ -1,0 +1,1 @@
+"""Floating breakwaters: the model, its analyses and its checks."""

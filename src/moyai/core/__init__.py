@@ -1,0 +1,1 @@
+"""Foundation of the house: errors, validity notices, identity checks, quantities, results, progress."""

@@ -1,0 +1,70 @@
+"""Errors that a user can act on: where, what, the allowed range, how to mend it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault of an input, worded for the person who wrote it.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong, with the value that was found.
+    path : str
+        Dotted path of the key (``structure.section.beam``) or the name of the argument.
+    allowed : str
+        The allowed range or form, empty when the message says it.
+    remedy : str
+        How to mend it, for instance ``did you mean 'draught'?``.
+    file, line, column : str, int, int
+        Place in the file, 1-based; 0 where there is none.
+    """
+
+    message: str
+    path: str = ""
+    allowed: str = ""
+    remedy: str = ""
+    file: str = ""
+    line: int = 0
+    column: int = 0
+
+    def __str__(self) -> str:
+        place = ""
+        if self.file:
+            place = f"{self.file}:{self.line}:{self.column}: " if self.line else f"{self.file}: "
+        parts = [self.message]
+        if self.allowed:
+            parts.append(f"allowed: {self.allowed}")
+        if self.remedy:
+            parts.append(self.remedy)
+        return place + (f"{self.path}: " if self.path else "") + "; ".join(parts)
+
+
+class MoyaiError(Exception):
+    """Base of all errors raised on purpose: one clear message, no traceback needed."""
+
+    def __init__(self, message: str, *, path: str = "", allowed: str = "", remedy: str = "") -> None:
+        self.fault = Fault(message=message, path=path, allowed=allowed, remedy=remedy)
+        super().__init__(str(self.fault))
+
+
+class InputError(MoyaiError, ValueError):
+    """An argument or an entry of a case is outside what is physically or formally allowed."""
+
+
+class ConvergenceError(MoyaiError, RuntimeError):
+    """A solver did not reach its tolerance; the message holds the residual and what to try."""
+
+
+class CaseError(MoyaiError):
+    """All faults of one case file at once."""
+
+    def __init__(self, faults: Sequence[Fault]) -> None:
+        self.faults = tuple(faults)
+        count = len(self.faults)
+        super().__init__(f"{count} fault{'s' if count != 1 else ''}")
+        self.args = ("\n".join(str(fault) for fault in self.faults),)

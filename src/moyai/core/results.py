@@ -1,0 +1,218 @@
+"""The result of a run: labelled data, status, identity checks, validity notices and provenance in one file."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import platform
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from moyai.core.errors import InputError, MoyaiError
+from moyai.core.validity import IdentityCheck, Notice
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Status = Literal["converged", "outside_validity", "not_converged", "interrupted", "failed"]
+
+TIME_CONVENTION = "Re(X exp(-i omega t))"
+DIRECTION_CONVENTION = "heading 0 travels towards +x, 90 degrees towards +y; x, y, z right-handed, z up"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run hands back and what the file on disk holds.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Groups of labelled data; every variable carries ``units`` and ``long_name``.
+    status : str
+        ``converged``, ``outside_validity``, ``not_converged``, ``interrupted`` or ``failed``.
+    message : str
+        One sentence behind the status.
+    checks : tuple of IdentityCheck
+        Identities of the run with their figures.
+    notices : tuple of Notice
+        Validity notices.
+    provenance : mapping
+        Version, inputs, conventions, seed, time of the run.
+    """
+
+    tree: xr.DataTree
+    status: Status = "converged"
+    message: str = ""
+    checks: tuple[IdentityCheck, ...] = ()
+    notices: tuple[Notice, ...] = ()
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+
+    def with_notices(self, *notices: Notice) -> Result:
+        """Return the same result with further notices; an ``error`` among them lowers the status."""
+        status = self.status
+        if status == "converged" and any(notice.severity == "error" for notice in notices):
+            status = "outside_validity"
+        return replace(self, notices=(*self.notices, *notices), status=status)
+
+    def write(self, path: str | os.PathLike[str]) -> Path:
+        """Write NetCDF under ``path``; a file under the final name is always complete.
+
+        Raises
+        ------
+        InputError
+            When the folder cannot be written.
+        """
+        return write_result(self, Path(path))
+
+
+def make_provenance(**entries: Any) -> dict[str, Any]:
+    """Collect version, packages, conventions and time of the run, with ``entries`` on top."""
+    from moyai import __version__
+
+    packages = {}
+    for name in ("numpy", "scipy", "numba", "xarray", "raschii"):
+        try:
+            packages[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            packages[name] = "absent"
+    return {
+        "moyai_version": __version__,
+        "python": platform.python_version(),
+        "platform": f"{platform.system()} {platform.machine()}",
+        "packages": packages,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "command": " ".join([Path(sys.argv[0]).name, *sys.argv[1:]]) if sys.argv and sys.argv[0] else "",
+        "time_convention": TIME_CONVENTION,
+        "direction_convention": DIRECTION_CONVENTION,
+        **entries,
+    }
+
+
+def _split_complex(dataset: xr.Dataset) -> xr.Dataset:
+    """Store complex variables along Capytaine's ``complex = re, im`` dimension, which every reader accepts."""
+    import xarray as xr
+
+    changed = {}
+    for name, variable in dataset.variables.items():
+        if np.iscomplexobj(variable.values):
+            stacked = np.stack([variable.values.real, variable.values.imag])
+            changed[name] = (("complex", *variable.dims), stacked, variable.attrs)
+    if not changed:
+        return dataset
+    out = dataset.drop_vars(list(changed)).assign(changed)
+    return out.assign_coords(complex=xr.Variable("complex", np.array(["re", "im"])))
+
+
+def join_complex(dataset: xr.Dataset) -> xr.Dataset:
+    """Undo :func:`_split_complex`: give complex variables back as complex."""
+    if "complex" not in dataset.dims:
+        return dataset
+    out = {}
+    for name, variable in dataset.data_vars.items():
+        if "complex" in variable.dims:
+            joined = variable.sel(complex="re", drop=True) + 1j * variable.sel(complex="im", drop=True)
+            joined.attrs = variable.attrs
+            out[name] = joined
+    return dataset.drop_vars([*out, "complex"]).assign(out)
+
+
+def _map_tree(tree: xr.DataTree, change: Any) -> xr.DataTree:
+    import xarray as xr
+
+    return xr.DataTree.from_dict({node.path: change(node.to_dataset(inherit=False)) for node in tree.subtree})
+
+
+def write_result(result: Result, path: Path) -> Path:
+    """Write a result; see :meth:`Result.write`."""
+    import xarray as xr
+
+    header = {
+        "Conventions": "CF-1.10",
+        "title": str(result.provenance.get("title", "moyai result")),
+        "source": f"moyai {result.provenance.get('moyai_version', '')}".strip(),
+        "history": f"{result.provenance.get('created', '')} {result.provenance.get('command', '')}".strip(),
+        "status": result.status,
+        "message": result.message,
+        "time_convention": TIME_CONVENTION,
+        "direction_convention": DIRECTION_CONVENTION,
+        "checks": json.dumps([check.as_dict() for check in result.checks]),
+        "notices": json.dumps([notice.as_dict() for notice in result.notices]),
+        "provenance": json.dumps(dict(result.provenance), default=str),
+    }
+    tree = _map_tree(result.tree, _split_complex)
+    root = tree.to_dataset(inherit=False)
+    root.attrs.update(header)
+    groups = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+    groups["/"] = root
+    tree = xr.DataTree.from_dict(groups)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, partial = tempfile.mkstemp(prefix=path.name + ".", suffix=".partial", dir=path.parent)
+        os.close(handle)
+    except OSError as error:
+        raise InputError(
+            f"cannot write {path}: {error.strerror or error}", path="output", remedy="choose a folder that can be written"
+        ) from error
+    try:
+        tree.to_netcdf(partial, engine="h5netcdf")
+        os.replace(partial, path)
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror or error}", path="output") from error
+    finally:
+        Path(partial).unlink(missing_ok=True)
+    return path
+
+
+def read_result(path: str | os.PathLike[str]) -> Result:
+    """Read a result written by :meth:`Result.write`.
+
+    Raises
+    ------
+    InputError
+        When the file is absent or was not written by moyai.
+    """
+    import xarray as xr
+
+    file = Path(path)
+    if not file.exists():
+        raise InputError(f"no such file: {file}", path="result")
+    try:
+        with xr.open_datatree(file, engine="h5netcdf") as stored:
+            tree = _map_tree(stored.load(), join_complex)
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"{file} cannot be read as a result: {error}", path="result") from error
+    attributes = tree.attrs
+    if "status" not in attributes or "checks" not in attributes:
+        raise InputError(f"{file} was not written by moyai (no status or checks in it)", path="result")
+
+    def number(value: Any) -> float:
+        return math.nan if value is None else float(value)
+
+    checks = tuple(
+        IdentityCheck(item["name"], number(item["value"]), number(item["tolerance"]), item.get("meaning", ""))
+        for item in json.loads(attributes["checks"])
+    )
+    notices = tuple(
+        Notice(**{**item, "value": number(item["value"]), "limit": number(item["limit"])})
+        for item in json.loads(attributes["notices"])
+    )
+    return Result(
+        tree=tree,
+        status=attributes["status"],
+        message=attributes.get("message", ""),
+        checks=checks,
+        notices=notices,
+        provenance=json.loads(attributes.get("provenance", "{}")),
+    )
+
+
+__all__ = ["MoyaiError", "Result", "Status", "join_complex", "make_provenance", "read_result", "write_result"]

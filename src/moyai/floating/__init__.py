@@ -1,0 +1,1 @@
+"""Rigid floating bodies: statics, frequency domain, time domain with memory."""

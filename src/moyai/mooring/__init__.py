@@ -1,0 +1,1 @@
+"""Moorings at rest: exact elastic catenary, line systems, stiffness."""

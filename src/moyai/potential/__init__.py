@@ -1,0 +1,1 @@
+"""Two-dimensional linear potential theory: sections, boundary integrals, radiation, diffraction, memory, drift."""

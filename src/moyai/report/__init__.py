@@ -1,0 +1,1 @@
+"""Reports: figures, animated side view, HTML and PDF."""

@@ -1,0 +1,1 @@
+"""Water and site, dispersion, waves, spectra, irregular seas, kinematics, currents."""

@@ -1,0 +1,1 @@
+"""Sourced data tables: chain and rope, drag coefficients, safety factors."""
