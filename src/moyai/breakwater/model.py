@@ -1,0 +1,313 @@
+"""The floating breakwater problem: what the case file says, in SI units and radians, frozen.
+
+Positions on the body are given in the body frame of the section, x from its centre line and z above the keel, so
+that they hold for every draught and water level. Anchors are given above the bed. Both become site coordinates only
+when a water level is chosen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.mooring.lines import Clump, Segment
+from moyai.potential.sections import Hull
+from moyai.sea.current import CurrentProfile
+from moyai.sea.spectra import Spectrum
+from moyai.sea.water import Water
+
+MODES = ("sway", "heave", "roll")
+Mode = Literal["sway", "heave", "roll"]
+DriftLaw = Literal["ramped", "pulsating", "newman", "none"]
+
+
+@dataclass(frozen=True)
+class RegularSea:
+    """Regular waves of one height and one or more periods.
+
+    Parameters
+    ----------
+    name : str
+        Label of the sea state.
+    height : float
+        Wave height H [m].
+    periods : tuple of float
+        Wave periods T [s] in the fixed frame.
+    heading : float
+        Direction of travel [rad], 0 along +x (normal to the breakwater).
+    """
+
+    name: str
+    height: float
+    periods: tuple[float, ...]
+    heading: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.periods:
+            raise InputError("no wave period given", path="waves.periods", allowed="at least one period")
+        if self.height < 0.0 or not all(period > 0.0 for period in self.periods):
+            raise InputError("wave height and periods must be positive", path="waves")
+
+
+@dataclass(frozen=True)
+class IrregularSea:
+    """An irregular sea by its spectrum.
+
+    Parameters
+    ----------
+    name : str
+        Label of the sea state.
+    spectrum : Spectrum
+        Frequency spectrum [m2 s/rad].
+    heading : float
+        Mean direction of travel [rad].
+    spreading : object or None
+        Directional spreading of :mod:`moyai.sea`, ``None`` for long crests.
+    duration : float
+        Length of the time-domain realisation [s].
+    seed : int
+        Seed of the random phases.
+    """
+
+    name: str
+    spectrum: Spectrum
+    heading: float = 0.0
+    spreading: Any = None
+    duration: float = 10800.0
+    seed: int = 1
+
+
+SeaState = RegularSea | IrregularSea
+
+
+@dataclass(frozen=True)
+class Wind:
+    """Steady wind: speed [m/s], heading [rad], air density [kg/m3]."""
+
+    speed: float
+    heading: float
+    density: float
+
+
+@dataclass(frozen=True)
+class Environment:
+    """Everything around the structure.
+
+    Parameters
+    ----------
+    water : Water
+        Water at datum (level 0): depth [m] or infinite, density, gravity.
+    water_levels : tuple of (str, float)
+        Names and elevations above datum [m]; each is run.
+    sea_states : tuple of RegularSea or IrregularSea
+        Waves; may be empty.
+    wind : Wind or None
+    current : CurrentProfile or None
+    """
+
+    water: Water
+    water_levels: tuple[tuple[str, float], ...] = (("SWL", 0.0),)
+    sea_states: tuple[SeaState, ...] = ()
+    wind: Wind | None = None
+    current: CurrentProfile | None = None
+
+    def water_at(self, level: float) -> Water:
+        """Return the water when its surface stands ``level`` [m] above datum."""
+        if math.isinf(self.water.depth):
+            return self.water
+        return self.water.with_depth(self.water.depth + level)
+
+
+@dataclass(frozen=True)
+class Damping:
+    """Damping beyond wave radiation.
+
+    Parameters
+    ----------
+    fraction_of_critical : float
+        zeta of P3: C_jj = 2 zeta sqrt((M + mu)_jj (K_H + K_M)_jj).
+    modes : tuple of str
+        Modes that it is applied to.
+    linear : tuple of three float
+        Additional linear damping, sway [N s/m], heave [N s/m], roll [N m s], of the whole unit.
+    roll_quadratic : float
+        Coefficient b2 of b2 |theta'| theta' [N m s2], of the whole unit.
+    """
+
+    fraction_of_critical: float = 0.0
+    modes: tuple[Mode, ...] = MODES
+    linear: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    roll_quadratic: float = 0.0
+
+
+@dataclass(frozen=True)
+class MooringLine:
+    """Identical lines between the bed and the body.
+
+    Parameters
+    ----------
+    name : str
+    count : int
+        Number of identical lines (they share one computation).
+    fairlead : tuple of three float
+        x from the centre line, y along the unit, z above the keel [m].
+    anchor : tuple of three float
+        x, y from the centre of the unit, z above the bed [m].
+    segments : tuple of Segment or Clump
+        From the anchor to the fairlead.
+    bed_friction : float
+        Coulomb coefficient of the line on the bed.
+    """
+
+    name: str
+    count: int
+    fairlead: tuple[float, float, float]
+    anchor: tuple[float, float, float]
+    segments: tuple[Segment | Clump, ...]
+    bed_friction: float = 0.0
+
+
+@dataclass(frozen=True)
+class MooringSpring:
+    """Identical linear springs between a fixed point and the body (laboratory moorings).
+
+    ``anchor`` is (x, y, z) with z from still water [m]; ``stiffness`` [N/m]; ``pretension`` [N].
+    """
+
+    name: str
+    count: int
+    fairlead: tuple[float, float, float]
+    anchor: tuple[float, float, float]
+    stiffness: float
+    pretension: float
+
+
+@dataclass(frozen=True)
+class CoefficientsFile:
+    """Coefficients of a 3-D program in place of the section: program name and path of its file or folder."""
+
+    program: Literal["capytaine", "wamit", "nemoh"]
+    path: Path
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Breakwater:
+    """One floating unit of constant section.
+
+    Parameters
+    ----------
+    hull : Hull
+        Section outline, keel to deck.
+    length : float
+        Length along the crest l [m].
+    roll_gyradius : float
+        Roll radius of gyration about the centre of gravity r [m].
+    centre_of_gravity : tuple of two float
+        x from the centre line and z above the keel [m].
+    mass : float or None
+        Mass of the unit [kg]; ``None`` when the draught is given instead.
+    draught : float or None
+        Draught d [m]; ``None`` when the mass is given instead. Both: the imbalance is reported.
+    additional_mass : tuple of three float
+        Mass that moves in one mode only (rigs of model tests): sway, heave [kg], roll [kg m2].
+    wind_drag_coefficient, current_drag_coefficient : float or None
+        On the area above and below water; needed where there is wind or current.
+    gap_damping_lid : float
+        Damping lid of the gaps between pontoons, fraction epsilon in K (1 + i epsilon).
+    """
+
+    hull: Hull
+    length: float
+    roll_gyradius: float
+    centre_of_gravity: tuple[float, float]
+    mass: float | None = None
+    draught: float | None = None
+    damping: Damping = field(default_factory=Damping)
+    additional_mass: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    wind_drag_coefficient: float | None = None
+    current_drag_coefficient: float | None = None
+    gap_damping_lid: float = 0.0
+    lines: tuple[MooringLine | MooringSpring, ...] = ()
+    coefficients_file: CoefficientsFile | None = None
+
+    def __post_init__(self) -> None:
+        if self.mass is None and self.draught is None:
+            raise InputError("neither mass nor draught is given", path="structure", remedy="give one of them")
+
+
+@dataclass(frozen=True)
+class TimeSettings:
+    """How the time domain is run; ``None`` means that the program chooses and says why.
+
+    Parameters
+    ----------
+    duration : float or None
+        Simulated time of regular waves [s] (irregular seas carry their own).
+    ramp : float or None
+        Length of the cosine ramp [s].
+    time_step : float or None
+    analysed_periods : int
+        Whole periods at the end that are analysed in regular waves.
+    drift : {"ramped", "pulsating", "newman", "none"}
+    memory : {"state_space", "convolution"}
+    """
+
+    duration: float | None = None
+    ramp: float | None = None
+    time_step: float | None = None
+    analysed_periods: int = 10
+    drift: DriftLaw = "ramped"
+    memory: Literal["state_space", "convolution"] = "state_space"
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Variations that redraw the figures of P3: damping fractions, chain slacks [m], number of lines."""
+
+    damping_fractions: tuple[float, ...] = ()
+    line_slacks: tuple[float, ...] = ()
+    line_counts: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Which analyses are run and how."""
+
+    analyses: tuple[Literal["statics", "mooring", "frequency", "time"], ...] = ("statics", "mooring", "frequency", "time")
+    drift: bool = True
+    frequencies: tuple[float, ...] | None = None
+    restoring_offsets: tuple[float, ...] | None = None
+    time: TimeSettings = field(default_factory=TimeSettings)
+    sensitivity: Sensitivity = field(default_factory=Sensitivity)
+
+    def angular_frequencies(self) -> np.ndarray | None:
+        """Return the user's angular frequencies [rad/s], or ``None``."""
+        return None if self.frequencies is None else np.asarray(self.frequencies, dtype=float)
+
+
+@dataclass(frozen=True)
+class MeasuredPoints:
+    """Measured points to show beside the results: one record per column name."""
+
+    file: str
+    columns: Mapping[str, tuple[float, ...]]
+
+
+@dataclass(frozen=True)
+class BreakwaterProblem:
+    """The whole problem as the case file states it."""
+
+    title: str
+    breakwater: Breakwater
+    environment: Environment
+    settings: Settings = field(default_factory=Settings)
+    measured: MeasuredPoints | None = None
+    case_text: str = ""
+    case_hash: str = ""
