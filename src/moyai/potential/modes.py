@@ -1,0 +1,125 @@
+"""Modes of motion: rigid sway, heave and roll, and any displacement field that a user gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+
+FloatArray = NDArray[np.float64]
+
+#: Displacement (n, 2) of the boundary points (n, 2) for unit amplitude of a mode
+DisplacementField = Callable[[FloatArray], FloatArray]
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Named displacement fields of the wetted boundary.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Unique names: the entries of ``radiating_dof`` and ``influenced_dof``.
+    functions : tuple of callable
+        Each takes points (n, 2) [m] in the frame of the site and returns displacements (n, 2) for unit amplitude.
+    bodies : tuple
+        For each mode the numbers of the outlines that it moves; ``None`` moves all.
+
+    Raises
+    ------
+    InputError
+        When names repeat or their number differs from that of the functions.
+    """
+
+    names: tuple[str, ...]
+    functions: tuple[DisplacementField, ...]
+    bodies: tuple[tuple[int, ...] | None, ...] = ()
+
+    def __post_init__(self) -> None:
+        names, functions = tuple(self.names), tuple(self.functions)
+        bodies = tuple(self.bodies) or (None,) * len(names)
+        if not names:
+            raise InputError("no mode was given", path="modes")
+        if len(set(names)) != len(names):
+            raise InputError(f"names of modes repeat: {', '.join(names)}", path="modes.names")
+        if not len(names) == len(functions) == len(bodies):
+            raise InputError(
+                f"{len(names)} names, {len(functions)} functions, {len(bodies)} bodies",
+                path="modes",
+                allowed="equal numbers",
+            )
+        object.__setattr__(self, "names", names)
+        object.__setattr__(self, "functions", functions)
+        object.__setattr__(self, "bodies", bodies)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __add__(self, other: Modes) -> Modes:
+        return Modes(self.names + other.names, self.functions + other.functions, self.bodies + other.bodies)
+
+    def normal_displacement(self, points: FloatArray, normals: FloatArray, body: NDArray[np.intp]) -> FloatArray:
+        """Return the normal displacement (modes, n) at boundary points with unit normals (n, 2), for unit amplitude.
+
+        Raises
+        ------
+        InputError
+            When a function gives another shape or a number that is not finite.
+        """
+        out = np.zeros((len(self), len(points)))
+        for index, (function, moved) in enumerate(zip(self.functions, self.bodies, strict=True)):
+            field = np.asarray(function(points), dtype=float)
+            if field.shape != points.shape or not np.isfinite(field).all():
+                raise InputError(
+                    f"mode {self.names[index]} gives displacements of shape {field.shape} or not finite",
+                    path="modes.functions",
+                    allowed=f"finite, shape {points.shape}",
+                )
+            out[index] = np.einsum("ij,ij->i", field, normals)
+            if moved is not None:
+                out[index, ~np.isin(body, moved)] = 0.0
+        return out
+
+
+@dataclass(frozen=True)
+class _Rigid:
+    """Unit translation or rotation; a small callable class, so that modes can be sent to other processes."""
+
+    kind: str
+    x: float = 0.0
+    z: float = 0.0
+
+    def __call__(self, points: FloatArray) -> FloatArray:
+        if self.kind == "sway":
+            return np.broadcast_to(np.array([1.0, 0.0]), points.shape).copy()
+        if self.kind == "heave":
+            return np.broadcast_to(np.array([0.0, 1.0]), points.shape).copy()
+        return np.stack([points[:, 1] - self.z, -(points[:, 0] - self.x)], axis=1)
+
+
+def rigid_modes(centre: tuple[float, float], *, body: int | None = None, prefix: str = "") -> Modes:
+    """Return sway (x), heave (z) and roll (about +y: the top towards +x) about ``centre``.
+
+    Parameters
+    ----------
+    centre : (float, float)
+        x, z [m] in the frame of the site (z = 0 at still water) about which roll turns, mostly the centre of gravity.
+    body : int, optional
+        Number of the outline that moves; by default all move together.
+    prefix : str
+        Put before the three names, for instance ``"left "`` in an array of bodies.
+    """
+    x, z = float(centre[0]), float(centre[1])
+    if not (np.isfinite(x) and np.isfinite(z)):
+        raise InputError(f"centre is ({x:g}, {z:g})", path="centre", allowed="finite numbers")
+    kinds = ("sway", "heave", "roll")
+    moved = None if body is None else (body,)
+    return Modes(
+        names=tuple(prefix + kind for kind in kinds),
+        functions=tuple(_Rigid(kind, x, z) for kind in kinds),
+        bodies=(moved,) * 3,
+    )

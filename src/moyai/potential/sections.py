@@ -1,0 +1,363 @@
+"""Closed outlines of straight and circular edges, hulls made of them, and the section that a hull shows to the water.
+
+Lengths in metres. An outline is given in the body frame: x from the centre of the body, z upwards from the keel. A hull
+set into still water becomes a :class:`Section` in the frame of the site, where z = 0 is the still water.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.potential.edges import Edges, FloatArray, inside_polygon, polygon_clash, segments_meet
+from moyai.potential.edges import as_complex as _as_complex
+
+# Distances below this share of the size of an outline count as touching
+_TOUCH = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """A closed outline, counter-clockwise; one given clockwise is turned round.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 2)
+        Corners (x, z) [m] in the body frame; the last one need not repeat the first.
+    bulges : array_like, shape (n,), optional
+        tan(sweep / 4) of the edge that leaves each corner: 0 (default) is straight, 1 a counter-clockwise half circle.
+
+    Raises
+    ------
+    InputError
+        For NaN, fewer than three corners (two with arcs), repeated corners, no area, or an outline that meets itself.
+    """
+
+    vertices: FloatArray
+    bulges: FloatArray | None = None
+
+    def __post_init__(self) -> None:
+        vertices = np.array(self.vertices, dtype=float)
+        if vertices.ndim != 2 or vertices.shape[1] != 2:
+            raise InputError(
+                f"vertices have shape {vertices.shape}", path="vertices", allowed="(n, 2): x, z of each corner"
+            )
+        bulges = np.zeros(len(vertices)) if self.bulges is None else np.array(self.bulges, dtype=float)
+        if bulges.shape != (len(vertices),):
+            raise InputError(
+                f"{bulges.size} bulges for {len(vertices)} vertices", path="bulges", allowed="one per vertex"
+            )
+        if not (np.isfinite(vertices).all() and np.isfinite(bulges).all()):
+            raise InputError("a corner or a bulge of the outline is not a finite number", path="vertices")
+        if len(vertices) > 1 and (vertices[0] == vertices[-1]).all():
+            vertices, bulges = vertices[:-1], bulges[:-1]
+        if len(vertices) < 2 or (len(vertices) == 2 and not bulges.any()):
+            raise InputError(
+                f"the outline has {len(vertices)} different corners",
+                path="vertices",
+                allowed="at least 3, or 2 with arcs",
+            )
+        size = float(np.ptp(vertices, axis=0).max())
+        steps = np.hypot(*(np.roll(vertices, -1, axis=0) - vertices).T)
+        if size == 0.0 or (steps <= _TOUCH * size).any():
+            where = int(np.argmin(steps))
+            raise InputError(
+                f"corners {where + 1} and {(where + 1) % len(vertices) + 1} of the outline coincide", path="vertices"
+            )
+        area = Edges(vertices, np.roll(vertices, -1, axis=0), bulges).moments()[0]
+        if abs(area) <= 1e-12 * size**2:
+            raise InputError("the outline encloses no area", path="vertices")
+        if area < 0.0:
+            vertices, bulges = vertices[::-1], -np.roll(bulges[::-1], -1)
+        edges = Edges(vertices, np.roll(vertices, -1, axis=0), bulges)
+        clash = polygon_clash(edges.polyline(), _TOUCH * size)
+        if clash is not None:
+            raise InputError(
+                f"the outline meets itself near x = {clash[0]:g} m, z = {clash[1]:g} m",
+                path="vertices",
+                remedy="list the corners once around the section",
+            )
+        object.__setattr__(self, "vertices", edges.start)
+        object.__setattr__(self, "bulges", edges.bulge)
+        object.__setattr__(self, "_edges", edges)
+
+    @property
+    def edges(self) -> Edges:
+        """The edges, counter-clockwise."""
+        edges: Edges = self.__dict__["_edges"]
+        return edges
+
+    @cached_property
+    def area(self) -> float:
+        """Enclosed area [m2]."""
+        return self.edges.moments()[0]
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest and largest x, smallest and largest z [m]."""
+        return self.edges.bounds()
+
+    def moved(self, shift: tuple[float, float] = (0.0, 0.0), heel: float = 0.0) -> Outline:
+        """Return the outline turned by ``heel`` [rad] (top towards +x) about the origin and then shifted [m]."""
+        return Outline(_turned(self.edges.start, heel) + np.asarray(shift, dtype=float), self.bulges)
+
+
+def _turned(points: FloatArray, heel: float) -> FloatArray:
+    cosine, sine = math.cos(heel), math.sin(heel)
+    return points @ np.array([[cosine, -sine], [sine, cosine]])
+
+
+@dataclass(frozen=True, eq=False)
+class Hull:
+    """One or several closed outlines that float together, in the body frame.
+
+    Parameters
+    ----------
+    outlines : sequence of Outline
+        They may not overlap.
+    name : str
+        For messages and plots.
+
+    Raises
+    ------
+    InputError
+        When there is no outline or two of them overlap or touch.
+    """
+
+    outlines: tuple[Outline, ...]
+    name: str = "hull"
+
+    def __post_init__(self) -> None:
+        outlines = tuple(self.outlines)
+        if not outlines:
+            raise InputError("the hull has no outline", path="outlines")
+        object.__setattr__(self, "outlines", outlines)
+        lines = [outline.edges.polyline() for outline in outlines]
+        for i in range(len(lines)):
+            for j in range(i + 1, len(lines)):
+                if _overlap(lines[i], lines[j]):
+                    raise InputError(f"outlines {i + 1} and {j + 1} of {self.name} overlap or touch", path="outlines")
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest and largest x, smallest and largest z [m]."""
+        every = np.array([outline.bounds for outline in self.outlines])
+        return float(every[:, 0].min()), float(every[:, 1].max()), float(every[:, 2].min()), float(every[:, 3].max())
+
+    @property
+    def beam(self) -> float:
+        """Largest breadth [m]."""
+        return self.bounds[1] - self.bounds[0]
+
+    @property
+    def height(self) -> float:
+        """Height from the lowest to the highest point [m]."""
+        return self.bounds[3] - self.bounds[2]
+
+    @property
+    def bottom(self) -> float:
+        """Lowest z in the body frame [m]; 0 when z is counted from the keel."""
+        return self.bounds[2]
+
+    def immersed(self, draught: float, heel: float = 0.0, offset: float = 0.0) -> Section:
+        """Set the hull into still water.
+
+        Parameters
+        ----------
+        draught : float
+            Depth [m] of the origin of the body frame (x = 0 at the keel) below still water.
+        heel : float
+            Angle [rad] by which the hull is turned about that origin, top towards +x.
+        offset : float
+            Place x [m] of that origin at the site.
+
+        Returns
+        -------
+        Section
+            Exactly cut at the still water.
+
+        Raises
+        ------
+        InputError
+            When no part is under water, or the hull holds a basin of water of its own.
+        """
+        for name, value in (("draught", draught), ("heel", heel), ("offset", offset)):
+            if not math.isfinite(value):
+                raise InputError(f"{name} is {value}", path=name, allowed="a finite number")
+        outlines = tuple(outline.moved((offset, -draught), heel) for outline in self.outlines)
+        return Section(outlines, draught=draught, heel=heel, offset=offset, name=self.name)
+
+
+def _overlap(first: FloatArray, second: FloatArray) -> bool:
+    size = max(float(np.ptp(first)), float(np.ptp(second)))
+    a, c = _as_complex(first), _as_complex(second)
+    b, d = np.roll(a, -1), np.roll(c, -1)
+    if segments_meet(a[:, None], b[:, None], c[None, :], d[None, :], _TOUCH * size).any():
+        return True
+    return bool(inside_polygon(first[:1], second)[0] or inside_polygon(second[:1], first)[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """A connected piece of wetted boundary, fluid on its right.
+
+    Parameters
+    ----------
+    edges : Edges
+        From the left waterline point under the body to the right one, or all around a submerged outline.
+    closed : bool
+        Whether it is wholly under water.
+    body : int
+        Number of the outline it belongs to.
+    """
+
+    edges: Edges
+    closed: bool
+    body: int
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """The section that a hull shows to the water: wetted boundary and displaced area, z = 0 at still water.
+
+    Made by :meth:`Hull.immersed`. Areas and moments are per metre of structure and exact, arcs included.
+
+    Parameters
+    ----------
+    outlines : tuple of Outline
+        Whole outlines in the frame of the site.
+    draught, heel, offset : float
+        How the hull was set into the water [m, rad, m].
+    name : str
+        For messages and plots.
+
+    Raises
+    ------
+    InputError
+        When no part is under water, an outline touches the still water from below, or holds a basin of its own.
+    """
+
+    outlines: tuple[Outline, ...]
+    draught: float
+    heel: float = 0.0
+    offset: float = 0.0
+    name: str = "section"
+
+    def __post_init__(self) -> None:
+        chains = [chain for body, outline in enumerate(self.outlines) for chain in _wetted(outline, body)]
+        if not chains:
+            raise InputError(f"{self.name} does not reach the water at a draught of {self.draught:g} m", path="draught")
+        for chain in chains:
+            left, right = chain.edges.start[0, 0], chain.edges.end[-1, 0]
+            if not chain.closed and right <= left:
+                raise InputError(
+                    f"{self.name} holds water of its own or touches still water from below near x = {left:g} m",
+                    path="draught",
+                    remedy="draw the tank as a solid, or change the draught",
+                )
+        object.__setattr__(self, "_chains", tuple(chains))
+
+    @property
+    def chains(self) -> tuple[Chain, ...]:
+        """The wetted boundary."""
+        chains: tuple[Chain, ...] = self.__dict__["_chains"]
+        return chains
+
+    @cached_property
+    def _moments(self) -> FloatArray:
+        return np.sum([chain.edges.moments() for chain in self.chains], axis=0)
+
+    @property
+    def area(self) -> float:
+        """Displaced area [m2]."""
+        return float(self._moments[0])
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """Centre of buoyancy (x, z) [m]."""
+        area, first_x, first_z = self._moments
+        return float(first_x / area), float(first_z / area)
+
+    @cached_property
+    def waterlines(self) -> tuple[tuple[float, float], ...]:
+        """Left and right x [m] of each cut with the still water, from left to right."""
+        cuts = [
+            (float(chain.edges.start[0, 0]), float(chain.edges.end[-1, 0])) for chain in self.chains if not chain.closed
+        ]
+        return tuple(sorted(cuts))
+
+    @property
+    def waterplane_breadth(self) -> float:
+        """Sum of the breadths of the waterlines [m]."""
+        return sum(right - left for left, right in self.waterlines)
+
+    @property
+    def waterplane_first_moment(self) -> float:
+        """Integral of x over the waterlines [m2], about x = 0."""
+        return sum((right**2 - left**2) / 2.0 for left, right in self.waterlines)
+
+    @property
+    def waterplane_second_moment(self) -> float:
+        """Integral of x^2 over the waterlines [m3], about x = 0."""
+        return sum((right**3 - left**3) / 3.0 for left, right in self.waterlines)
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest and largest x, smallest and largest z of the wetted boundary [m]."""
+        every = np.array([chain.edges.bounds() for chain in self.chains])
+        return float(every[:, 0].min()), float(every[:, 1].max()), float(every[:, 2].min()), float(every[:, 3].max())
+
+    @property
+    def bottom(self) -> float:
+        """Lowest z of the wetted boundary [m]."""
+        return self.bounds[2]
+
+    @property
+    def surface_piercing(self) -> bool:
+        """Whether any outline is cut by the still water."""
+        return bool(self.waterlines)
+
+    def to_site(self, points: ArrayLike) -> FloatArray:
+        """Return points (n, 2) of the body frame in the frame of the site, for instance a fairlead [m]."""
+        return _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
+            [self.offset, -self.draught]
+        )
+
+    def symmetry_axis(self) -> float | None:
+        """Return x [m] of the upright line about which the wetted boundary is its own mirror image, or None."""
+        axis = 0.5 * (self.bounds[0] + self.bounds[1])
+        size = max(self.bounds[1] - self.bounds[0], -self.bottom)
+        pieces = [np.concatenate([c.edges.start, c.edges.end, c.edges.points(0.5)[:, 0]], axis=1) for c in self.chains]
+        every = np.concatenate(pieces)
+        mirrored = every[:, [2, 3, 0, 1, 4, 5]]
+        mirrored[:, ::2] = 2.0 * axis - mirrored[:, ::2]
+        apart = np.abs(every[:, None, :] - mirrored[None, :, :]).max(axis=2).min(axis=1)
+        return axis if bool((apart < 1e-9 * size).all()) else None
+
+
+def _wetted(outline: Outline, body: int) -> Sequence[Chain]:
+    """Cut one outline at the still water and gather its wetted edges into chains."""
+    x_min, x_max, z_min, z_max = outline.bounds
+    tolerance = _TOUCH * max(x_max - x_min, z_max - z_min)
+    edges = outline.edges.cut_at_level(tolerance)
+    wet = edges.points(0.5)[:, 0, 1] < -0.1 * tolerance
+    if not wet.any():
+        return ()
+    # A break lies before every edge that starts on the still water or follows a dry edge
+    breaks = np.flatnonzero(wet & ((edges.start[:, 1] == 0.0) | ~np.roll(wet, 1)))
+    if breaks.size == 0:
+        return (Chain(edges, closed=True, body=body),)
+    chains = []
+    count = len(edges)
+    for first in breaks:
+        length = 1
+        while wet[(first + length) % count] and edges.start[(first + length) % count, 1] != 0.0:
+            length += 1
+        chains.append(Chain(edges.taken((first + np.arange(length)) % count), closed=False, body=body))
+    return chains
