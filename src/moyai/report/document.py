@@ -1,0 +1,369 @@
+"""What a report consists of, free of HTML and of typst: sections of blocks, each a frozen record.
+
+A page composer (``breakwater_page`` for the floating breakwater) turns a result into a :class:`Document`;
+``html`` and ``pdf`` turn the document into files. Nothing here knows a structure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.validity import IdentityCheck, Notice
+
+Array = NDArray[np.float64]
+Style = Literal["line", "points", "line+points", "bar"]
+Cell = str | float | int | bool | None
+
+
+@dataclass(frozen=True)
+class Abscissa:
+    """One way to plot a figure along: period, L/B, time.
+
+    Parameters
+    ----------
+    key : str
+        Short name by which the series give their values.
+    label, unit : str
+        Words and unit of the axis, in display units.
+    log : bool
+        Logarithmic scale.
+    """
+
+    key: str
+    label: str
+    unit: str = ""
+    log: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One of the diagrams stacked in a figure over a common abscissa.
+
+    Parameters
+    ----------
+    label, unit : str
+        Words and unit of the ordinate, in display units.
+    limits : tuple of float or None
+        Range of the axis; found from the data when absent.
+    from_zero : bool
+        Let the axis start at zero.
+    """
+
+    label: str
+    unit: str = ""
+    limits: tuple[float, float] | None = None
+    from_zero: bool = False
+
+
+@dataclass(frozen=True)
+class Series:
+    """A curve, points or bars.
+
+    Parameters
+    ----------
+    label : str
+        Name in the legend and in the data.
+    x : mapping of str to ndarray
+        Values along every abscissa of the figure, keyed as those are (bars: the names are in ``Figure.categories``).
+    y : ndarray
+        Values in the unit of the panel.
+    panel : int
+        Index of the panel.
+    tone : int
+        Place in the colour-blind-safe palette.
+    style : str
+        ``line``, ``points``, ``line+points`` or ``bar``.
+    dash : str
+        ``solid``, ``dash``, ``dot`` or ``dashdot``.
+    faint : bool
+        Draw it thin, as a companion of something else.
+    """
+
+    label: str
+    x: Mapping[str, Array]
+    y: Array
+    panel: int = 0
+    tone: int = 0
+    style: Style = "line"
+    dash: Literal["solid", "dash", "dot", "dashdot"] = "solid"
+    faint: bool = False
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A labelled line across a panel (``x`` along the first abscissa or ``y``), or a point (both)."""
+
+    label: str
+    x: float | None = None
+    y: float | None = None
+    panel: int = 0
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure with its data.
+
+    Parameters
+    ----------
+    key : str
+        Unique name, also the file name of a download.
+    title : str
+    abscissae : tuple of Abscissa
+        The first is drawn; the reader may change to another.
+    panels : tuple of Panel
+        From top to bottom.
+    series : tuple of Series
+    caption : str
+        What the figure shows and the conditions it holds for.
+    marks : tuple of Mark
+    window : tuple of float or None
+        Part of the first abscissa shown at first.
+    slider : bool
+        Give a small overview below with handles for the part that is shown.
+    categories : tuple of str
+        Names below the bars of a bar chart.
+    height : int
+        Height of the diagram in CSS pixels.
+    """
+
+    key: str
+    title: str
+    abscissae: tuple[Abscissa, ...]
+    panels: tuple[Panel, ...]
+    series: tuple[Series, ...]
+    caption: str = ""
+    marks: tuple[Mark, ...] = ()
+    window: tuple[float, float] | None = None
+    slider: bool = False
+    categories: tuple[str, ...] = ()
+    height: int = 340
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Parameters
+    ----------
+    label : str
+    unit : str
+        Unit of the values as given; shown values are scaled to a display unit unless ``fixed``.
+    values : sequence
+        Numbers (NaN or None: not known), texts or truth values.
+    digits : int
+        Significant digits shown.
+    fixed : bool
+        Keep the unit as given.
+    """
+
+    label: str
+    values: Sequence[Cell]
+    unit: str = ""
+    digits: int = 3
+    fixed: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table that is shown and written as CSV.
+
+    Parameters
+    ----------
+    key : str
+        Unique name and name of the CSV file.
+    title : str
+    columns : tuple of Column
+        All of one length.
+    note : str
+    emphasised : tuple of int
+        Rows that govern.
+    failed : tuple of int
+        Rows that did not pass.
+    collapsed : bool
+        Fold it away at first (screen only).
+    """
+
+    key: str
+    title: str
+    columns: tuple[Column, ...]
+    note: str = ""
+    emphasised: tuple[int, ...] = ()
+    failed: tuple[int, ...] = ()
+    collapsed: bool = False
+
+    @property
+    def row_count(self) -> int:
+        """Number of rows."""
+        return len(self.columns[0].values) if self.columns else 0
+
+
+@dataclass(frozen=True)
+class KeyFigure:
+    """One governing number: what, how much, where, and how it stands against its limit.
+
+    Parameters
+    ----------
+    label : str
+    text : str
+        The number with its unit, formatted.
+    detail : str
+        Where and when it occurs.
+    utilisation : float
+        Fraction of the limit (NaN where there is none): draws a bar.
+    judgement : {"", "good", "caution", "bad"}
+        Colour and word of the bar.
+    """
+
+    label: str
+    text: str
+    detail: str = ""
+    utilisation: float = float("nan")
+    judgement: Literal["", "good", "caution", "bad"] = ""
+
+
+@dataclass(frozen=True)
+class KeyFigures:
+    """The governing numbers on top of the summary."""
+
+    items: tuple[KeyFigure, ...]
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Plain text."""
+
+    text: str
+    quiet: bool = False
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Text kept as it was typed, such as the case file."""
+
+    title: str
+    text: str
+    collapsed: bool = True
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A drawing made of SVG by :mod:`moyai.report.drawing`.
+
+    ``svg`` uses only CSS classes for colour, so that it follows light and dark; ``fixed_svg`` carries its colours.
+    """
+
+    key: str
+    title: str
+    svg: str
+    fixed_svg: str
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Animation:
+    """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`."""
+
+    key: str
+    title: str
+    scene: Mapping[str, Any]
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class NoticeBlock:
+    """Notices and failed identity checks."""
+
+    notices: tuple[Notice, ...]
+    failed_checks: tuple[IdentityCheck, ...] = ()
+
+
+@dataclass(frozen=True)
+class Option:
+    """One alternative of a :class:`Choice`."""
+
+    label: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Alternatives of which one is shown: water levels, sea states, runs.
+
+    Parameters
+    ----------
+    group : str
+        Choices of one group change together, wherever they stand.
+    label : str
+        What is chosen.
+    options : tuple of Option
+    default : int
+        The one shown at first (the governing one).
+    print_all : bool
+        Whether the PDF carries all of them, or the default alone and says so.
+    """
+
+    group: str
+    label: str
+    options: tuple[Option, ...]
+    default: int = 0
+    print_all: bool = True
+
+
+Block = (
+    Figure | Table | KeyFigures | Paragraph | Listing | Drawing | Animation | NoticeBlock | Choice
+)
+
+
+@dataclass(frozen=True)
+class Section:
+    """A chapter of the report."""
+
+    key: str
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Document:
+    """A whole report.
+
+    Parameters
+    ----------
+    title, subtitle : str
+    status, message : str
+        Status of the result and the sentence behind it.
+    sections : tuple of Section
+    provenance : mapping
+        For the foot of the page.
+    """
+
+    title: str
+    subtitle: str
+    status: str
+    message: str
+    sections: tuple[Section, ...]
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return every table of the report, once."""
+        return tuple(block for block in self.blocks() if isinstance(block, Table))
+
+    def blocks(self) -> tuple[Block, ...]:
+        """Return every block, choices opened, in reading order."""
+        found: list[Block] = []
+
+        def collect(blocks: tuple[Block, ...]) -> None:
+            for block in blocks:
+                found.append(block)
+                if isinstance(block, Choice):
+                    for option in block.options:
+                        collect(option.blocks)
+
+        for section in self.sections:
+            collect(section.blocks)
+        return tuple(found)

@@ -1,0 +1,348 @@
+"""Write a document as one HTML file that opens offline: styles, scripts, plotly and all data are inside."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+from functools import cache
+from html import escape
+from importlib import resources
+from typing import Any
+
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.report.document import (
+    Animation,
+    Block,
+    Cell,
+    Choice,
+    Column,
+    Document,
+    Drawing,
+    Figure,
+    KeyFigure,
+    KeyFigures,
+    Listing,
+    NoticeBlock,
+    Paragraph,
+    Section,
+    Table,
+)
+from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
+from moyai.report.formatting import DASH, format_number, pretty_unit
+
+STATUS_WORDS = {
+    "converged": "Converged",
+    "outside_validity": "Outside the range of validity",
+    "not_converged": "Not converged",
+    "interrupted": "Interrupted: partial result",
+    "failed": "Failed",
+}
+_STATUS_TONE = {"converged": "good", "outside_validity": "caution", "interrupted": "caution"}
+_SCRIPTS = ("report.js", "figures.js", "player.js")
+
+
+def asset(name: str) -> str:
+    """Return the text of a file that ships with the report."""
+    return (resources.files("moyai.report") / "assets" / name).read_text(encoding="utf-8")
+
+
+@cache
+def packed_plotly() -> str:
+    """Return plotly.js of the installed plotly package, compressed and in base64 (2.0 instead of 4.8 MB)."""
+    from plotly.offline import get_plotlyjs
+
+    return base64.b64encode(gzip.compress(get_plotlyjs().encode("utf-8"), 9, mtime=0)).decode("ascii")
+
+
+def render_html(document: Document) -> str:
+    """Return the report as one HTML page.
+
+    Parameters
+    ----------
+    document : Document
+
+    Returns
+    -------
+    str
+        Complete page; it asks nothing of the network.
+    """
+    page = _Page()
+    sections = "\n".join(page.section(section) for section in document.sections)
+    contents = "\n".join(
+        f'<li><a href="#{escape(slug(section.key))}">{escape(section.title)}</a></li>' for section in document.sections
+    )
+    plotly = f'<script type="text/plain" id="packed-plotly">{packed_plotly()}</script>' if page.figures else ""
+    scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in _SCRIPTS)
+    data = page_json({"figures": page.figures, "scenes": page.scenes, "tables": page.tables})
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="moyai {escape(str(document.provenance.get("moyai_version", "")))}">
+<meta name="color-scheme" content="light dark">
+<link rel="icon" href="data:,">
+<title>{escape(document.title)}</title>
+<style>
+{asset("report.css")}</style>
+</head>
+<body>
+<a class="skip" href="#content">To the content</a>
+<header class="masthead">
+<div>
+<h1>{escape(document.title)}</h1>
+<p class="subtitle">{escape(document.subtitle)}</p>
+</div>
+{_status(document)}
+</header>
+<div class="frame">
+<nav aria-label="Contents"><ol>
+{contents}
+</ol></nav>
+<main id="content">
+<noscript><p class="notice warning">Figures and the animation need JavaScript; tables and text are complete without
+it.</p></noscript>
+{sections}
+</main>
+</div>
+<footer>{_foot(document)}</footer>
+<script type="application/json" id="report-data">{data}</script>
+{plotly}
+{scripts}
+</body>
+</html>
+"""
+
+
+def _status(document: Document) -> str:
+    tone = _STATUS_TONE.get(document.status, "bad")
+    word = STATUS_WORDS.get(document.status, document.status)
+    message = f'<p class="status-message">{escape(document.message)}</p>' if document.message else ""
+    return f'<div class="status {tone}"><strong>{escape(word)}</strong>{message}</div>'
+
+
+def _foot(document: Document) -> str:
+    parts = []
+    for key, words in (("moyai_version", "moyai"), ("created", ""), ("case_hash", "case")):
+        value = str(document.provenance.get(key, ""))
+        if value:
+            parts.append(f"{words} {value[:25]}".strip())
+    return escape(" · ".join(parts))
+
+
+def cell_text(value: Cell, factor: float, digits: int) -> str:
+    """Return the shown text of a table cell: a dash for what is not known."""
+    if value is None:
+        return DASH
+    if isinstance(value, str):
+        return value or DASH
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return format_number(float(value) * factor, digits)
+
+
+def is_text_column(column: Column) -> bool:
+    """Whether a column is set flush left."""
+    return any(isinstance(value, str | bool) for value in column.values)
+
+
+class _Page:
+    """Collects the data that blocks leave behind while they are rendered."""
+
+    def __init__(self) -> None:
+        self.figures: dict[str, Any] = {}
+        self.scenes: dict[str, Any] = {}
+        self.tables: dict[str, str] = {}
+        self._used: set[str] = set()
+        self._choices = 0
+
+    def _unique(self, key: str) -> str:
+        name, count = slug(key), 2
+        while name in self._used:
+            name, count = f"{slug(key)}-{count}", count + 1
+        self._used.add(name)
+        return name
+
+    def section(self, section: Section) -> str:
+        blocks = "\n".join(self.block(block) for block in section.blocks)
+        name = escape(slug(section.key))
+        return f'<section id="{name}"><h2>{escape(section.title)}</h2>\n{blocks}\n</section>'
+
+    def block(self, block: Block) -> str:
+        match block:
+            case Figure():
+                return self._figure(block)
+            case Table():
+                return self._table(block)
+            case KeyFigures():
+                return '<div class="key-figures">' + "".join(_key_figure(item) for item in block.items) + "</div>"
+            case Paragraph():
+                return f'<p class="{"quiet" if block.quiet else "text"}">{escape(block.text)}</p>'
+            case Listing():
+                opened = "" if block.collapsed else " open"
+                return (
+                    f'<details class="listing"{opened}><summary>{escape(block.title)}</summary>'
+                    f"<pre>{escape(block.text)}</pre></details>"
+                )
+            case Drawing():
+                return self._drawing(block)
+            case Animation():
+                return self._animation(block)
+            case NoticeBlock():
+                return _notices(block)
+            case Choice():
+                return self._choice(block)
+
+    def _figure(self, figure: Figure) -> str:
+        name = self._unique(figure.key)
+        self.figures[name] = {**figure_specification(figure), "key": name}
+        switch = ""
+        if len(figure.abscissae) > 1:
+            buttons = "".join(
+                f'<button type="button" data-abscissa="{escape(a.key)}" aria-pressed="{"false" if i else "true"}">'
+                f"{escape(a.label)}</button>"
+                for i, a in enumerate(figure.abscissae)
+            )
+            switch = f'<span class="segmented" role="group" aria-label="Plot against">{buttons}</span>'
+        overview = (
+            '<canvas class="overview" tabindex="0" role="slider" aria-label="Part of the record that is shown"></canvas>'
+            if figure.slider
+            else ""
+        )
+        return f"""<figure class="figure" id="{name}" data-figure="{name}">
+<figcaption><h3>{escape(figure.title)}</h3>{_caption(figure.caption)}</figcaption>
+<div class="plot" style="height:{figure.height}px" role="img" aria-label="{escape(figure.title)}"></div>{overview}
+<div class="tools">{switch}<span class="spring"></span>
+<button type="button" data-do="csv" title="Download the data of this figure">CSV</button>
+<button type="button" data-do="copy" title="Copy the data, ready to paste into a spreadsheet">Copy data</button>
+<button type="button" data-do="svg">SVG</button><button type="button" data-do="png">PNG</button></div>
+</figure>"""
+
+    def _table(self, table: Table) -> str:
+        name = self._unique(table.key)
+        self.tables[name] = table_csv(table)
+        heads, units = [], [column_unit(column) for column in table.columns]
+        for column, unit in zip(table.columns, units, strict=True):
+            kind = ' class="text"' if is_text_column(column) else ""
+            shown = f"<span>{escape(pretty_unit(unit.name))}</span>" if unit.name else ""
+            heads.append(f'<th scope="col"{kind}>{escape(column.label)}{shown}</th>')
+        rows = []
+        for row in range(table.row_count):
+            kinds = [word for word, at in (("governs", table.emphasised), ("failed", table.failed)) if row in at]
+            cells = []
+            for column, unit in zip(table.columns, units, strict=True):
+                kind = ' class="text"' if is_text_column(column) else ""
+                text = cell_text(column.values[row], unit.factor, column.digits)
+                cells.append(f"<td{kind}>{escape(text)}</td>")
+            rows.append(f'<tr class="{" ".join(kinds)}">' + "".join(cells) + "</tr>")
+        body = f"""<div class="scroll" tabindex="0" role="region" aria-label="{escape(table.title)}"><table>
+<thead><tr>{"".join(heads)}</tr></thead>
+<tbody>{"".join(rows)}</tbody></table></div>
+<div class="tools">{_caption(table.note)}<span class="spring"></span>
+<button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">Copy data</button></div>"""
+        if table.collapsed:
+            return (
+                f'<details class="table" id="{name}" data-table="{name}"><summary>{escape(table.title)}</summary>'
+                f"{body}</details>"
+            )
+        return f'<div class="table" id="{name}" data-table="{name}"><h3>{escape(table.title)}</h3>{body}</div>'
+
+    def _drawing(self, drawing: Drawing) -> str:
+        name = self._unique(drawing.key)
+        return f"""<figure class="drawing" id="{name}" data-drawing="{name}">
+<figcaption><h3>{escape(drawing.title)}</h3>{_caption(drawing.caption)}</figcaption>
+{drawing.svg}
+<div class="tools"><span class="spring"></span><button type="button" data-do="svg">SVG</button></div></figure>"""
+
+    def _animation(self, animation: Animation) -> str:
+        name = self._unique(animation.key)
+        self.scenes[name] = dict(animation.scene)
+        return f"""<figure class="animation" id="{name}">
+<figcaption><h3>{escape(animation.title)}</h3>{_caption(animation.caption)}</figcaption>
+<div class="player" data-scene="{name}"></div></figure>"""
+
+    def _choice(self, choice: Choice) -> str:
+        if len(choice.options) == 1:
+            return "\n".join(self.block(block) for block in choice.options[0].blocks)
+        self._choices += 1
+        number = self._choices
+        if sum(len(option.label) for option in choice.options) + 4 * len(choice.options) > 96:
+            items = "".join(
+                f'<option value="{i}"{" selected" if i == choice.default else ""}>{escape(option.label)}</option>'
+                for i, option in enumerate(choice.options)
+            )
+            control = f'<label>{escape(choice.label)} <select data-choose="{escape(choice.group)}">{items}</select></label>'
+        else:
+            items = "".join(
+                f'<button type="button" data-choose="{escape(choice.group)}" data-option="{i}" '
+                f'aria-pressed="{"true" if i == choice.default else "false"}">{escape(option.label)}</button>'
+                for i, option in enumerate(choice.options)
+            )
+            control = (
+                f'<span class="choice-label">{escape(choice.label)}</span>'
+                f'<span class="segmented" role="group" aria-label="{escape(choice.label)}">{items}</span>'
+            )
+        panes = []
+        for i, option in enumerate(choice.options):
+            hidden = "" if i == choice.default else " hidden"
+            inner = "\n".join(self.block(block) for block in option.blocks)
+            heading = f'<p class="print-only">{escape(choice.label)}: <strong>{escape(option.label)}</strong></p>'
+            panes.append(f'<div class="pane" data-option="{i}"{hidden}>{heading}{inner}</div>')
+        return (
+            f'<div class="choice" data-group="{escape(choice.group)}" id="choice-{number}">'
+            f'<div class="chooser">{control}</div>{"".join(panes)}</div>'
+        )
+
+
+def _caption(text: str) -> str:
+    return f'<p class="caption">{escape(text)}</p>' if text else ""
+
+
+def _key_figure(item: KeyFigure) -> str:
+    bar = ""
+    if item.utilisation == item.utilisation:
+        filled = min(max(item.utilisation, 0.0), 1.0)
+        over = " over" if item.utilisation > 1.0 else ""
+        bar = f'<div class="meter{over}" aria-hidden="true"><i style="width:{100 * filled:.1f}%"></i></div>'
+    return (
+        f'<div class="key-figure {item.judgement}"><div class="label">{escape(item.label)}</div>'
+        f'<div class="number">{escape(item.text)}</div>{bar}<div class="detail">{escape(item.detail)}</div></div>'
+    )
+
+
+def notice_text(notice: Notice) -> tuple[str, str]:
+    """Return the sentence of a notice and its second line: number, limit, remedy, source."""
+    message = notice.message.strip()
+    parts = []
+    if notice.value == notice.value and notice.limit == notice.limit:
+        parts.append(f"found {format_number(notice.value)}, limit {format_number(notice.limit)}")
+    if notice.remedy:
+        parts.append(notice.remedy.strip().rstrip("."))
+    if notice.source:
+        parts.append(f"source: {notice.source.strip().rstrip('.')}")
+    second = "; ".join(parts)
+    return message[:1].upper() + message[1:], second[:1].upper() + second[1:]
+
+
+def check_text(check: IdentityCheck) -> tuple[str, str]:
+    """Return the sentence of a failed identity check and its meaning."""
+    figure = "no figure" if check.value != check.value else f"{check.value:.2e}"
+    return f"Identity check not met: {check.name}, {figure} against {check.tolerance:.2e}", check.meaning
+
+
+def _notices(block: NoticeBlock) -> str:
+    order = {"error": 0, "warning": 1, "information": 2}
+    items = []
+    for check in block.failed_checks:
+        items.append(("error", *check_text(check)))
+    for notice in sorted(block.notices, key=lambda entry: order.get(entry.severity, 1)):
+        items.append((notice.severity, *notice_text(notice)))
+    if not items:
+        return ""
+    words = {"error": "Error", "warning": "Warning", "information": "Note"}
+    return '<ul class="notices">' + "".join(
+        f'<li class="notice {severity}"><strong>{words.get(severity, severity)}</strong><span>{escape(first)}'
+        + (f"<small>{escape(second)}</small>" if second else "")
+        + "</span></li>"
+        for severity, first, second in items
+    ) + "</ul>"
