@@ -1,0 +1,44 @@
+"""Array types and the small checks that every module of this room makes of its arguments."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+def square_matrix(value: ArrayLike, size: int, name: str) -> FloatArray:
+    """Return ``value`` as a finite (size, size) array, or raise."""
+    matrix = np.asarray(value, dtype=float)
+    if matrix.shape != (size, size):
+        raise InputError(f"{name} has the shape {matrix.shape}", path=name, allowed=f"({size}, {size})")
+    return finite(matrix, name)
+
+
+def finite(value: Any, name: str) -> Any:
+    """Return ``value`` unchanged when every number in it is finite, or raise."""
+    if not np.all(np.isfinite(value)):
+        raise InputError(f"{name} holds a number that is not finite", path=name, allowed="finite numbers")
+    return value
+
+
+def positive(value: float, name: str) -> float:
+    """Return ``value`` when it is finite and greater than zero, or raise."""
+    if not math.isfinite(value) or value <= 0.0:
+        raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+    return float(value)
+
+
+def increasing(value: ArrayLike, name: str) -> FloatArray:
+    """Return ``value`` as a strictly increasing 1-D array, or raise."""
+    array = np.atleast_1d(np.asarray(value, dtype=float))
+    if array.ndim != 1 or array.size == 0 or np.any(np.diff(array) <= 0.0):
+        raise InputError(f"{name} is not a strictly increasing list", path=name)
+    return finite(array, name)

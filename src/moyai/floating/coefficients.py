@@ -1,0 +1,247 @@
+"""Hydrodynamic coefficients of a floating body as plain arrays: the form in which this room takes them.
+
+They come from a section (:mod:`moyai.potential`), from a 3-D program, or from anywhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+
+from moyai.core.errors import InputError
+from moyai.floating.arrays import ComplexArray, FloatArray, finite, increasing
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Hydrodynamics:
+    """Radiation and excitation against frequency, convention ``exp(-i omega t)``, phases at x = 0.
+
+    Parameters
+    ----------
+    omega : ndarray (n,)
+        Angular frequencies, increasing [rad/s].
+    added_mass, radiation_damping : ndarray (n, m, m)
+        ``[frequency, influenced, radiating]`` [kg, kg m, kg m2 and per second].
+    excitation : ndarray (n, h, m)
+        Complex force per unit wave amplitude [N/m, N].
+    heading : ndarray (h,)
+        Directions of travel [rad].
+    modes : tuple of str
+        Names of the m modes.
+    infinite_frequency_added_mass : ndarray (m, m) or None
+    reflection, transmission : ndarray (n, h) or None
+        Complex coefficients of the body held fixed; ``None`` for a body of finite length.
+    radiated_wave : ndarray (n, m, 2) or None
+        Complex wave amplitude per unit velocity towards -x and +x [s].
+    length : float
+        Length of structure that forces and coefficients refer to [m]; 1 for coefficients per metre.
+
+    Raises
+    ------
+    InputError
+        When shapes disagree or a number is not finite.
+    """
+
+    omega: FloatArray
+    added_mass: FloatArray
+    radiation_damping: FloatArray
+    excitation: ComplexArray
+    heading: FloatArray
+    modes: tuple[str, ...]
+    infinite_frequency_added_mass: FloatArray | None = None
+    reflection: ComplexArray | None = None
+    transmission: ComplexArray | None = None
+    radiated_wave: ComplexArray | None = None
+    length: float = 1.0
+
+    def __post_init__(self) -> None:
+        increasing(self.omega, "omega")
+        n, h, m = len(self.omega), len(self.heading), len(self.modes)
+        shapes = {
+            "added_mass": (n, m, m),
+            "radiation_damping": (n, m, m),
+            "excitation": (n, h, m),
+            "infinite_frequency_added_mass": (m, m),
+            "reflection": (n, h),
+            "transmission": (n, h),
+            "radiated_wave": (n, m, 2),
+        }
+        for name, shape in shapes.items():
+            value = getattr(self, name)
+            if value is None:
+                continue
+            if np.shape(value) != shape:
+                raise InputError(f"{name} has the shape {np.shape(value)}", path=name, allowed=f"{shape}")
+            finite(value, name)
+
+    @property
+    def size(self) -> int:
+        """Number of modes."""
+        return len(self.modes)
+
+    @property
+    def has_far_field(self) -> bool:
+        """Whether reflection, transmission and radiated waves are known."""
+        return not (self.reflection is None or self.transmission is None or self.radiated_wave is None)
+
+    def scaled_to(self, length: float) -> Hydrodynamics:
+        """Return the coefficients of ``length`` [m] of structure; those of the far field stay."""
+        factor = length / self.length
+        infinite = self.infinite_frequency_added_mass
+        return replace(
+            self,
+            added_mass=self.added_mass * factor,
+            radiation_damping=self.radiation_damping * factor,
+            excitation=self.excitation * factor,
+            infinite_frequency_added_mass=None if infinite is None else infinite * factor,
+            length=float(length),
+        )
+
+    def at(self, omega: ArrayLike, *, hold: bool = False) -> Hydrodynamics:
+        """Return the coefficients at other frequencies by cubic splines.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies, increasing [rad/s].
+        hold : bool
+            Outside the computed range, keep the values of its ends instead of refusing.
+
+        Raises
+        ------
+        InputError
+            When a frequency lies outside the computed range and ``hold`` is false.
+        """
+        wanted = increasing(omega, "omega")
+        low, high = self.omega[0], self.omega[-1]
+        slack = 1e-9 * high
+        if not hold and (wanted[0] < low - slack or wanted[-1] > high + slack):
+            raise InputError(
+                f"frequencies {wanted[0]:.4g} to {wanted[-1]:.4g} rad/s lie outside the computed range",
+                path="omega",
+                allowed=f"{low:.4g} to {high:.4g} rad/s",
+                remedy="compute the hydrodynamic coefficients over a wider range",
+            )
+        inside = np.clip(wanted, low, high)
+
+        def along(values: Any) -> Any:
+            if values is None:
+                return None
+            if len(self.omega) == 1:
+                return np.repeat(values, len(inside), axis=0)
+            return CubicSpline(self.omega, values, axis=0)(inside)
+
+        return replace(
+            self,
+            omega=wanted,
+            added_mass=along(self.added_mass),
+            radiation_damping=along(self.radiation_damping),
+            excitation=along(self.excitation),
+            reflection=along(self.reflection),
+            transmission=along(self.transmission),
+            radiated_wave=along(self.radiated_wave),
+        )
+
+    def excitation_at(self, omega: ArrayLike, heading: ArrayLike | None = None) -> ComplexArray:
+        """Return the excitation (k, m) per unit amplitude of k wave components.
+
+        Parameters
+        ----------
+        omega : array_like (k,)
+            Frequencies in any order [rad/s]; outside the computed range the end values are held.
+        heading : array_like (k,) or None
+            Directions [rad]; ``None`` takes the only heading there is. Between computed headings linear.
+
+        Raises
+        ------
+        InputError
+            When a heading lies outside the computed ones.
+        """
+        frequency = np.clip(np.atleast_1d(np.asarray(omega, dtype=float)), self.omega[0], self.omega[-1])
+        if len(self.omega) == 1:
+            spread = np.repeat(self.excitation, len(frequency), axis=0)
+        else:
+            spread = CubicSpline(self.omega, self.excitation, axis=0)(frequency)
+        if heading is None:
+            if len(self.heading) != 1:
+                raise InputError("several headings are computed and none is named", path="heading")
+            return np.asarray(spread[:, 0, :], dtype=np.complex128)
+        direction = np.broadcast_to(np.asarray(heading, dtype=float), frequency.shape)
+        order = np.argsort(self.heading)
+        known = np.asarray(self.heading, dtype=float)[order]
+        spread = spread[:, order, :]
+        if np.any(direction < known[0] - 1e-9) or np.any(direction > known[-1] + 1e-9):
+            raise InputError(
+                f"headings {np.min(direction):.4g} to {np.max(direction):.4g} rad lie outside the computed ones",
+                path="heading",
+                allowed=f"{known[0]:.4g} to {known[-1]:.4g} rad",
+            )
+        if len(known) == 1:
+            return np.asarray(spread[:, 0, :], dtype=np.complex128)
+        right = np.clip(np.searchsorted(known, direction), 1, len(known) - 1)
+        weight = (direction - known[right - 1]) / (known[right] - known[right - 1])
+        rows = np.arange(len(frequency))
+        left_values, right_values = spread[rows, right - 1], spread[rows, right]
+        return np.asarray((1.0 - weight)[:, None] * left_values + weight[:, None] * right_values, dtype=np.complex128)
+
+    @classmethod
+    def from_dataset(
+        cls, dataset: xr.Dataset, *, modes: Sequence[str] | None = None, length: float = 1.0
+    ) -> Hydrodynamics:
+        """Read a dataset in Capytaine's names.
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+            With ``omega``, ``added_mass``, ``radiation_damping``, ``excitation_force`` and, for a section,
+            ``reflection_coefficient``, ``transmission_coefficient``, ``radiated_wave``.
+        modes : sequence of str or None
+            Modes in the wanted order; ``None`` takes those of ``influenced_dof``.
+        length : float
+            Length that the dataset's forces refer to [m].
+        """
+        names = tuple(str(item) for item in (dataset.influenced_dof.values if modes is None else modes))
+        data = dataset.sortby("omega").sel(influenced_dof=list(names), radiating_dof=list(names))
+
+        def values(name: str, *dims: str) -> Any:
+            if name not in data:
+                return None
+            array = data[name]
+            if "complex" in array.dims:
+                array = array.sel(complex="re") + 1j * array.sel(complex="im")
+            for dim in dims:
+                if dim not in array.dims:
+                    array = array.expand_dims(dim)
+            return np.ascontiguousarray(array.transpose(*dims).values)
+
+        side = data.sel(side=["minus", "plus"]) if "side" in data.dims else data
+        wave = (
+            side["radiated_wave"].transpose("omega", "radiating_dof", "side").values
+            if "radiated_wave" in side
+            else None
+        )
+        infinite = values("infinite_frequency_added_mass", "influenced_dof", "radiating_dof")
+        heading = (
+            np.atleast_1d(data["wave_direction"].values.astype(float)) if "wave_direction" in data.coords else [0.0]
+        )
+        return cls(
+            omega=np.atleast_1d(data["omega"].values.astype(float)),
+            added_mass=values("added_mass", "omega", "influenced_dof", "radiating_dof"),
+            radiation_damping=values("radiation_damping", "omega", "influenced_dof", "radiating_dof"),
+            excitation=values("excitation_force", "omega", "wave_direction", "influenced_dof"),
+            heading=np.asarray(heading, dtype=float),
+            modes=names,
+            infinite_frequency_added_mass=infinite,
+            reflection=values("reflection_coefficient", "omega", "wave_direction"),
+            transmission=values("transmission_coefficient", "omega", "wave_direction"),
+            radiated_wave=None if wave is None else np.ascontiguousarray(wave),
+            length=length,
+        )

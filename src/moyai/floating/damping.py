@@ -1,0 +1,144 @@
+"""Damping beyond wave radiation: fraction of critical, linear, quadratic, and the linear equivalents of the latter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.floating.arrays import FloatArray, finite
+
+EquivalentDamping = Callable[[FloatArray, float], FloatArray]
+"""Hook of drag-linearised lines: amplitude (regular) or standard deviation times sqrt(2) (irregular) of the velocities
+(m,) and a frequency [rad/s] -> equivalent linear damping (m, m)."""
+
+
+def critical_damping(inertia: FloatArray, added_mass: FloatArray, stiffness: FloatArray) -> FloatArray:
+    """Return the critical damping of each mode, 2 sqrt((M + A)_jj (K_H + K_M)_jj) [eq:floating-critical-damping].
+
+    Parameters
+    ----------
+    inertia, stiffness : ndarray (m, m)
+        Inertia and total restoring.
+    added_mass : ndarray (..., m, m)
+        At the wave frequency (frequency domain) or at the mode's natural frequency (irregular time domain).
+
+    Returns
+    -------
+    ndarray (..., m)
+        Zero for a mode without restoring.
+    """
+    mass = np.diagonal(inertia + added_mass, axis1=-2, axis2=-1)
+    restoring = np.diagonal(stiffness, axis1=-2, axis2=-1)
+    return 2.0 * np.sqrt(np.maximum(mass * restoring, 0.0))
+
+
+@dataclass(frozen=True)
+class LinearDamping:
+    """Damping that the user adds to wave radiation.
+
+    Parameters
+    ----------
+    matrix : ndarray (m, m)
+        Constant part [N s/m, N s, N m s].
+    critical_fraction : ndarray (m,)
+        zeta of each mode, of the critical damping with added mass; zero for modes that are left alone.
+    """
+
+    matrix: FloatArray
+    critical_fraction: FloatArray
+
+    def __post_init__(self) -> None:
+        finite(self.matrix, "matrix")
+        finite(self.critical_fraction, "critical_fraction")
+        if np.any(np.asarray(self.critical_fraction) < 0.0):
+            raise InputError(
+                "a fraction of critical damping is negative", path="critical_fraction", allowed="0 or more"
+            )
+
+    @classmethod
+    def none(cls, size: int) -> LinearDamping:
+        """Return no damping for ``size`` modes."""
+        return cls(np.zeros((size, size)), np.zeros(size))
+
+    @classmethod
+    def of_modes(cls, *, linear: ArrayLike | None = None, critical_fraction: ArrayLike | None = None) -> LinearDamping:
+        """Return damping from one number a mode."""
+        if linear is None and critical_fraction is None:
+            raise InputError("neither linear damping nor a fraction of critical is given", path="damping")
+        diagonal = np.zeros_like(np.asarray(critical_fraction, dtype=float)) if linear is None else linear
+        diagonal = np.asarray(diagonal, dtype=float)
+        fraction = np.zeros(len(diagonal)) if critical_fraction is None else np.asarray(critical_fraction, dtype=float)
+        return cls(np.diag(diagonal), fraction)
+
+    def at(self, inertia: FloatArray, added_mass: FloatArray, stiffness: FloatArray) -> FloatArray:
+        """Return the damping matrix (..., m, m) with added mass (..., m, m) and total restoring (m, m)."""
+        diagonal = self.critical_fraction * critical_damping(inertia, added_mass, stiffness)
+        return self.matrix + diagonal[..., :, None] * np.eye(diagonal.shape[-1])
+
+
+@dataclass(frozen=True)
+class QuadraticDamping:
+    """Forces ``-sum_k J_k^T c_k |J_k v| J_k v``: quadratic in linear measures of the velocities.
+
+    A row of the unit matrix is the quadratic damping of that mode (b2 of roll); a row that gives the velocity of a
+    fairlead along some axis is the drag of a line there [eq:floating-quadratic-damping].
+
+    Parameters
+    ----------
+    directions : ndarray (k, m)
+        Rows J_k.
+    coefficients : ndarray (k,)
+        c_k, for roll b2 [N m s2].
+    """
+
+    directions: FloatArray
+    coefficients: FloatArray
+    count: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        directions, coefficients = np.asarray(self.directions, float), np.asarray(self.coefficients, float)
+        if directions.ndim != 2 or coefficients.shape != directions.shape[:1]:
+            raise InputError(
+                f"{coefficients.shape} coefficients for directions of the shape {directions.shape}", path="coefficients"
+            )
+        if np.any(coefficients < 0.0):
+            raise InputError("a quadratic damping coefficient is negative", path="coefficients", allowed="0 or more")
+        finite(directions, "directions")
+        finite(coefficients, "coefficients")
+        object.__setattr__(self, "directions", directions)
+        object.__setattr__(self, "coefficients", coefficients)
+        object.__setattr__(self, "count", len(coefficients))
+
+    @classmethod
+    def of_modes(cls, coefficients: ArrayLike) -> QuadraticDamping:
+        """Return quadratic damping of single modes, one coefficient each (zero for none)."""
+        values = np.atleast_1d(np.asarray(coefficients, dtype=float))
+        rows = np.flatnonzero(values)
+        return cls(np.eye(len(values))[rows], values[rows])
+
+    def force(self, velocity: FloatArray) -> FloatArray:
+        """Return the force (m,) at the velocities (m,)."""
+        measure = self.directions @ velocity
+        return -self.directions.T @ (self.coefficients * np.abs(measure) * measure)
+
+    def _assembled(self, equivalent: FloatArray) -> FloatArray:
+        return np.einsum("ki,...k,kj->...ij", self.directions, equivalent, self.directions)
+
+    def equivalent_regular(self, measure_amplitude: FloatArray) -> FloatArray:
+        """Return the linear damping (..., m, m) of equal work at amplitudes (..., k) of J_k v.
+
+        Implements b = 8/(3 pi) c |J v| [eq:floating-equal-work].
+        """
+        return self._assembled(8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude)
+
+    def equivalent_irregular(self, measure_deviation: FloatArray) -> FloatArray:
+        """Return the linear damping (..., m, m) of least error at Gaussian standard deviations (..., k) of J_k v.
+
+        Implements b = sqrt(8/pi) c sigma [eq:floating-stochastic].
+        """
+        return self._assembled(math.sqrt(8.0 / math.pi) * self.coefficients * measure_deviation)

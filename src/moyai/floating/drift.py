@@ -1,0 +1,490 @@
+"""The loop of P3: mean drift moves the body, the moved lines are stiffer, the stiffer body drifts differently."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.floating.arrays import ComplexArray, FloatArray, square_matrix
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
+from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, far_field
+from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.irregular import integration_weights, linearised_in_sea
+from moyai.sea.water import Water
+
+Status = Literal["converged", "not_converged", "interrupted"]
+
+
+class Mooring(Protocol):
+    """What the loop needs of the lines; positions are relative to the rest position, in the modes of the body."""
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return the force (m,) of all lines on the body at the position (m,)."""
+
+    def stiffness(self, position: FloatArray) -> FloatArray:
+        """Return the tangent (m, m), minus the derivative of the force."""
+
+
+@dataclass(frozen=True)
+class LinearMooring:
+    """Springs of constant stiffness."""
+
+    matrix: FloatArray
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return minus stiffness times position."""
+        return -self.matrix @ position
+
+    def stiffness(self, position: FloatArray) -> FloatArray:
+        """Return the constant stiffness."""
+        return self.matrix
+
+
+@dataclass(frozen=True)
+class FunctionMooring:
+    """Lines given by one function ``position -> force``; the tangent by central differences (P3, section 4)."""
+
+    function: Callable[[FloatArray], FloatArray]
+    steps: FloatArray
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return the force of the function."""
+        return np.asarray(self.function(np.asarray(position, dtype=float)), dtype=float)
+
+    def stiffness(self, position: FloatArray) -> FloatArray:
+        """Return minus the central difference of the force."""
+        size = len(self.steps)
+        matrix = np.empty((size, size))
+        for column in range(size):
+            step = np.zeros(size)
+            step[column] = self.steps[column]
+            matrix[:, column] = -(self.force(position + step) - self.force(position - step)) / (
+                2.0 * self.steps[column]
+            )
+        return matrix
+
+
+@dataclass(frozen=True)
+class MeanOffset:
+    """Position under a steady force.
+
+    Parameters
+    ----------
+    position : ndarray (m,)
+        Relative to rest [m, m, rad].
+    residual : float
+        Remaining force over the largest force involved, rows scaled by their stiffness.
+    iterations : int
+    status : {"converged", "not_converged"}
+    """
+
+    position: FloatArray
+    residual: float
+    iterations: int
+    status: Status
+
+
+def mean_offset(
+    mooring: Mooring,
+    hydrostatic_stiffness: ArrayLike,
+    steady_force: ArrayLike,
+    *,
+    start: ArrayLike | None = None,
+    tolerance: float = 1e-10,
+    maximum_iterations: int = 100,
+) -> MeanOffset:
+    """Solve ``F_moor(X) - F_moor(0) - K_H X + F = 0`` [eq:floating-offset].
+
+    Parameters
+    ----------
+    mooring : Mooring
+    hydrostatic_stiffness : array_like (m, m)
+    steady_force : array_like (m,)
+        Drift, wind, current [N, N, N m].
+    start : array_like (m,) or None
+        First guess; ``None`` starts at rest.
+    tolerance : float
+        On the Newton correction relative to the offset, and on the residual relative to the force.
+    maximum_iterations : int
+
+    Returns
+    -------
+    MeanOffset
+        With status ``not_converged`` when there is nothing to hold the body or the search stalls.
+    """
+    load = np.asarray(steady_force, dtype=float)
+    restoring = square_matrix(hydrostatic_stiffness, len(load), "hydrostatic_stiffness")
+    position = np.zeros(len(load)) if start is None else np.array(start, dtype=float)
+    rest = mooring.force(np.zeros(len(load)))
+
+    def residual(at: FloatArray) -> FloatArray:
+        return mooring.force(at) - rest - restoring @ at + load
+
+    if not np.any(load):
+        return MeanOffset(np.zeros(len(load)), 0.0, 0, "converged")
+    value = residual(position)
+    iterations, measure = 0, np.inf
+    # Moment rows are made comparable with force rows through the stiffness at rest
+    diagonal = np.abs(np.diag(restoring + mooring.stiffness(np.zeros(len(load)))))
+    if np.any((diagonal <= 0.0) & (load != 0.0)):
+        return MeanOffset(np.full(len(load), np.nan), np.inf, 0, "not_converged")
+    scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    reference = float(np.linalg.norm(load / scale))
+    while iterations < maximum_iterations:
+        measure = float(np.linalg.norm(value / scale)) / reference
+        if measure <= tolerance:
+            break
+        iterations += 1
+        tangent = (restoring + mooring.stiffness(position)) / (scale[:, None] * scale[None, :])
+        step = np.linalg.lstsq(tangent, value / scale, rcond=1e-14)[0] / scale
+        for halving in range(40):
+            trial = position + step / 2.0**halving
+            trial_value = residual(trial)
+            if np.linalg.norm(trial_value / scale) < np.linalg.norm(value / scale):
+                position, value = trial, trial_value
+                break
+        else:
+            break
+    # Tabulated or iterated line forces are smooth to their own tolerance only
+    status: Status = "converged" if measure <= max(tolerance, 1e-7) else "not_converged"
+    return MeanOffset(position, measure, iterations, status)
+
+
+@dataclass(frozen=True)
+class DriftedMotions:
+    """Motions about the mean offset that their own drift causes.
+
+    Parameters
+    ----------
+    motions : Motions
+        One heading.
+    far : FarField
+    drift_force : ndarray (n,)
+        Mean drift force along x [N]: of each regular wave, or n equal values in an irregular sea.
+    offset : ndarray (n, m)
+        Mean offset X0.
+    mooring_stiffness : ndarray (n, m, m)
+        K_M about the offset.
+    iterations : ndarray (n,) of int
+    status : tuple of str
+        One for each wave.
+    notices : tuple of Notice
+    """
+
+    motions: Motions
+    far: FarField
+    drift_force: FloatArray
+    offset: FloatArray
+    mooring_stiffness: FloatArray
+    iterations: FloatArray
+    status: tuple[Status, ...]
+    notices: tuple[Notice, ...] = ()
+
+
+@dataclass(frozen=True)
+class DriftProblem:
+    """A moored section in one sea: everything that the loop holds fixed.
+
+    Parameters
+    ----------
+    hydrodynamics : Hydrodynamics
+        Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
+    inertia, hydrostatic_stiffness : ndarray (m, m)
+    mooring : Mooring
+    water : Water
+    damping : LinearDamping or None
+        The fraction of critical follows K_M of the offset position.
+    quadratic : QuadraticDamping or None
+    line_damping : callable or None
+    steady_force : ndarray (m,) or None
+        Wind and current [N, N, N m].
+    heading_index : int
+    """
+
+    hydrodynamics: Hydrodynamics
+    inertia: FloatArray
+    hydrostatic_stiffness: FloatArray
+    mooring: Mooring
+    water: Water
+    damping: LinearDamping | None = None
+    quadratic: QuadraticDamping | None = None
+    line_damping: EquivalentDamping | None = None
+    steady_force: FloatArray | None = None
+    heading_index: int = 0
+
+    def one_heading(self) -> Hydrodynamics:
+        """Return the coefficients of the heading in use."""
+        chosen = slice(self.heading_index, self.heading_index + 1)
+        hydro = self.hydrodynamics
+        return replace(
+            hydro,
+            heading=hydro.heading[chosen],
+            excitation=hydro.excitation[:, chosen],
+            reflection=None if hydro.reflection is None else hydro.reflection[:, chosen],
+            transmission=None if hydro.transmission is None else hydro.transmission[:, chosen],
+        )
+
+
+def _rows(hydrodynamics: Hydrodynamics, rows: slice) -> Hydrodynamics:
+    def taken(values: ComplexArray | None) -> ComplexArray | None:
+        return None if values is None else values[rows]
+
+    return replace(
+        hydrodynamics,
+        omega=hydrodynamics.omega[rows],
+        added_mass=hydrodynamics.added_mass[rows],
+        radiation_damping=hydrodynamics.radiation_damping[rows],
+        excitation=hydrodynamics.excitation[rows],
+        reflection=taken(hydrodynamics.reflection),
+        transmission=taken(hydrodynamics.transmission),
+        radiated_wave=taken(hydrodynamics.radiated_wave),
+    )
+
+
+@dataclass(frozen=True)
+class _State:
+    motions: Motions
+    far: FarField
+    offset: MeanOffset
+    stiffness: FloatArray
+    force: float
+
+
+def _answer(
+    problem: DriftProblem,
+    hydro: Hydrodynamics,
+    drift: float,
+    weight: FloatArray,
+    amplitude: FloatArray,
+    start: FloatArray | None,
+    with_drift: bool,
+    density: FloatArray | None,
+) -> _State:
+    """Return the motions about the offset of a given drift, and the drift that they cause."""
+    size = hydro.size
+    load = np.zeros(size) if problem.steady_force is None else np.array(problem.steady_force, dtype=float)
+    load[0] += drift
+    offset = mean_offset(problem.mooring, problem.hydrostatic_stiffness, load, start=start)
+    position = offset.position if offset.status == "converged" else np.zeros(size)
+    stiffness = np.asarray(problem.mooring.stiffness(position), dtype=float)
+    total = problem.hydrostatic_stiffness + stiffness
+    nonlinear = problem.quadratic is not None or problem.line_damping is not None
+    if density is not None and nonlinear:
+        motions = linearised_in_sea(
+            hydro,
+            problem.inertia,
+            total,
+            density,
+            quadratic=problem.quadratic,
+            line_damping=problem.line_damping,
+            damping=problem.damping,
+        ).motions
+    else:
+        motions = solve_motions(
+            hydro,
+            problem.inertia,
+            total,
+            damping=problem.damping,
+            quadratic=problem.quadratic,
+            line_damping=problem.line_damping,
+            wave_amplitude=amplitude[:, None] if nonlinear else None,
+        )
+    far = far_field(hydro, motions.displacement)
+    per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, problem.water, hydro.length)[:, 0]
+    force = float(np.sum(weight * per_square)) if with_drift else 0.0
+    return _State(motions, far, offset, stiffness, force)
+
+
+def solve_with_drift(
+    problem: DriftProblem,
+    wave_amplitude: ArrayLike,
+    *,
+    with_drift: bool = True,
+    tolerance: float = 1e-8,
+    maximum_iterations: int = 60,
+    progress: Progress = silent,
+) -> DriftedMotions:
+    """Run the drift/stiffness loop for regular waves, each frequency a wave of its own.
+
+    Parameters
+    ----------
+    problem : DriftProblem
+    wave_amplitude : array_like
+        Scalar or (n,) [m].
+    with_drift : bool
+        False leaves the drift out of the loop (steady loads stay): offset and stiffness under wind and current alone.
+    tolerance : float
+        Relative change of the drift force at which a loop ends.
+    maximum_iterations : int
+    progress : Progress
+
+    Returns
+    -------
+    DriftedMotions
+        Waves whose loop did not settle carry the status ``not_converged`` and their last values.
+
+    Notes
+    -----
+    The fixed point F -> X0(F) -> K_M(X0) -> motions -> C_R, E_L -> F is damped by one half as in P3 and hastened by
+    secant steps where they stay within the bracket of the last two [eq:floating-drift-loop].
+    """
+    hydro = problem.one_heading()
+    count = len(hydro.omega)
+    amplitude = np.zeros(count) + np.asarray(wave_amplitude, dtype=float)
+    states: list[_State] = []
+    iterations, statuses = np.zeros(count), []
+    for index in range(count):
+        progress("drift loop", index, count)
+        rows = slice(index, index + 1)
+        state, used, status = _loop(
+            problem,
+            _rows(hydro, rows),
+            amplitude[rows] ** 2,
+            amplitude[rows],
+            with_drift,
+            tolerance,
+            maximum_iterations,
+        )
+        states.append(state)
+        iterations[index] = used
+        statuses.append(status)
+    progress("drift loop", count, count)
+    return _joined(hydro, states, amplitude, iterations, tuple(statuses), with_drift)
+
+
+def solve_irregular_with_drift(
+    problem: DriftProblem,
+    spectral_density: ArrayLike,
+    *,
+    with_drift: bool = True,
+    tolerance: float = 1e-8,
+    maximum_iterations: int = 60,
+) -> DriftedMotions:
+    """Run the drift/stiffness loop for an irregular sea: one offset from the drift of the whole spectrum.
+
+    Parameters
+    ----------
+    problem : DriftProblem
+        Quadratic terms are linearised for the sea inside the loop.
+    spectral_density : array_like (n,)
+        S at the frequencies of the coefficients [m2 s/rad].
+    with_drift, tolerance, maximum_iterations
+        As in :func:`solve_with_drift`.
+
+    Returns
+    -------
+    DriftedMotions
+        ``drift_force``, ``offset`` and ``mooring_stiffness`` repeat one value along n.
+    """
+    hydro = problem.one_heading()
+    # A component of amplitude a has a^2 = 2 S d omega
+    density = np.asarray(spectral_density, dtype=float)
+    weight = 2.0 * density * integration_weights(hydro.omega)
+    amplitude = np.sqrt(np.maximum(weight, 0.0))
+    state, used, status = _loop(problem, hydro, weight, amplitude, with_drift, tolerance, maximum_iterations, density)
+    count = len(hydro.omega)
+    return DriftedMotions(
+        motions=state.motions,
+        far=state.far,
+        drift_force=np.full(count, state.force),
+        offset=np.tile(state.offset.position, (count, 1)),
+        mooring_stiffness=np.tile(state.stiffness, (count, 1, 1)),
+        iterations=np.full(count, float(used)),
+        status=(status,) * count,
+        notices=_loop_notices((status,), hydro.omega[:1]),
+    )
+
+
+def _loop(
+    problem: DriftProblem,
+    hydro: Hydrodynamics,
+    weight: FloatArray,
+    amplitude: FloatArray,
+    with_drift: bool,
+    tolerance: float,
+    maximum_iterations: int,
+    density: FloatArray | None = None,
+) -> tuple[_State, int, Status]:
+    """Find the drift force that causes itself [eq:floating-drift-loop]."""
+    force = 0.0
+    state = _answer(problem, hydro, force, weight, amplitude, None, with_drift, density)
+    if not with_drift:
+        return state, 1, "converged" if state.offset.status == "converged" else "not_converged"
+    previous_force, previous_gap = force, state.force - force
+    force = 0.5 * (force + state.force)
+    used = 1
+    while used < maximum_iterations:
+        start = state.offset.position if state.offset.status == "converged" else None
+        state = _answer(problem, hydro, force, weight, amplitude, start, with_drift, density)
+        used += 1
+        gap = state.force - force
+        if not np.isfinite(gap) or state.offset.status != "converged":
+            return state, used, "not_converged"
+        if abs(gap) <= tolerance * max(abs(state.force), abs(force), 1e-300):
+            return state, used, "converged"
+        next_force = force + 0.5 * gap
+        if gap != previous_gap:
+            secant = force - gap * (force - previous_force) / (gap - previous_gap)
+            if abs(secant - force) <= abs(force - previous_force):
+                next_force = secant
+        previous_force, previous_gap, force = force, gap, next_force
+    return state, used, "not_converged"
+
+
+def _loop_notices(status: tuple[Status, ...], omega: FloatArray) -> tuple[Notice, ...]:
+    failed = [float(omega[index]) for index, item in enumerate(status) if item != "converged"]
+    if not failed:
+        return ()
+    return (
+        Notice(
+            code="drift-loop",
+            message=f"mean offset and drift did not settle for {len(failed)} waves, first at {failed[0]:.4g} rad/s",
+            value=float(len(failed)),
+            severity="error",
+            remedy="look whether the lines can hold the steady load, or lower the wave height",
+        ),
+    )
+
+
+def _joined(
+    hydro: Hydrodynamics,
+    states: list[_State],
+    amplitude: FloatArray,
+    iterations: FloatArray,
+    status: tuple[Status, ...],
+    with_drift: bool,
+) -> DriftedMotions:
+    """Join the waves of :func:`solve_with_drift` along frequency."""
+    motions = Motions(
+        omega=hydro.omega,
+        heading=hydro.heading,
+        modes=hydro.modes,
+        displacement=np.concatenate([state.motions.displacement for state in states]),
+        damping=np.concatenate([state.motions.damping for state in states]),
+        wave_amplitude=amplitude[:, None],
+        iterations=max(state.motions.iterations for state in states),
+        notices=tuple({notice.message: notice for state in states for notice in state.motions.notices}.values()),
+    )
+    far = FarField(
+        *(
+            np.concatenate([getattr(state.far, name) for state in states])
+            for name in ("reflection", "transmission", "loss", "drift_coefficient")
+        )
+    )
+    return DriftedMotions(
+        motions=motions,
+        far=far,
+        drift_force=np.array([state.force for state in states]),
+        offset=np.array([state.offset.position for state in states]),
+        mooring_stiffness=np.array([state.stiffness for state in states]),
+        iterations=iterations,
+        status=status,
+        notices=_loop_notices(status, hydro.omega),
+    )

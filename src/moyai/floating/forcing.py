@@ -1,0 +1,308 @@
+"""Forces of waves on the time grid of the integrator: regular and irregular excitation, mean and slow drift.
+
+A forcing is sampled at whole and half steps, so that a method with a stage in the middle of the step finds the exact
+value there and no interpolation enters.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.floating.arrays import ComplexArray, FloatArray, finite, positive
+
+
+class Forcing(Protocol):
+    """Forces on the body that do not depend on its motion."""
+
+    @property
+    def shortest_period(self) -> float:
+        """Shortest period that carries force worth resolving [s]; ``inf`` for steady forces."""
+
+    def fitted_step(self, time_step: float) -> float:
+        """Return a step not longer than ``time_step`` [s] that suits the forcing."""
+
+    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return forces (count, m) and surface elevation (count,) at times ``step * arange(count)``."""
+
+
+def cosine_ramp(time: ArrayLike, duration: float) -> FloatArray:
+    """Return (1 - cos(pi t / duration)) / 2 up to ``duration``, then 1 [eq:floating-ramp]; all 1 for duration 0."""
+    instants = np.asarray(time, dtype=float)
+    if duration <= 0.0:
+        return np.ones_like(instants)
+    return 0.5 * (1.0 - np.cos(np.pi * np.clip(instants / duration, 0.0, 1.0)))
+
+
+@dataclass(frozen=True)
+class CalmWater:
+    """No waves: a steady force only, for free decay and static tests.
+
+    Parameters
+    ----------
+    steady : ndarray (m,)
+        [N, N, N m].
+    ramp : float
+        Length of the cosine ramp of the steady force [s].
+    """
+
+    steady: FloatArray
+    ramp: float = 0.0
+
+    @property
+    def shortest_period(self) -> float:
+        """Infinite."""
+        return math.inf
+
+    def fitted_step(self, time_step: float) -> float:
+        """Return the step unchanged."""
+        return time_step
+
+    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return the steady force and a flat surface."""
+        shape = cosine_ramp(step * np.arange(count), self.ramp)
+        return shape[:, None] * np.asarray(self.steady, dtype=float), np.zeros(count)
+
+
+@dataclass(frozen=True)
+class RegularForcing:
+    """A regular wave [eq:floating-regular-forcing].
+
+    Parameters
+    ----------
+    omega : float
+        [rad/s].
+    wave_amplitude : float
+        [m].
+    excitation : ndarray (m,)
+        Complex force per unit amplitude, phase at x = 0.
+    mean_drift : ndarray (m,)
+        Mean second-order force [N, N, N m].
+    steady : ndarray (m,)
+        Wind and current.
+    drift_law : {"ramped", "pulsating"}
+        P3 leaves the time law open: the mean force with the ramp of the waves, or times 1 + cos(2 omega t).
+    ramp : float
+        Length of the cosine ramp of all forces [s].
+    """
+
+    omega: float
+    wave_amplitude: float
+    excitation: ComplexArray
+    mean_drift: FloatArray
+    steady: FloatArray
+    drift_law: Literal["ramped", "pulsating"] = "ramped"
+    ramp: float = 0.0
+
+    def __post_init__(self) -> None:
+        positive(self.omega, "omega")
+        for name in ("excitation", "mean_drift", "steady"):
+            finite(getattr(self, name), name)
+        if self.drift_law not in ("ramped", "pulsating"):
+            raise InputError(f"unknown drift law {self.drift_law!r}", path="drift_law", allowed="ramped, pulsating")
+
+    @property
+    def shortest_period(self) -> float:
+        """The wave period, half of it when the drift pulsates."""
+        period = 2.0 * math.pi / self.omega
+        return 0.5 * period if self.drift_law == "pulsating" and np.any(self.mean_drift) else period
+
+    def fitted_step(self, time_step: float) -> float:
+        """Return the longest step that divides the period."""
+        period = 2.0 * math.pi / self.omega
+        return period / math.ceil(period / time_step - 1e-9)
+
+    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return forces and the incident surface at x = 0."""
+        time = step * np.arange(count)
+        shape = cosine_ramp(time, self.ramp)
+        carrier = self.wave_amplitude * np.exp(-1j * self.omega * time)
+        force = (carrier[:, None] * np.asarray(self.excitation)).real
+        pulse = 1.0 + np.cos(2.0 * self.omega * time) if self.drift_law == "pulsating" else np.ones(count)
+        force = force + pulse[:, None] * np.asarray(self.mean_drift) + np.asarray(self.steady)
+        return shape[:, None] * force, shape * carrier.real
+
+
+@dataclass(frozen=True)
+class IrregularForcing:
+    """A sum of wave components with slow drift after Newman [eq:floating-irregular-forcing].
+
+    Parameters
+    ----------
+    omega : ndarray (k,)
+        [rad/s], any order, several headings may share a frequency.
+    amplitude : ndarray (k,)
+        Complex amplitudes ``a exp(i phase)`` at x = 0 [m].
+    excitation : ndarray (k, m)
+        Complex force per unit amplitude of each component.
+    drift : ndarray (k, m) or None
+        Mean drift force over amplitude squared of each component [N/m2].
+    steady : ndarray (m,)
+        Wind and current, and the mean drift when ``drift_law`` is ``"ramped"``.
+    drift_law : {"newman", "newman_product", "ramped", "none"}
+        ``newman``: T_ij = (T_i + T_j)/2, any sign [eq:floating-newman]. ``newman_product``: T_ij = sqrt(T_i T_j), for
+        drift of one sign. ``ramped``: the mean alone.
+    ramp : float
+        [s].
+    energy_share : float
+        Share of the wave energy below ``shortest_period``'s frequency.
+    """
+
+    omega: FloatArray
+    amplitude: ComplexArray
+    excitation: ComplexArray
+    drift: FloatArray | None
+    steady: FloatArray
+    drift_law: Literal["newman", "newman_product", "ramped", "none"] = "newman"
+    ramp: float = 0.0
+    energy_share: float = 0.999
+
+    def __post_init__(self) -> None:
+        positive(float(np.min(self.omega)), "omega")
+        if self.drift_law not in ("newman", "newman_product", "ramped", "none"):
+            raise InputError(f"unknown drift law {self.drift_law!r}", path="drift_law")
+        if self.drift_law != "none" and self.drift is None:
+            raise InputError("slow drift needs the drift coefficients", path="drift", remedy='or drift_law="none"')
+        if self.drift_law == "newman_product" and self.drift is not None:
+            low, high = np.min(self.drift, axis=0), np.max(self.drift, axis=0)
+            if np.any((low < 0.0) & (high > 0.0)):
+                raise InputError(
+                    "the drift changes sign over the spectrum", path="drift", remedy='use drift_law="newman"'
+                )
+        for name in ("omega", "amplitude", "excitation", "steady"):
+            finite(getattr(self, name), name)
+
+    @property
+    def shortest_period(self) -> float:
+        """Period below which less than ``1 - energy_share`` of the wave energy lies."""
+        order = np.argsort(self.omega)
+        energy = np.cumsum(np.abs(self.amplitude[order]) ** 2)
+        last = int(np.searchsorted(energy, self.energy_share * energy[-1]))
+        return 2.0 * math.pi / float(self.omega[order][min(last, len(order) - 1)])
+
+    @property
+    def repeat_period(self) -> float:
+        """Time after which components on a uniform grid repeat [s]; ``inf`` when they are on none."""
+        unique = np.unique(self.omega)
+        if len(unique) < 2:
+            return 2.0 * math.pi / float(unique[0])
+        base = float(np.min(np.diff(unique)))
+        multiples = self.omega / base
+        if np.max(np.abs(multiples - np.round(multiples))) > 1e-6:
+            return math.inf
+        # All multiples at once fix the base better than the smallest difference does
+        return 2.0 * math.pi * float(np.sum(np.round(multiples)) / np.sum(self.omega))
+
+    def fitted_step(self, time_step: float) -> float:
+        """Return a step whose half divides the repeat period into a number that Fourier transforms like."""
+        repeat = self.repeat_period
+        if math.isinf(repeat):
+            return time_step
+        from scipy.fft import next_fast_len
+
+        return 2.0 * repeat / next_fast_len(math.ceil(2.0 * repeat / time_step - 1e-9))
+
+    def mean_drift(self) -> FloatArray:
+        """Return the mean drift force (m,) of the sea, sum of T_i |a_i|^2."""
+        if self.drift is None or self.drift_law == "none":
+            return np.zeros(self.excitation.shape[1])
+        return np.asarray(np.abs(self.amplitude) ** 2 @ self.drift, dtype=float)
+
+    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return forces and the incident surface at x = 0."""
+        modes = self.excitation.shape[1]
+        columns = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation]
+        slow = self.drift is not None and self.drift_law in ("newman", "newman_product")
+        if slow:
+            assert self.drift is not None
+            if self.drift_law == "newman":
+                columns.append(self.amplitude[:, None] * self.drift)
+            else:
+                columns.append(self.amplitude[:, None] * np.sqrt(np.abs(self.drift)))
+        series = complex_sum(self.omega, np.concatenate(columns, axis=1), step, count)
+        elevation, force = series[:, 0].real.copy(), series[:, 1 : 1 + modes].real.copy()
+        if slow:
+            assert self.drift is not None
+            if self.drift_law == "newman":
+                force += (series[:, 1 + modes :] * series[:, :1].conj()).real
+            else:
+                force += np.sign(np.sum(self.drift, axis=0)) * np.abs(series[:, 1 + modes :]) ** 2
+        elif self.drift_law == "ramped":
+            force += self.mean_drift()
+        shape = cosine_ramp(step * np.arange(count), self.ramp)
+        force += np.asarray(self.steady, dtype=float)
+        return shape[:, None] * force, shape * elevation
+
+
+def complex_sum(omega: FloatArray, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
+    """Return ``sum_i amplitude_i exp(-i omega_i t)`` (count, c) at ``t = step * arange(count)``.
+
+    Parameters
+    ----------
+    omega : ndarray (k,)
+        [rad/s].
+    amplitude : ndarray (k, c)
+    step : float
+        [s].
+    count : int
+
+    Notes
+    -----
+    By one fast Fourier transform a column when all frequencies are whole multiples of 2 pi / (n step) for a whole n;
+    else by a compiled sum whose phase factors are advanced by multiplication and renewed every 256 steps.
+    """
+    length = _transform_length(omega, step)
+    if length == 0:
+        return np.asarray(_direct_sum(omega, np.ascontiguousarray(amplitude), step, count))
+    bins = np.rint(omega * step * length / (2.0 * math.pi)).astype(int)
+    result = np.empty((count, amplitude.shape[1]), dtype=np.complex128)
+    for column in range(amplitude.shape[1]):
+        spectrum = np.zeros(length, dtype=np.complex128)
+        np.add.at(spectrum, bins, amplitude[:, column])
+        from scipy.fft import fft
+
+        series = fft(spectrum, overwrite_x=True)
+        full, rest = divmod(count, length)
+        for repeat in range(full):
+            result[repeat * length : (repeat + 1) * length, column] = series
+        result[full * length :, column] = series[:rest]
+    return result
+
+
+def _transform_length(omega: FloatArray, step: float) -> int:
+    """Return the transform length that holds all frequencies exactly, 0 when there is none worth using."""
+    unique = np.unique(omega)
+    base = float(unique[0]) if len(unique) == 1 else float(np.min(np.diff(unique)))
+    multiples = np.rint(omega / base)
+    if np.max(multiples) > 5e7 or np.max(np.abs(omega / base - multiples)) > 1e-6:
+        return 0
+    base = float(np.sum(omega) / np.sum(multiples))
+    length = round(2.0 * math.pi / (base * step))
+    if length < 2 or length > 50_000_000 or np.max(multiples) >= length:
+        return 0
+    phase_error = np.max(np.abs(omega * step * length / (2.0 * math.pi) - multiples))
+    return length if phase_error < 1e-6 else 0
+
+
+@njit(cache=True, error_model="numpy")
+def _direct_sum(omega: FloatArray, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
+    components, columns = amplitude.shape
+    result = np.zeros((count, columns), dtype=np.complex128)
+    factor = np.exp(-1j * omega * step)
+    turning = np.empty(components, dtype=np.complex128)
+    for start in range(0, count, 256):
+        for i in range(components):
+            turning[i] = np.exp(-1j * omega[i] * step * start)
+        for n in range(start, min(start + 256, count)):
+            for i in range(components):
+                phase = turning[i]
+                for c in range(columns):
+                    result[n, c] += amplitude[i, c] * phase
+                turning[i] = phase * factor[i]
+    return result

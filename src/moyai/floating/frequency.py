@@ -1,0 +1,277 @@
+"""Motions of a floating body in regular waves: linear equation of motion in the frequency domain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.arrays import ComplexArray, FloatArray, square_matrix
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
+
+SINGULAR = 1e13
+"""Condition number of the scaled dynamic stiffness above which an answer has no correct digit left to trust."""
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Complex amplitudes of motion, ``Re(X exp(-i omega t))``.
+
+    Parameters
+    ----------
+    omega : ndarray (n,)
+        [rad/s].
+    heading : ndarray (h,)
+        [rad].
+    modes : tuple of str
+    displacement : ndarray (n, h, m)
+        Per unit wave amplitude [m/m, rad/m]; NaN where the undamped body is at resonance.
+    damping : ndarray (n, h, m, m)
+        Damping beyond radiation that was used, equivalents of quadratic terms included.
+    wave_amplitude : ndarray (n, h)
+        Amplitude that quadratic terms were linearised at [m]; zero where there are none.
+    iterations : int
+        Iterations of the equivalent linearisation.
+    checks : tuple of IdentityCheck
+    notices : tuple of Notice
+    """
+
+    omega: FloatArray
+    heading: FloatArray
+    modes: tuple[str, ...]
+    displacement: ComplexArray
+    damping: FloatArray
+    wave_amplitude: FloatArray
+    iterations: int
+    checks: tuple[IdentityCheck, ...] = ()
+    notices: tuple[Notice, ...] = ()
+
+    @property
+    def velocity(self) -> ComplexArray:
+        """Complex velocities per unit wave amplitude, ``-i omega X``."""
+        return -1j * self.omega[:, None, None] * self.displacement
+
+
+def dynamic_stiffness(omega: FloatArray, mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> ComplexArray:
+    """Return ``-omega^2 M - i omega B + K`` [eq:floating-motion].
+
+    Parameters
+    ----------
+    omega : ndarray (...)
+    mass, damping, stiffness : ndarray (..., m, m)
+        Broadcast against ``omega[..., None, None]``.
+    """
+    w = np.asarray(omega)[..., None, None]
+    return -(w**2) * mass - 1j * w * damping + stiffness
+
+
+def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+    """Solve many small systems whose rows have different units, safely near singular ones.
+
+    Parameters
+    ----------
+    matrix : ndarray (..., m, m)
+    right : ndarray (..., m)
+
+    Returns
+    -------
+    solution : ndarray (..., m)
+        NaN where the matrix is singular to rounding.
+    condition : ndarray (...)
+        Condition number of the matrix with rows and columns scaled by their largest entries.
+    """
+    size = np.sqrt(np.max(np.abs(matrix), axis=-1))
+    # Symmetric scaling keeps the units of a mode together; a mode without any restoring or inertia keeps scale one
+    size = np.where(size > 0.0, size, 1.0)
+    scaled = matrix / (size[..., :, None] * size[..., None, :])
+    singular_values = np.linalg.svd(scaled, compute_uv=False)
+    smallest = singular_values[..., -1]
+    with np.errstate(divide="ignore"):
+        condition = np.where(smallest > 0.0, singular_values[..., 0] / np.where(smallest > 0, smallest, 1.0), np.inf)
+    bad = condition > SINGULAR
+    safe = np.where(bad[..., None, None], np.eye(matrix.shape[-1]), scaled)
+    solution = np.linalg.solve(safe, (right / size)[..., None])[..., 0] / size
+    solution[bad] = np.nan
+    return solution, condition
+
+
+def solve_motions(
+    hydrodynamics: Hydrodynamics,
+    inertia: ArrayLike,
+    stiffness: ArrayLike,
+    *,
+    damping: LinearDamping | None = None,
+    quadratic: QuadraticDamping | None = None,
+    line_damping: EquivalentDamping | None = None,
+    wave_amplitude: ArrayLike | None = None,
+    tolerance: float = 1e-10,
+    maximum_iterations: int = 200,
+) -> Motions:
+    """Solve ``[-w^2 (M + A) - i w (B + C) + K] X = F`` for all frequencies and headings [eq:floating-motion].
+
+    Parameters
+    ----------
+    hydrodynamics : Hydrodynamics
+        Coefficients of the whole unit (see :meth:`Hydrodynamics.scaled_to`).
+    inertia : array_like (m, m)
+        M.
+    stiffness : array_like (m, m)
+        Hydrostatic and mooring restoring K_H + K_M.
+    damping : LinearDamping or None
+        Beyond radiation; the fraction of critical takes the added mass at the wave frequency.
+    quadratic : QuadraticDamping or None
+        Linearised by equal work at the amplitude of each wave and iterated.
+    line_damping : callable or None
+        Equivalent damping of lines, ``(velocity amplitudes, omega) -> (m, m)``, iterated likewise.
+    wave_amplitude : array_like or None
+        Scalar, (n, 1) or (n, h) [m]; needed with ``quadratic`` or ``line_damping``.
+    tolerance : float
+        Relative change of the velocities at which the iteration ends.
+    maximum_iterations : int
+
+    Returns
+    -------
+    Motions
+        With the notice ``motion-singular`` where the undamped body is at resonance to rounding and
+        ``linearisation-not-converged`` where the iteration did not settle.
+
+    Raises
+    ------
+    InputError
+        When shapes disagree or an amplitude is missing.
+    """
+    size, count, headings = hydrodynamics.size, len(hydrodynamics.omega), len(hydrodynamics.heading)
+    inertia = square_matrix(inertia, size, "inertia")
+    stiffness = square_matrix(stiffness, size, "stiffness")
+    linear = LinearDamping.none(size) if damping is None else damping
+    constant = linear.at(inertia, hydrodynamics.added_mass, stiffness)
+    constant = np.broadcast_to(constant[:, None], (count, headings, size, size))
+    iterated = quadratic is not None or line_damping is not None
+    if iterated and wave_amplitude is None:
+        raise InputError("quadratic damping needs the wave amplitude", path="wave_amplitude")
+    amplitude = np.zeros((count, headings)) + (0.0 if wave_amplitude is None else np.asarray(wave_amplitude, float))
+    omega = np.broadcast_to(hydrodynamics.omega[:, None], (count, headings))
+    mass = (inertia + hydrodynamics.added_mass)[:, None]
+    radiation = hydrodynamics.radiation_damping[:, None]
+
+    def solution(extra: FloatArray) -> tuple[ComplexArray, FloatArray]:
+        return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), hydrodynamics.excitation)
+
+    extra = constant
+    displacement, condition = solution(extra)
+    iterations, change = 0, 0.0
+    if iterated:
+        added = np.zeros_like(constant)
+        # Start from a finite velocity even at an undamped resonance
+        displacement = np.where(np.isnan(displacement), 0.0, displacement)
+        change = np.inf
+        while change > tolerance and iterations < maximum_iterations:
+            iterations += 1
+            velocity = np.abs(amplitude)[..., None] * omega[..., None] * displacement
+            target = _equivalent(velocity, omega, quadratic, line_damping)
+            # Half steps: near resonance the full step overshoots by as much as it should have gone
+            added = 0.5 * (added + target) if iterations > 1 else target
+            extra = constant + added
+            updated, condition = solution(extra)
+            bad = np.isnan(updated)
+            moved = np.abs(np.where(bad, 0.0, updated) - displacement)
+            reference = np.max(np.abs(np.where(bad, 0.0, updated)), axis=(0, 1), keepdims=True)
+            change = float(np.max(moved / np.where(reference > 0.0, reference, 1.0)))
+            displacement = np.where(bad, 0.0, updated)
+        displacement[condition > SINGULAR] = np.nan
+    notices = _notices(hydrodynamics, condition, change > tolerance, change, iterations)
+    return Motions(
+        omega=hydrodynamics.omega,
+        heading=hydrodynamics.heading,
+        modes=hydrodynamics.modes,
+        displacement=displacement,
+        damping=np.array(extra),
+        wave_amplitude=amplitude,
+        iterations=iterations,
+        notices=notices,
+    )
+
+
+def _equivalent(
+    velocity: ComplexArray,
+    omega: FloatArray,
+    quadratic: QuadraticDamping | None,
+    line_damping: EquivalentDamping | None,
+) -> FloatArray:
+    """Return the equivalent damping (n, h, m, m) at complex velocities (n, h, m)."""
+    size = velocity.shape[-1]
+    total = np.zeros((*velocity.shape, size))
+    if quadratic is not None:
+        total = total + quadratic.equivalent_regular(np.abs(velocity @ quadratic.directions.T))
+    if line_damping is not None:
+        for index in np.ndindex(*omega.shape):
+            total[index] += line_damping(np.abs(velocity[index]), float(omega[index]))
+    return total
+
+
+def _notices(
+    hydrodynamics: Hydrodynamics, condition: FloatArray, unsettled: bool, change: float, iterations: int
+) -> tuple[Notice, ...]:
+    notices: list[Notice] = []
+    worst = float(np.max(condition))
+    if worst > SINGULAR:
+        where = hydrodynamics.omega[np.unravel_index(int(np.argmax(condition)), condition.shape)[0]]
+        notices.append(
+            Notice(
+                code="motion-singular",
+                message=f"the undamped body is at resonance at {where:.4g} rad/s: no finite linear motion",
+                value=worst,
+                limit=SINGULAR,
+                severity="error",
+                remedy="add damping, or leave this frequency out",
+            )
+        )
+    if unsettled:
+        notices.append(
+            Notice(
+                code="linearisation-not-converged",
+                message=f"the equivalent damping still changes by {change:.2g} after {iterations} iterations",
+                value=change,
+                severity="warning",
+                remedy="raise maximum_iterations",
+            )
+        )
+    return tuple(notices)
+
+
+def relative_elevation(
+    motions: Motions,
+    point: tuple[float, float],
+    centre: tuple[float, float],
+    wave_elevation: ComplexArray,
+) -> ComplexArray:
+    """Return the water surface less the vertical motion of a point of a planar body [eq:floating-relative].
+
+    Parameters
+    ----------
+    motions : Motions
+        Modes sway, heave, roll.
+    point, centre : tuple of float
+        Point, and centre of the modes, (x, z) [m].
+    wave_elevation : ndarray (n, h)
+        Complex elevation at the point per unit wave amplitude; ``exp(i k x cos beta)`` for the incident wave alone.
+
+    Returns
+    -------
+    ndarray (n, h)
+        Complex amplitude per unit wave amplitude [m/m].
+    """
+    vertical = motions.displacement[..., 1] - motions.displacement[..., 2] * (point[0] - centre[0])
+    return wave_elevation - vertical
+
+
+def point_motion(motions: Motions, point: tuple[float, float], centre: tuple[float, float]) -> ComplexArray:
+    """Return the complex motion (n, h, 2) in x and z of a point of a planar body, for instance a fairlead [m/m]."""
+    roll = motions.displacement[..., 2]
+    horizontal = motions.displacement[..., 0] + roll * (point[1] - centre[1])
+    vertical = motions.displacement[..., 1] - roll * (point[0] - centre[0])
+    return np.stack([horizontal, vertical], axis=-1)

@@ -1,0 +1,201 @@
+"""Responses to irregular seas by linear theory: spectra, moments, significant and most probable largest values."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.floating.arrays import ComplexArray, FloatArray
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
+from moyai.floating.frequency import Motions, solve_motions
+
+
+def integration_weights(omega: ArrayLike) -> FloatArray:
+    """Return the weights of the trapezoidal rule on a frequency grid [rad/s]; one frequency has no width."""
+    grid = np.atleast_1d(np.asarray(omega, dtype=float))
+    if len(grid) < 2:
+        raise InputError("an integral over frequency needs two frequencies or more", path="omega")
+    step = np.diff(grid)
+    return 0.5 * np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
+
+
+@dataclass(frozen=True)
+class ResponseStatistics:
+    """Statistics of Gaussian responses, one entry a response.
+
+    Parameters
+    ----------
+    spectrum : ndarray (n, ...)
+        Response spectra [unit^2 s/rad] [eq:floating-response].
+    moments : ndarray (4, ...)
+        m0, m1, m2, m4.
+    standard_deviation : ndarray
+    significant : ndarray
+        Significant double amplitude, 4 sqrt(m0).
+    mean_zero_crossing_period : ndarray
+        2 pi sqrt(m0/m2) [s].
+    """
+
+    spectrum: FloatArray
+    moments: FloatArray
+    standard_deviation: FloatArray
+    significant: FloatArray
+    mean_zero_crossing_period: FloatArray
+
+    def most_probable_maximum(self, duration: float) -> FloatArray:
+        """Return the most probable largest amplitude in ``duration`` [s], sigma sqrt(2 ln N), N = duration / T_z.
+
+        Rayleigh statistics of a narrow-banded response [eq:floating-extreme]; zero where fewer than one cycle falls
+        into the duration.
+        """
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cycles = duration / self.mean_zero_crossing_period
+            logarithm = np.where(cycles > 1.0, np.log(np.where(cycles > 1.0, cycles, 1.0)), 0.0)
+        return np.asarray(self.standard_deviation * np.sqrt(2.0 * logarithm), dtype=float)
+
+
+def response_statistics(omega: ArrayLike, transfer: ArrayLike, density: ArrayLike) -> ResponseStatistics:
+    """Return spectra and statistics of linear responses.
+
+    Parameters
+    ----------
+    omega : array_like (n,)
+        [rad/s].
+    transfer : array_like (n, ...)
+        Complex or absolute transfer functions; (n, h, ...) with a directional ``density``.
+    density : array_like (n,) or (n, h)
+        Wave spectrum [m2 s/rad]; with headings, the part of each of them (already times its angle), so that the sum
+        over headings is the frequency spectrum.
+    """
+    grid = np.asarray(omega, dtype=float)
+    power = np.abs(np.asarray(transfer)) ** 2
+    wave = np.asarray(density, dtype=float)
+    if wave.ndim == 2:
+        spectrum = np.einsum("nh...,nh->n...", power, wave)
+    else:
+        spectrum = power * wave.reshape(wave.shape + (1,) * (power.ndim - 1))
+    weights = integration_weights(grid)
+    moments = np.array([np.tensordot(weights * grid**order, spectrum, axes=(0, 0)) for order in (0, 1, 2, 4)])
+    deviation = np.sqrt(np.maximum(moments[0], 0.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = np.where(
+            moments[2] > 0.0, 2.0 * math.pi * np.sqrt(moments[0] / np.maximum(moments[2], 1e-300)), np.inf
+        )
+    return ResponseStatistics(spectrum, moments, deviation, 4.0 * deviation, crossing)
+
+
+def energy_transmission(omega: ArrayLike, transmission: ArrayLike, density: ArrayLike) -> float:
+    """Return the transmission of significant height, sqrt(int |T|^2 S / int S) [eq:floating-transmission].
+
+    Parameters
+    ----------
+    omega : array_like (n,)
+    transmission : array_like (n,) or (n, h)
+    density : array_like (n,) or (n, h)
+        As in :func:`response_statistics`.
+    """
+    weights = integration_weights(omega)
+    wave = np.asarray(density, dtype=float)
+    power = np.abs(np.asarray(transmission)) ** 2 * wave
+    if power.ndim == 2:
+        power, wave = power.sum(axis=1), np.broadcast_to(wave, power.shape).sum(axis=1)
+    total = float(weights @ wave)
+    if total <= 0.0:
+        raise InputError("the wave spectrum holds no energy", path="density")
+    return math.sqrt(float(weights @ power) / total)
+
+
+@dataclass(frozen=True)
+class SeaMotions:
+    """Motions with quadratic damping linearised for one sea.
+
+    Parameters
+    ----------
+    motions : Motions
+    equivalent_damping : ndarray (m, m)
+        What the quadratic terms amount to in this sea.
+    measure_deviation : ndarray (k,)
+        Standard deviation of each measure J_k v.
+    iterations : int
+    converged : bool
+    """
+
+    motions: Motions
+    equivalent_damping: FloatArray
+    measure_deviation: FloatArray
+    iterations: int
+    converged: bool
+
+
+def linearised_in_sea(
+    hydrodynamics: Hydrodynamics,
+    inertia: ArrayLike,
+    stiffness: ArrayLike,
+    density: ArrayLike,
+    *,
+    quadratic: QuadraticDamping | None = None,
+    line_damping: EquivalentDamping | None = None,
+    damping: LinearDamping | None = None,
+    tolerance: float = 1e-10,
+    maximum_iterations: int = 200,
+) -> SeaMotions:
+    """Solve the motions in an irregular sea with stochastic linearisation [eq:floating-stochastic].
+
+    Parameters
+    ----------
+    hydrodynamics, inertia, stiffness, damping
+        As in :func:`moyai.floating.frequency.solve_motions`.
+    density : array_like (n,) or (n, h)
+        Wave spectrum at the frequencies of the coefficients, as in :func:`response_statistics`.
+    quadratic : QuadraticDamping or None
+        b_eq = sqrt(8/pi) sigma b2, the same at all frequencies.
+    line_damping : callable or None
+        Equivalent damping of lines at sqrt(2) times the standard deviations of the velocities and their mean
+        zero-crossing frequency.
+    tolerance : float
+        Relative change of the standard deviations.
+    maximum_iterations : int
+    """
+    linear = LinearDamping.none(hydrodynamics.size) if damping is None else damping
+    wave = np.asarray(density, dtype=float)
+    if wave.ndim == 1:
+        wave = wave[:, None]
+    if wave.shape[1] != len(hydrodynamics.heading):
+        raise InputError(
+            f"the spectrum has {wave.shape[1]} headings, the coefficients {len(hydrodynamics.heading)}", path="density"
+        )
+    size = hydrodynamics.size
+    rows = np.eye(size) if quadratic is None else np.vstack([np.eye(size), quadratic.directions])
+    equivalent, previous = np.zeros((size, size)), np.zeros(len(rows))
+    change, used = math.inf, 0
+    while True:
+        used += 1
+        total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
+        motions = solve_motions(hydrodynamics, inertia, stiffness, damping=total)
+        measure: ComplexArray = np.nan_to_num(motions.velocity) @ rows.T
+        statistics = response_statistics(hydrodynamics.omega, measure, wave)
+        deviation = statistics.standard_deviation
+        largest = np.where(np.maximum(deviation, previous) > 0.0, np.maximum(deviation, previous), 1.0)
+        change = float(np.max(np.abs(deviation - previous) / largest))
+        previous = deviation
+        if change <= tolerance or used >= maximum_iterations:
+            break
+        target = np.zeros((size, size))
+        if quadratic is not None:
+            target += quadratic.equivalent_irregular(deviation[size:])
+        if line_damping is not None:
+            period = float(
+                np.max(
+                    np.where(
+                        np.isfinite(statistics.mean_zero_crossing_period), statistics.mean_zero_crossing_period, 0.0
+                    )
+                )
+            )
+            target += line_damping(math.sqrt(2.0) * deviation[:size], 2.0 * math.pi / period if period > 0.0 else 0.0)
+        equivalent = target if used == 1 else 0.5 * (equivalent + target)
+    return SeaMotions(motions, equivalent, deviation[size:], used, change <= tolerance)

@@ -1,0 +1,183 @@
+"""The memory of the water in the two forms that the time domain takes: states, or a convolution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.floating.arrays import ComplexArray, FloatArray, finite, increasing
+
+
+@dataclass(frozen=True)
+class StateSpaceMemory:
+    """Memory force ``-Re(outputs z) - dashpot v`` with ``z' = poles z + inputs v`` [eq:floating-state-space].
+
+    Parameters
+    ----------
+    poles : ndarray (n,)
+        One of each conjugate pair, real parts negative [1/s].
+    inputs : ndarray (n, m)
+    outputs : ndarray (m, n)
+        The partner of a complex pole is already in: its factor 2.
+    dashpot : ndarray (m, m)
+        Instantaneous part, for instance the feedthrough of a fit or a steady dashpot D(0) that the states leave out.
+    """
+
+    poles: ComplexArray
+    inputs: ComplexArray
+    outputs: ComplexArray
+    dashpot: FloatArray
+
+    def __post_init__(self) -> None:
+        n, m = len(self.poles), self.dashpot.shape[0]
+        if self.inputs.shape != (n, m) or self.outputs.shape != (m, n):
+            raise InputError(
+                f"{n} poles with inputs {self.inputs.shape} and outputs {self.outputs.shape}", path="memory"
+            )
+        for name in ("poles", "inputs", "outputs", "dashpot"):
+            finite(getattr(self, name), name)
+        if n and float(np.max(self.poles.real)) > 0.0:
+            raise InputError(
+                f"a memory pole grows in time (real part {np.max(self.poles.real):.3g} 1/s)",
+                path="memory.poles",
+                allowed="real parts not above 0",
+                remedy="fit the memory again with fewer states",
+            )
+
+    @property
+    def size(self) -> int:
+        """Number of modes."""
+        return int(self.dashpot.shape[0])
+
+    def kernel(self, time: ArrayLike) -> FloatArray:
+        """Return K(t) (n, m, m) of the states, without the dashpot."""
+        instants = np.atleast_1d(np.asarray(time, dtype=float))
+        growth = np.exp(self.poles[None, :] * instants[:, None])
+        return np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+
+    def transfer(self, omega: ArrayLike) -> ComplexArray:
+        """Return ``int K exp(i omega t) dt + dashpot`` = B - i omega (A - A_inf), (n, m, m)."""
+        w = np.atleast_1d(np.asarray(omega, dtype=float))
+        # The real kernel holds both partners of a complex pole; outputs carry the factor 2 of the pair
+        first = np.einsum("ik,tk,kj->tij", self.outputs, 1.0 / (-1j * w[:, None] - self.poles), self.inputs)
+        second = np.einsum(
+            "ik,tk,kj->tij", self.outputs.conj(), 1.0 / (-1j * w[:, None] - self.poles.conj()), self.inputs.conj()
+        )
+        return np.asarray(0.5 * (first + second) + self.dashpot, dtype=np.complex128)
+
+    @classmethod
+    def none(cls, size: int) -> StateSpaceMemory:
+        """Return no memory."""
+        return cls(
+            np.zeros(0, np.complex128),
+            np.zeros((0, size), np.complex128),
+            np.zeros((size, 0), np.complex128),
+            np.zeros((size, size)),
+        )
+
+    @classmethod
+    def from_matrices(
+        cls, a: ArrayLike, b: ArrayLike, c: ArrayLike, feedthrough: ArrayLike | None = None, tolerance: float = 1e-6
+    ) -> StateSpaceMemory:
+        """Diagonalise a real model ``z' = a z + b v``, ``F = -(c z + feedthrough v)``.
+
+        Raises
+        ------
+        ConvergenceError
+            When the eigenvectors of ``a`` are so nearly parallel that the modal form no longer gives its kernel.
+        """
+        matrix, inputs, outputs = (np.atleast_2d(np.asarray(item, dtype=float)) for item in (a, b, c))
+        size = outputs.shape[0]
+        if matrix.size == 0:
+            return cls.none(size)
+        poles, vectors = np.linalg.eig(matrix)
+        modal_inputs = np.linalg.solve(vectors, inputs.astype(np.complex128))
+        modal_outputs = outputs @ vectors
+        scale = float(np.max(np.abs(outputs @ inputs)))
+        lost = float(np.max(np.abs((modal_outputs @ modal_inputs).real - outputs @ inputs)))
+        slope = outputs @ matrix @ inputs
+        lost_slope = float(np.max(np.abs(((modal_outputs * poles) @ modal_inputs).real - slope)))
+        if lost > tolerance * scale or lost_slope > tolerance * float(np.max(np.abs(slope))) + tolerance * scale:
+            raise ConvergenceError(
+                f"the memory's state-space model has no usable modal form (kernel off by {lost / scale:.2g})",
+                remedy="fit with fewer states, or use the convolution",
+            )
+        keep = poles.imag >= 0.0
+        factor = np.where(poles[keep].imag > 0.0, 2.0, 1.0)
+        dashpot = np.zeros((size, size)) if feedthrough is None else np.asarray(feedthrough, dtype=float)
+        return cls(
+            np.ascontiguousarray(poles[keep].astype(np.complex128)),
+            np.ascontiguousarray(modal_inputs[keep].astype(np.complex128)),
+            np.ascontiguousarray((modal_outputs[:, keep] * factor).astype(np.complex128)),
+            dashpot,
+        )
+
+
+@dataclass(frozen=True)
+class ConvolutionMemory:
+    """Memory force ``-int_0^L K(s) v(t - s) ds - dashpot v`` [eq:floating-cummins].
+
+    Parameters
+    ----------
+    time : ndarray (n,)
+        From 0 [s].
+    velocity_kernel : ndarray (n, m, m)
+        K(t).
+    dashpot : ndarray (m, m)
+        Instantaneous part beside the convolution; what truncation cuts off, D(0) less the integral of K up to the end,
+        keeps the slow motions right (see :meth:`truncated`).
+    """
+
+    time: FloatArray
+    velocity_kernel: FloatArray
+    dashpot: FloatArray
+
+    def __post_init__(self) -> None:
+        increasing(self.time, "time")
+        if self.time[0] != 0.0:
+            raise InputError(f"the memory starts at {self.time[0]:g} s", path="time", allowed="0")
+        finite(self.velocity_kernel, "velocity_kernel")
+
+    @property
+    def size(self) -> int:
+        """Number of modes."""
+        return int(self.dashpot.shape[0])
+
+    def tail_length(self, share: float = 1e-3) -> float:
+        """Return the time after which no entry exceeds ``share`` of the largest of its modes [s]."""
+        largest = np.max(np.abs(self.velocity_kernel), axis=0)
+        own = np.sqrt(np.abs(np.outer(np.diag(largest), np.diag(largest))))
+        reference = np.where(own > 0.0, own, np.maximum(largest, 1e-300))
+        over = np.any(np.abs(self.velocity_kernel) > share * reference, axis=(1, 2))
+        last = int(np.flatnonzero(over)[-1]) if np.any(over) else 0
+        return float(self.time[min(last + 1, len(self.time) - 1)])
+
+    def truncated(self, length: float, steady_dashpot: ArrayLike | None = None) -> ConvolutionMemory:
+        """Return the memory up to ``length`` [s].
+
+        Parameters
+        ----------
+        length : float
+        steady_dashpot : array_like (m, m) or None
+            D(0), the radiation damping of zero frequency. What the integral of K up to ``length`` misses of it becomes
+            a dashpot: in two dimensions a mode that displaces volume keeps D(0) > 0, and the cut would lose some of it.
+        """
+        keep = self.time <= length * (1.0 + 1e-12)
+        time, kernel = self.time[keep], self.velocity_kernel[keep]
+        dashpot = self.dashpot
+        if steady_dashpot is not None:
+            integral = CubicSpline(time, kernel, axis=0).integrate(time[0], time[-1])
+            dashpot = np.asarray(steady_dashpot, dtype=float) - integral
+        return ConvolutionMemory(time, kernel, dashpot)
+
+    def on_steps(self, half_step: float) -> FloatArray:
+        """Return K at ``half_step * arange(2 l + 1)`` up to the end of the memory."""
+        count = 2 * int(self.time[-1] / (2.0 * half_step)) + 1
+        return np.ascontiguousarray(CubicSpline(self.time, self.velocity_kernel, axis=0)(half_step * np.arange(count)))
+
+
+Memory = StateSpaceMemory | ConvolutionMemory

@@ -1,0 +1,193 @@
+"""Natural periods, shapes and damping of a floating body, added mass at the natural frequency of each mode."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+from scipy.linalg import eigh
+from scipy.optimize import brentq, linear_sum_assignment
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.floating.arrays import FloatArray, square_matrix
+from moyai.floating.coefficients import Hydrodynamics
+
+
+@dataclass(frozen=True)
+class NaturalModes:
+    """Undamped modes, sorted by the motion that leads each of them.
+
+    Parameters
+    ----------
+    modes : tuple of str
+        Name of the leading motion of each mode, in the order of the coefficients.
+    period : ndarray (m,)
+        Natural periods [s]; ``inf`` without restoring, NaN when restoring is negative (unstable).
+    omega : ndarray (m,)
+        [rad/s]; 0 without restoring.
+    shape : ndarray (m, m)
+        Row j is mode j, leading motion 1 (so sway per roll is in m/rad).
+    damping_ratio : ndarray (m,)
+        Radiation and given damping over critical at the natural frequency.
+    notices : tuple of Notice
+    """
+
+    modes: tuple[str, ...]
+    period: FloatArray
+    omega: FloatArray
+    shape: FloatArray
+    damping_ratio: FloatArray
+    notices: tuple[Notice, ...] = ()
+
+
+def natural_modes(
+    hydrodynamics: Hydrodynamics,
+    inertia: ArrayLike,
+    stiffness: ArrayLike,
+    *,
+    damping: ArrayLike | None = None,
+) -> NaturalModes:
+    """Find the undamped modes of ``(K - w^2 (M + A(w))) phi = 0`` [eq:floating-natural].
+
+    Parameters
+    ----------
+    hydrodynamics : Hydrodynamics
+        Coefficients of the whole unit. Below and above the computed frequencies the end values are held, above with the
+        infinite-frequency added mass when it is known; a notice says when a mode lies there.
+    inertia, stiffness : array_like (m, m)
+        M and K_H + K_M; the free body has K_M = 0.
+    damping : array_like (m, m) or None
+        Linear damping beyond radiation, for the damping ratios.
+
+    Returns
+    -------
+    NaturalModes
+
+    Raises
+    ------
+    InputError
+        When M + A is not positive definite.
+
+    Notes
+    -----
+    For each mode the root of ``w^2 - lambda_j(w)`` is bracketed on a grid and found by Brent's method, lambda_j being
+    the j-th eigenvalue of the symmetric pencil with the added mass at w; modes do not change places by overshooting.
+    """
+    size = hydrodynamics.size
+    inertia = square_matrix(inertia, size, "inertia")
+    stiffness = square_matrix(stiffness, size, "stiffness")
+    restoring = 0.5 * (stiffness + stiffness.T)
+    extra = np.zeros((size, size)) if damping is None else square_matrix(damping, size, "damping")
+    added = added_mass_function(hydrodynamics)
+
+    def pencil(omega: float) -> tuple[FloatArray, FloatArray]:
+        matrix = added(omega)
+        mass = inertia + 0.5 * (matrix + matrix.T)
+        try:
+            values, vectors = eigh(restoring, mass)
+        except np.linalg.LinAlgError as error:
+            raise InputError(
+                f"inertia and added mass are not positive definite at {omega:.4g} rad/s",
+                path="inertia",
+                remedy="look at the added mass near irregular or gap resonances there",
+            ) from error
+        return values, vectors
+
+    omega, vectors, outside = np.zeros(size), np.zeros((size, size)), []
+    for number in range(size):
+        root = _mode_frequency(pencil, number, hydrodynamics)
+        omega[number] = root
+        vectors[number] = pencil(max(root, 0.0) if np.isfinite(root) else 0.0)[1][:, number]
+        if np.isfinite(root) and root > 0.0 and not hydrodynamics.omega[0] <= root <= hydrodynamics.omega[-1]:
+            outside.append(root)
+    order, shapes = _lead(vectors, inertia)
+    omega = omega[order]
+    radiation = damping_function(hydrodynamics)
+    ratio = np.zeros(size)
+    for number in range(size):
+        if np.isfinite(omega[number]) and omega[number] > 0.0:
+            phi = shapes[number]
+            mass = phi @ (inertia + added(omega[number])) @ phi
+            ratio[number] = phi @ (radiation(omega[number]) + extra) @ phi / (2.0 * omega[number] * mass)
+    with np.errstate(divide="ignore"):
+        period = np.where(omega > 0.0, 2.0 * np.pi / np.where(omega > 0.0, omega, 1.0), np.inf)
+    period = np.where(np.isnan(omega), np.nan, period)
+    notices = tuple(
+        Notice(
+            code="natural-frequency-outside",
+            message=f"a natural frequency, {root:.4g} rad/s, lies outside the computed coefficients",
+            value=float(root),
+            limit=float(hydrodynamics.omega[0] if root < hydrodynamics.omega[0] else hydrodynamics.omega[-1]),
+            severity="information",
+            remedy="compute coefficients there",
+        )
+        for root in outside
+    )
+    return NaturalModes(hydrodynamics.modes, period, omega, shapes, ratio, notices)
+
+
+def _held(hydrodynamics: Hydrodynamics, values: FloatArray, above: FloatArray | None) -> Callable[[float], FloatArray]:
+    """Return ``values`` as a function of frequency, ends held; ``above`` approached like 1/omega^2 beyond the last."""
+    low, high = float(hydrodynamics.omega[0]), float(hydrodynamics.omega[-1])
+    spline = CubicSpline(hydrodynamics.omega, values, axis=0) if len(hydrodynamics.omega) > 1 else None
+
+    def function(omega: float) -> FloatArray:
+        inside = min(max(omega, low), high)
+        value = values[0] if spline is None else spline(inside)
+        if above is not None and omega > high:
+            value = above + (value - above) * (high / omega) ** 2
+        return np.asarray(value, dtype=float)
+
+    return function
+
+
+def added_mass_function(hydrodynamics: Hydrodynamics) -> Callable[[float], FloatArray]:
+    """Return A(omega) as a function, ends held (above: towards the infinite-frequency value where known)."""
+    return _held(hydrodynamics, hydrodynamics.added_mass, hydrodynamics.infinite_frequency_added_mass)
+
+
+def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float], FloatArray]:
+    """Return B(omega) as a function, ends held (above: towards zero)."""
+    return _held(hydrodynamics, hydrodynamics.radiation_damping, np.zeros((hydrodynamics.size,) * 2))
+
+
+def _mode_frequency(
+    pencil: Callable[[float], tuple[FloatArray, FloatArray]], number: int, hydrodynamics: Hydrodynamics
+) -> float:
+    """Return the root of ``w^2 = lambda_number(w)``: 0 without restoring, NaN with negative restoring."""
+    values = pencil(0.0)[0]
+    scale = float(np.max(np.abs(values)))
+    if scale == 0.0 or abs(values[number]) <= 1e-12 * scale:
+        return 0.0
+    if values[number] < 0.0:
+        return float("nan")
+
+    def gap(omega: float) -> float:
+        return omega**2 - float(pencil(omega)[0][number])
+
+    top = 2.0 * max(float(np.sqrt(np.max(values))), float(hydrodynamics.omega[-1]))
+    for _ in range(60):
+        if gap(top) > 0.0:
+            break
+        top *= 2.0
+    grid = np.unique(np.concatenate([[0.0], hydrodynamics.omega[hydrodynamics.omega < top], [top]]))
+    below = 0.0
+    for upper in grid[1:]:
+        if gap(float(upper)) >= 0.0:
+            return float(brentq(gap, below, float(upper), xtol=1e-13 * top, rtol=1e-13))
+        below = float(upper)
+    return float("nan")
+
+
+def _lead(vectors: FloatArray, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give every mode the motion that carries most of its kinetic energy, each motion once; scale it to 1 there."""
+    share = vectors**2 * np.diag(inertia)
+    share = share / np.sum(share, axis=1, keepdims=True)
+    row, column = linear_sum_assignment(-share)
+    order = row[np.argsort(column)]
+    shapes = vectors[order]
+    return order, shapes / np.diagonal(shapes)[:, None]

@@ -1,0 +1,380 @@
+"""Motion of a moored floating body in time: Cummins' equation with memory, nonlinear lines and drift."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.floating import kernel
+from moyai.floating.arrays import ComplexArray, FloatArray, finite, square_matrix
+from moyai.floating.damping import QuadraticDamping
+from moyai.floating.forcing import Forcing
+from moyai.floating.line_table import TabulatedMooring
+from moyai.floating.memory import Memory, StateSpaceMemory
+
+STEPS_PER_PERIOD = 40
+"""Steps in the shortest wave period: period error 1e-6 of the method, see docs/theory/floating.md."""
+STEPS_PER_NATURAL_PERIOD = 24
+"""Steps in the shortest natural period with the stiffest lines that occur; 2.2 are the limit of stability."""
+SECONDS_BETWEEN_LOOKS = 0.25
+"""CPU time of one call of the kernel, so that an interrupt is seen soon."""
+
+
+@dataclass(frozen=True)
+class CumminsModel:
+    """A floating body in time.
+
+    Parameters
+    ----------
+    inertia : ndarray (m, m)
+        M + A_inf, mass and infinite-frequency added mass.
+    stiffness : ndarray (m, m)
+        Hydrostatic restoring, and linear moorings.
+    linear_damping : ndarray (m, m)
+        Beyond radiation.
+    memory : StateSpaceMemory or ConvolutionMemory
+    mooring : TabulatedMooring or None
+        Nonlinear lines; their force at rest balances weight and buoyancy and is subtracted.
+    quadratic : QuadraticDamping or None
+    modes : tuple of str
+    """
+
+    inertia: FloatArray
+    stiffness: FloatArray
+    linear_damping: FloatArray
+    memory: Memory
+    mooring: TabulatedMooring | None = None
+    quadratic: QuadraticDamping | None = None
+    modes: tuple[str, ...] = ("sway", "heave", "roll")
+
+    def __post_init__(self) -> None:
+        size = len(self.modes)
+        for name in ("inertia", "stiffness", "linear_damping"):
+            square_matrix(getattr(self, name), size, name)
+        eigenvalues = np.linalg.eigvalsh(0.5 * (self.inertia + np.transpose(self.inertia)))
+        if eigenvalues[0] <= 0.0:
+            raise InputError("inertia with infinite-frequency added mass is not positive definite", path="inertia")
+        if self.memory.size != size or (self.mooring is not None and self.mooring.size != size):
+            raise InputError("memory or mooring has another number of modes", path="modes", allowed=f"{size}")
+
+
+Status = Literal["converged", "diverged", "interrupted"]
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """A simulated motion. Rows are instants.
+
+    Parameters
+    ----------
+    time : ndarray (n,)
+        [s].
+    position, velocity : ndarray (n, m)
+        Relative to rest [m, rad; per second].
+    mooring_force : ndarray (n, m)
+        Of all nonlinear lines, at-rest force included [N, N m].
+    line_pull : ndarray (n, l, 2)
+        Horizontal and downward pull of one line of each kind on its fairlead [N].
+    elevation : ndarray (n,)
+        Incident surface at x = 0 [m].
+    time_step : float
+        Of the integrator [s].
+    status : {"converged", "diverged", "interrupted"}
+        Diverged and interrupted runs hold what was computed: the last row is the last good state.
+    message : str
+    notices : tuple of Notice
+        Why this time step, and this memory.
+    cost : mapping
+        CPU seconds of the parts, and the number of steps.
+    """
+
+    time: FloatArray
+    position: FloatArray
+    velocity: FloatArray
+    mooring_force: FloatArray
+    line_pull: FloatArray
+    elevation: FloatArray
+    time_step: float
+    status: Status
+    message: str
+    notices: tuple[Notice, ...] = ()
+    cost: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def tension(self) -> FloatArray:
+        """Fairlead tension (n, l) of one line of each kind [N]."""
+        return np.hypot(self.line_pull[..., 0], self.line_pull[..., 1])
+
+
+def choose_time_step(
+    model: CumminsModel, forcing: Forcing, expected_motion: ArrayLike | None = None
+) -> tuple[float, Notice]:
+    """Choose the time step and say why.
+
+    Parameters
+    ----------
+    model : CumminsModel
+    forcing : Forcing
+    expected_motion : array_like (m,) or None
+        Amplitudes at which the lines' stiffness is looked up, beside rest; for instance twice the linear motion.
+
+    Returns
+    -------
+    time_step : float
+        [s], already fitted to the forcing.
+    notice : Notice
+        Which of wave period, stiffest natural period and memory decides.
+    """
+    limits: dict[str, float] = {}
+    if math.isfinite(forcing.shortest_period):
+        limits["the shortest wave period that matters"] = forcing.shortest_period / STEPS_PER_PERIOD
+    stiffness = [0.0]
+    offsets = (
+        np.zeros(len(model.modes)) if expected_motion is None else np.abs(np.asarray(expected_motion, dtype=float))
+    )
+    for sign in (0.0, 1.0, -1.0) if model.mooring is not None else (0.0,):
+        restoring = np.array(model.stiffness, dtype=float)
+        if model.mooring is not None:
+            restoring = restoring + model.mooring.stiffness(sign * offsets)
+        values = np.linalg.eigvals(np.linalg.solve(model.inertia, restoring))
+        stiffness.append(float(np.max(np.abs(values))))
+    if max(stiffness) > 0.0:
+        natural = 2.0 * math.pi / math.sqrt(max(stiffness))
+        limits["the shortest natural period with the stiffest lines"] = natural / STEPS_PER_NATURAL_PERIOD
+    if not limits:
+        raise InputError("neither wave nor restoring sets a time scale", path="time_step", remedy="give a time step")
+    reason = min(limits, key=lambda name: limits[name])
+    step = forcing.fitted_step(limits[reason])
+    notice = Notice(
+        code="time-step",
+        message=f"time step {step:.4g} s, set by {reason}",
+        value=step,
+        limit=limits[reason],
+        severity="information",
+        remedy="give a shorter step to see its effect; the method is of fourth order",
+    )
+    return step, notice
+
+
+def exponential_weights(poles: ComplexArray, step: float) -> tuple[ComplexArray, ...]:
+    """Return exp(hL/2), exp(hL) and the weights Q, f1, f2, f3 of ETDRK4 [eq:floating-etd].
+
+    Weights are means over a circle around each h L (Kassam and Trefethen 2005), exact to rounding where the closed
+    forms lose all digits.
+    """
+    scaled = np.asarray(poles, dtype=np.complex128) * step
+    points = 64
+    circle = np.exp(2j * np.pi * (np.arange(points) + 0.5) / points)
+    x = scaled[:, None] + circle[None, :]
+    grown = np.exp(x)
+    return (
+        np.exp(scaled / 2.0),
+        np.exp(scaled),
+        step * np.mean((np.exp(x / 2.0) - 1.0) / x, axis=1),
+        step * np.mean((-4.0 - x + grown * (4.0 - 3.0 * x + x**2)) / x**3, axis=1),
+        step * np.mean((2.0 + x + grown * (x - 2.0)) / x**3, axis=1),
+        step * np.mean((-4.0 - 3.0 * x - x**2 + grown * (4.0 - x)) / x**3, axis=1),
+    )
+
+
+def simulate(
+    model: CumminsModel,
+    forcing: Forcing,
+    *,
+    duration: float,
+    time_step: float | None = None,
+    save_interval: float | None = None,
+    initial_position: ArrayLike | None = None,
+    initial_velocity: ArrayLike | None = None,
+    expected_motion: ArrayLike | None = None,
+    motion_limit: ArrayLike | None = None,
+    progress: Progress = silent,
+) -> Simulation:
+    """Integrate the motion of a floating body.
+
+    Parameters
+    ----------
+    model : CumminsModel
+    forcing : Forcing
+        Waves, drift and steady loads.
+    duration : float
+        [s], ramp included.
+    time_step : float or None
+        ``None``: chosen by :func:`choose_time_step`. A given step may be shortened to divide the wave period.
+    save_interval : float or None
+        Output every so many seconds, rounded to whole steps; ``None`` for every step.
+    initial_position, initial_velocity : array_like (m,) or None
+        Rest by default; the memory starts empty.
+    expected_motion : array_like (m,) or None
+        For the choice of the time step.
+    motion_limit : array_like (m,) or None
+        A larger motion counts as diverged; by default a thousand times the span of the lines, or none without lines.
+    progress : Progress
+        Told now and then; may raise KeyboardInterrupt.
+
+    Returns
+    -------
+    Simulation
+        Never raises on divergence or interruption: the status tells, and what was computed is there.
+
+    Raises
+    ------
+    InputError
+        When an argument is out of range.
+    """
+    size = len(model.modes)
+    if not duration > 0.0 or not math.isfinite(duration):
+        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0")
+    notices: list[Notice] = []
+    if time_step is None:
+        step, notice = choose_time_step(model, forcing, expected_motion)
+        notices.append(notice)
+    else:
+        if not time_step > 0.0:
+            raise InputError(f"time step is {time_step:g} s", path="time_step", allowed="greater than 0")
+        step = forcing.fitted_step(time_step)
+    steps = math.ceil(duration / step - 1e-9)
+    every = 1 if save_interval is None else max(1, round(save_interval / step))
+    q, v = (
+        np.zeros(size) if item is None else np.array(finite(np.asarray(item, dtype=float), "initial state"))
+        for item in (initial_position, initial_velocity)
+    )
+    started = clock.process_time()
+    force, elevation = forcing.sample(0.5 * step, 2 * steps + 1)
+    force = np.ascontiguousarray(finite(force, "force"))
+    cost = {"excitation": clock.process_time() - started, "steps": float(steps)}
+    lines, rest, line_count = _packed_lines(model.mooring, size)
+    body = _packed_body(model)
+    rows = steps // every + 1
+    saved = (np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, line_count, 2)))
+    saved[0][0], saved[1][0] = q, v
+    if model.mooring is not None:
+        saved[2][0], saved[3][0] = model.mooring.forces(q)
+    limit = np.full(size, np.inf) if motion_limit is None else np.asarray(motion_limit, dtype=float)
+    if motion_limit is None and model.mooring is not None:
+        limit = np.full(size, 1e3 * float(np.max(np.abs(model.mooring.anchor))))
+    limit = np.where(np.isinf(limit), 1e30, limit)
+    advance, memory_notice = _stepper(model.memory, q, v, step, force, body, lines, rest, limit, every, saved)
+    notices.extend(memory_notice)
+    started = clock.process_time()
+    done, status, message = _drive(advance, steps, step, progress)
+    cost["kernel"] = clock.process_time() - started
+    good = done // every + 1
+    return Simulation(
+        time=step * every * np.arange(good),
+        position=saved[0][:good],
+        velocity=saved[1][:good],
+        mooring_force=saved[2][:good],
+        line_pull=saved[3][:good],
+        elevation=elevation[:: 2 * every][:good],
+        time_step=step,
+        status=status,
+        message=message,
+        notices=tuple(notices),
+        cost=cost,
+    )
+
+
+def _packed_lines(mooring: TabulatedMooring | None, size: int) -> tuple[tuple[FloatArray, ...], FloatArray, int]:
+    """Return the lines as kernel arrays, their force at rest and their number."""
+    if mooring is not None:
+        return mooring.packed(), mooring.force(np.zeros(size)), mooring.lines
+    empty: tuple[Any, ...] = (
+        np.zeros(0),
+        np.zeros(0),
+        np.zeros(0),
+        np.zeros((0, 8), dtype=np.int64),
+        np.zeros((0, 3)),
+        np.zeros((0, 3)),
+        np.zeros(0),
+    )
+    return empty, np.zeros(size), 0
+
+
+def _packed_body(model: CumminsModel) -> tuple[FloatArray, ...]:
+    size = len(model.modes)
+    quadratic = model.quadratic
+    return (
+        np.ascontiguousarray(np.linalg.inv(model.inertia)),
+        np.ascontiguousarray(np.asarray(model.linear_damping, dtype=float) + model.memory.dashpot),
+        np.ascontiguousarray(model.stiffness, dtype=float),
+        np.zeros((0, size)) if quadratic is None else np.ascontiguousarray(quadratic.directions),
+        np.zeros(0) if quadratic is None else np.ascontiguousarray(quadratic.coefficients),
+    )
+
+
+def _stepper(
+    memory: Memory,
+    q: FloatArray,
+    v: FloatArray,
+    step: float,
+    force: FloatArray,
+    body: tuple[FloatArray, ...],
+    lines: tuple[FloatArray, ...],
+    rest: FloatArray,
+    limit: FloatArray,
+    every: int,
+    saved: tuple[FloatArray, ...],
+) -> tuple[Any, tuple[Notice, ...]]:
+    """Return ``advance(first, steps) -> (status, good steps)`` for the memory at hand, and what there is to say."""
+    if isinstance(memory, StateSpaceMemory):
+        z = np.zeros(len(memory.poles), dtype=np.complex128)
+        weights = exponential_weights(memory.poles, step)
+        inputs, outputs = np.ascontiguousarray(memory.inputs), np.ascontiguousarray(memory.outputs)
+
+        def advance_states(first: int, count: int) -> tuple[int, int]:
+            return kernel.run_state_space(
+                q, v, z, first, count, step, force, body, lines, rest, weights, inputs, outputs, limit, every, saved
+            )  # fmt: skip
+
+        return advance_states, ()
+    values = memory.on_steps(0.5 * step)
+    history = np.zeros((values.shape[0] // 2 + 1, len(q)))
+
+    def advance_convolution(first: int, count: int) -> tuple[int, int]:
+        return kernel.run_convolution(
+            q, v, history, first, count, step, force, body, lines, rest, values, limit, every, saved
+        )  # fmt: skip
+
+    notice = Notice(
+        code="memory-length",
+        message=f"memory of {memory.time[-1]:.4g} s as a convolution of {history.shape[0]} steps",
+        value=float(memory.time[-1]),
+        severity="information",
+    )
+    return advance_convolution, (notice,)
+
+
+def _drive(advance: Any, steps: int, step: float, progress: Progress) -> tuple[int, Status, str]:
+    """Call the kernel in pieces of a fraction of a second, so that an interrupt and the listener get their turn."""
+    done, piece = 0, 64
+    try:
+        while done < steps:
+            count = min(piece, steps - done)
+            began = clock.perf_counter()
+            code, good = advance(done, count)
+            done += good
+            if code == kernel.DIVERGED:
+                where = done * step
+                return (
+                    done,
+                    "diverged",
+                    f"the motion grew without bound after {where:.4g} s; the rows before it are good",
+                )
+            spent = clock.perf_counter() - began
+            progress("time domain", done * step, steps * step)
+            if spent < SECONDS_BETWEEN_LOOKS:
+                # The first call may have compiled; grow towards the wanted duration without leaping past it
+                piece = min(4 * piece, max(64, int(count * SECONDS_BETWEEN_LOOKS / max(spent, 1e-6))))
+    except KeyboardInterrupt:
+        return done, "interrupted", f"interrupted at {done * step:.4g} s of {steps * step:.4g} s"
+    return done, "converged", ""
