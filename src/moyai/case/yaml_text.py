@@ -1,0 +1,145 @@
+"""The text of a YAML file: its encoding, odd characters, and syntax faults in plain words."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from moyai.core.errors import CaseError, Fault
+
+# Everything that YAML 1.2 does not print; a NUL or a lone surrogate would also end libyaml's text early
+_ODD = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff")
+
+_PLAIN: tuple[tuple[str, str, str], ...] = (
+    (
+        "mapping values are not allowed",
+        "a ':' stands where no key can begin",
+        "check the ':' and the indentation of this line and the one above, or quote a value that contains ': '",
+    ),
+    ("could not find expected ':'", "this line has no ':' after its key", "write 'key: value'"),
+    ("did not find expected ',' or ']'", "the '[' opened in line {context} is not closed", "add ',' or ']'"),
+    ("did not find expected ',' or '}'", "the '{{' opened in line {context} is not closed", "add ',' or '}}'"),
+    ("expected ',' or ']'", "the '[' opened in line {context} is not closed", "add ',' or ']'"),
+    ("expected ',' or '}'", "the '{{' opened in line {context} is not closed", "add ',' or '}}'"),
+    (
+        "unexpected end of stream",
+        "the quotation mark opened in line {context} is not closed",
+        "close it, or remove it",
+    ),
+    (
+        "did not find expected '-' indicator",
+        "this line does not continue the list that begins in line {context}",
+        "begin it with '- ' or mend its indentation",
+    ),
+    (
+        "did not find expected key",
+        "this line does not fit the block that begins in line {context}",
+        "mend its indentation",
+    ),
+    (
+        "expected <block end>",
+        "this line does not fit the block that begins in line {context}",
+        "mend its indentation",
+    ),
+    ("block sequence entries are not allowed", "a list entry '- ' may not begin here", "put it on its own line"),
+    ("found undefined alias", "an alias refers to an anchor that is not defined above", ""),
+    ("found duplicate anchor", "this anchor name is used twice", ""),
+)
+
+
+def decode(raw: bytes, file: str) -> str:
+    """Return the text of a UTF-8 file, with line ends made ``\\n``.
+
+    Raises
+    ------
+    CaseError
+        For any other encoding, with the line of the first byte that does not fit.
+    """
+    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise CaseError([Fault("the file is UTF-16", file=file, allowed="UTF-8", remedy="save it again as UTF-8")])
+    if raw.startswith(b"\xef\xbb\xbf"):
+        raw = raw[3:]
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        column = len(raw[raw.rfind(b"\n", 0, error.start) + 1 : error.start].decode("utf-8", "replace")) + 1
+        likely = _likely_encoding(raw)
+        raise CaseError(
+            [
+                Fault(
+                    "the file is not UTF-8" + (f" (it looks like {likely})" if likely else ""),
+                    file=file,
+                    line=line,
+                    column=column,
+                    remedy="save it again as UTF-8",
+                )
+            ]
+        ) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _likely_encoding(raw: bytes) -> str:
+    for codec, name in (("cp932", "Shift-JIS"), ("euc_jp", "EUC-JP")):
+        try:
+            text = raw.decode(codec)
+        except UnicodeDecodeError:
+            continue
+        # Western accents decode as half-width katakana or rare signs; Japanese text has kana or ideographs
+        if re.search("[\u3040-\u30ff\u4e00-\u9fff]", text):
+            return name
+    return "Windows-1252" if not re.search(rb"[\x81\x8d\x8f\x90\x9d]", raw) else ""
+
+
+def refuse_odd_characters(text: str, file: str) -> None:
+    """Raise a fault at the first character that a YAML file may not hold."""
+    found = _ODD.search(text)
+    if found is None:
+        return
+    line = text.count("\n", 0, found.start()) + 1
+    column = found.start() - text.rfind("\n", 0, found.start())
+    raise CaseError(
+        [
+            Fault(
+                f"the character U+{ord(found[0]):04X} may not stand in a YAML file",
+                file=file,
+                line=line,
+                column=column,
+                remedy="remove it; is this a text file?",
+            )
+        ]
+    )
+
+
+def syntax_fault(error: Any, text: str, file: str) -> Fault:
+    """Return a scanner's or parser's fault in plain words.
+
+    Parameters
+    ----------
+    error : yaml.MarkedYAMLError
+        What PyYAML or libyaml raised.
+    text, file : str
+        The file, for its lines and its name.
+    """
+    mark = error.problem_mark or error.context_mark
+    line = mark.line + 1 if mark else 1
+    column = mark.column + 1 if mark else 1
+    context = error.context_mark.line + 1 if error.context_mark else line
+    problem = str(error.problem or error)
+    lines = text.split("\n")
+    written = lines[line - 1] if line <= len(lines) else ""
+
+    def fault(message: str, remedy: str = "") -> Fault:
+        return Fault(message, "", "", remedy, file, line, column)
+
+    if "cannot start any token" in problem:
+        character = written[column - 1 : column]
+        if character == "\t" or "\t" in written[: len(written) - len(written.lstrip())]:
+            return fault("a tab cannot indent in YAML", "indent with spaces")
+        return fault(f"a value may not begin with '{character}'", "put quotes around it")
+    if "tab character" in problem:
+        return fault("a tab cannot indent in YAML", "indent with spaces")
+    for part, message, remedy in _PLAIN:
+        if part in problem:
+            return fault(message.format(context=context), remedy.replace("{{", "{").replace("}}", "}"))
+    return fault(f"this is not YAML: {problem}")
