@@ -1,0 +1,128 @@
+"""Identities that coefficients of any program must obey: a wrong sign or time factor shows here, not in the motions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.sea.dispersion import group_velocity, wave_number
+
+
+def check_coefficients(dataset: xr.Dataset, *, tolerance: float = 0.05) -> tuple[IdentityCheck, ...]:
+    """Hold symmetry and passivity against coefficients of :mod:`moyai.interop.coefficients`.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    tolerance : float
+        Accepted violation; panel programs reach a few per cent on coarse meshes and near irregular frequencies.
+
+    Returns
+    -------
+    tuple of IdentityCheck
+        Symmetry of added mass and damping, damping that takes no energy out of still water.
+    """
+    added_mass, damping = dataset["added_mass"].values, dataset["radiation_damping"].values
+    scale = np.sqrt(np.abs(np.einsum("nii,njj->nij", added_mass, added_mass)))
+    floor = 1e-6 * scale.max(axis=0, keepdims=True) + 1e-30 * scale.max()
+    return (
+        IdentityCheck(
+            "symmetry of the added mass",
+            float(np.max(np.abs(added_mass - added_mass.transpose(0, 2, 1)) / np.maximum(scale, floor))),
+            tolerance,
+            "A_ij = A_ji, relative to (A_ii A_jj)^(1/2)",
+        ),
+        IdentityCheck(
+            "symmetry of the radiation damping",
+            _relative(np.abs(damping - damping.transpose(0, 2, 1)), damping),
+            tolerance,
+            "B_ij = B_ji, relative to the largest (B_ii B_jj)^(1/2)",
+        ),
+        IdentityCheck(
+            "radiation takes energy from the body",
+            _relative(np.maximum(-np.einsum("nii->ni", damping), 0.0)[:, :, None] * np.eye(damping.shape[1]), damping),
+            tolerance,
+            "B_ii >= 0, relative to the largest B_ii",
+        ),
+    )
+
+
+def _relative(violation: np.ndarray, damping: np.ndarray) -> float:
+    """Return the largest violation relative to the band maximum of the diagonal terms."""
+    peak = np.max(np.abs(np.einsum("nii->ni", damping)), axis=0)
+    # Motions that make no waves (yaw of a body of revolution) are held against a millionth of the others' scale
+    peak = np.maximum(peak, 1e-6 * peak.max())
+    return float(np.max(violation / np.sqrt(peak[:, None] * peak[None, :])))
+
+
+def check_time_convention(dataset: xr.Dataset) -> tuple[Notice, ...]:
+    """Tell when the exciting force at the lowest frequency speaks against ``exp(-i omega t)``.
+
+    In long waves the heave force of a floating body is the stiffness rho g A_w times the surface, so its real part is
+    positive; the force along the waves follows the acceleration, rho g k V (1 + C_a) times -i. The other time factor or
+    the opposite direction of travel turns its sign. Submerged bodies have no such heave force and are judged by
+    the horizontal force alone. Equation [eq:long-wave-force].
+    """
+    notices = []
+    low = dataset.isel(omega=0)
+    names = [str(name) for name in dataset["influenced_dof"].values]
+    forces = low["excitation_force"].values
+    for j, angle in enumerate(low["wave_direction"].values):
+        for name, part in (("Surge", math.cos(angle)), ("Sway", math.sin(angle))):
+            if name in names and abs(part) > 0.5:
+                force = forces[j, names.index(name)]
+                if -force.imag * part < 0.5 * abs(force):
+                    notices.append(
+                        Notice(
+                            "time-convention",
+                            f"the {name.lower()} force at {low['omega'].item():.4g} rad/s and "
+                            f"{math.degrees(angle):.4g} degrees does not follow the acceleration of the water: "
+                            "another time factor, direction or phase origin?",
+                            value=float(np.angle(force)),
+                            limit=-0.5 * math.pi * math.copysign(1.0, part),
+                            severity="error",
+                            remedy="check the conventions of the program that wrote the file",
+                        )
+                    )
+        if "Heave" in names and "hydrostatic_stiffness" in dataset:
+            i = names.index("Heave")
+            stiffness = float(dataset["hydrostatic_stiffness"].values[i, i])
+            if stiffness > 0.0 and abs(forces[j, i] - stiffness) > 0.5 * stiffness:
+                notices.append(
+                    Notice(
+                        "long-wave-heave",
+                        f"the heave force at {low['omega'].item():.4g} rad/s is {forces[j, i]:.4g} N/m, "
+                        f"the heave stiffness {stiffness:.4g} N/m: they agree in long waves",
+                        value=float(abs(forces[j, i])),
+                        limit=stiffness,
+                        remedy="check units and sign of the file, or whether its lowest frequency is low enough",
+                    )
+                )
+    return tuple(notices)
+
+
+def haskind_damping_axisymmetric(dataset: xr.Dataset) -> xr.DataArray:
+    """Return the damping that the exciting force implies for a body of revolution about the vertical.
+
+    Equation [eq:haskind-axisymmetric]: energy radiated by a motion follows from the force that waves exert in it. Surge
+    needs waves along x. Water of any depth.
+
+    Returns
+    -------
+    xarray.DataArray
+        Surge, heave and pitch damping, dims ``omega, radiating_dof``.
+    """
+    omega = dataset["omega"].values
+    depth, gravity, density = float(dataset["water_depth"]), float(dataset["g"]), float(dataset["rho"])
+    number = np.asarray(wave_number(omega, depth, gravity))
+    speed = np.asarray(group_velocity(omega, depth, gravity))
+    along = dataset["excitation_force"].sel(wave_direction=0.0, method="nearest", tolerance=1e-6)
+    names = ["Surge", "Heave", "Pitch"]
+    # The force varies as cos(direction) for surge and pitch: its square has the mean 1/2
+    mean = np.array([0.5, 1.0, 0.5])
+    squares = np.abs(along.sel(influenced_dof=names).values) ** 2
+    values = number[:, None] * squares * mean / (4.0 * density * gravity * speed[:, None])
+    return xr.DataArray(values, dims=("omega", "radiating_dof"), coords={"omega": omega, "radiating_dof": names})

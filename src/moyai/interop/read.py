@@ -1,0 +1,52 @@
+"""One door for all programs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from moyai.core.errors import InputError
+from moyai.interop.aqwa import read_aqwa
+from moyai.interop.bemio import read_bemio
+from moyai.interop.capytaine import read_capytaine
+from moyai.interop.nemoh import read_nemoh
+from moyai.interop.wamit import read_wamit
+
+_READERS: dict[str, Callable[..., xr.Dataset]] = {
+    "aqwa": read_aqwa,
+    "bemio": read_bemio,
+    "capytaine": read_capytaine,
+    "nemoh": read_nemoh,
+    "wamit": read_wamit,
+}
+
+
+def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any] | None = None) -> xr.Dataset:
+    """Read hydrodynamic coefficients of a three-dimensional body.
+
+    Parameters
+    ----------
+    program : {"aqwa", "bemio", "capytaine", "nemoh", "wamit"}
+        Program that wrote the files.
+    path : path
+        File or folder.
+    options : mapping, optional
+        Arguments of the program's reader, for instance ``density`` and ``reference_point``.
+
+    Raises
+    ------
+    InputError
+        Unknown program or option; everything that the readers refuse.
+    """
+    if program not in _READERS:
+        raise InputError(f"unknown program {program!r}", path="program", allowed=", ".join(_READERS))
+    reader = _READERS[program]
+    try:
+        return reader(path, **dict(options or {}))
+    except TypeError as error:
+        if f"{reader.__name__}()" not in str(error):
+            raise
+        raise InputError(str(error).replace(f"{reader.__name__}()", program), path="options") from error

@@ -1,0 +1,324 @@
+"""WAMIT number files: .1 added mass and damping, .3 exciting force, .hst hydrostatics, .8 and .9 mean drift.
+
+The files are non-dimensional: A = rho L^k, B = rho L^k omega, X = rho g A L^m, with k = 3, 4, 5 and m = 2, 3 for
+translations, mixed terms and rotations; L is ULEN. WAMIT's time factor is exp(+i omega t): forces are conjugated.
+In the first column a period of -1 stands for zero and 0 for infinite frequency; these rows have no damping.
+
+HAMS writes the same layout, but its first column may be a wave number, and the meaning of 0 and -1 then is not the
+same: it is taken from the user or refused.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.interop.coefficients import DOFS, ComplexArray, FloatArray, assemble, require
+from moyai.interop.textfiles import find_companion, leading_numbers, read_lines, read_table
+from moyai.sea.dispersion import angular_frequency
+
+FirstColumn = Literal["period", "angular_frequency", "wave_number"]
+
+_ROTATION = np.array([0, 0, 0, 1, 1, 1])
+
+
+@dataclass(frozen=True)
+class _Surroundings:
+    """What the input files beside the number files tell; ``None`` where they do not."""
+
+    gravity: float | None = None
+    length_scale: float | None = None
+    water_depth: float | None = None
+    reference_point: tuple[float, float, float] | None = None
+    first_column: FirstColumn | None = None
+    hams: bool = False
+
+
+def read_wamit(
+    path: str | Path,
+    *,
+    density: float,
+    gravity: float | None = None,
+    length_scale: float | None = None,
+    water_depth: float | None = None,
+    reference_point: Sequence[float] | None = None,
+    first_column: FirstColumn | None = None,
+    zero_frequency_code: float | None = None,
+    infinite_frequency_code: float | None = None,
+) -> xr.Dataset:
+    """Read the WAMIT files of one body.
+
+    Parameters
+    ----------
+    path : path
+        The .1 file, or any file with the same stem; .3 must stand beside it, .hst, .8 and .9 are read where present.
+    density : float
+        Water density rho [kg/m3].
+    gravity, length_scale : float, optional
+        g [m/s2] and ULEN [m]; from the .gdf file when absent.
+    water_depth : float, optional
+        Depth [m], ``inf`` allowed; from the .pot file when absent.
+    reference_point : sequence of three float, optional
+        Origin of the body axes in the global ones, XBODY [m]; from the .pot file when absent.
+    first_column : {"period", "angular_frequency", "wave_number"}, optional
+        Meaning of the first column; period unless the .cfg file says otherwise. Must be given for HAMS.
+    zero_frequency_code, infinite_frequency_code : float, optional
+        Values of the first column that stand for the limits; -1 and 0 when the first column is WAMIT's period,
+        to be given otherwise when such rows occur.
+
+    Returns
+    -------
+    xarray.Dataset
+        See :mod:`moyai.interop.coefficients`.
+
+    Raises
+    ------
+    InputError
+        Missing files or facts, incomplete tables, an ambiguous first column, a body turned about the vertical.
+    """
+    file = Path(path)
+    first = find_companion(file, ".1")
+    third = find_companion(file, ".3")
+    if first is None or third is None:
+        raise InputError(f"no {file.stem}{'.1' if first is None else '.3'} in {file.parent}", path="coefficients")
+    told = _read_surroundings(first)
+    column = first_column or told.first_column
+    if column is None:
+        if told.hams:
+            raise InputError(
+                f"{first.name} was written by HAMS: its first column may be a wave number, frequency or period",
+                path="first_column",
+                allowed="period, angular_frequency, wave_number",
+                remedy="look up Output_frequency_type in ControlFile.in and give first_column",
+            )
+        column = "period"
+    if column == "period" and not told.hams:
+        zero_frequency_code = -1.0 if zero_frequency_code is None else zero_frequency_code
+        infinite_frequency_code = 0.0 if infinite_frequency_code is None else infinite_frequency_code
+    gravity = told.gravity if gravity is None else gravity
+    length_scale = told.length_scale if length_scale is None else length_scale
+    water_depth = told.water_depth if water_depth is None else water_depth
+    reference_point = told.reference_point if reference_point is None else reference_point
+    require(
+        first.name,
+        gravity=gravity,
+        length_scale=length_scale,
+        water_depth=water_depth,
+        reference_point=reference_point,
+    )
+    assert gravity is not None and length_scale is not None and water_depth is not None and reference_point is not None
+    converter = _FirstColumn(column, zero_frequency_code, infinite_frequency_code, water_depth, gravity, first.name)
+    omega, added_mass, damping, limits = _read_radiation(first, converter)
+    directions, excitation = _read_forces(third, converter, omega)
+    mass_scale = density * length_scale ** (3 + _ROTATION[:, None] + _ROTATION[None, :])
+    force_scale = density * gravity * length_scale ** (2 + _ROTATION)
+    hydrostatics = find_companion(first, ".hst")
+    stiffness = None
+    if hydrostatics is not None:
+        stiffness = (
+            _read_stiffness(hydrostatics)
+            * density
+            * gravity
+            * length_scale ** (2 + _ROTATION[:, None] + _ROTATION[None, :])
+        )
+    drift = _read_drift(first, converter, omega, directions)
+    return assemble(
+        program="HAMS" if told.hams else "WAMIT",
+        source=first.name,
+        dofs=DOFS,
+        omega=omega,
+        added_mass=added_mass * mass_scale,
+        radiation_damping=damping * mass_scale * omega[:, None, None],
+        wave_direction=np.radians(directions),
+        forces={"excitation_force": np.asarray(np.conj(excitation) * force_scale, dtype=complex)},
+        density=density,
+        gravity=gravity,
+        water_depth=water_depth,
+        reference_point=reference_point,
+        limits={name: values * mass_scale for name, values in limits.items()},
+        hydrostatic_stiffness=stiffness,
+        mean_drift_force=None if drift is None else drift * density * gravity * length_scale ** (1 + _ROTATION),
+    )
+
+
+@dataclass(frozen=True)
+class _FirstColumn:
+    """Turns the first column into angular frequency; the limits become 0 and infinity."""
+
+    kind: FirstColumn
+    zero_code: float | None
+    infinite_code: float | None
+    water_depth: float
+    gravity: float
+    source: str
+
+    def __call__(self, values: FloatArray) -> FloatArray:
+        omega = np.full(values.shape, np.nan)
+        special = values <= 0.0
+        if self.zero_code is not None:
+            omega[values == self.zero_code] = 0.0
+        if self.infinite_code is not None:
+            omega[values == self.infinite_code] = np.inf
+        undecided = special & np.isnan(omega)
+        if np.any(undecided):
+            raise InputError(
+                f"{self.source}: {values[undecided][0]:g} in the first column ({self.kind}) may mean zero "
+                "or infinite frequency",
+                path="zero_frequency_code, infinite_frequency_code",
+                remedy="say which by zero_frequency_code and infinite_frequency_code",
+            )
+        ordinary = np.isnan(omega)
+        if self.kind == "period":
+            omega[ordinary] = 2.0 * math.pi / values[ordinary]
+        elif self.kind == "angular_frequency":
+            omega[ordinary] = values[ordinary]
+        elif self.kind == "wave_number":
+            omega[ordinary] = angular_frequency(values[ordinary], self.water_depth, self.gravity)
+        else:
+            raise InputError(f"{self.kind!r}", path="first_column", allowed="period, angular_frequency, wave_number")
+        return omega
+
+
+def _read_radiation(
+    path: Path, converter: _FirstColumn
+) -> tuple[FloatArray, FloatArray, FloatArray, dict[str, FloatArray]]:
+    rows = read_table(path, (4, 5))
+    keys = np.array([row[0] for row in rows])
+    indices = np.array([row[1:3] for row in rows], dtype=int) - 1
+    if indices.min() < 0 or indices.max() > 5:
+        raise InputError(
+            f"{path.name}: modes beyond 6 (several bodies or generalised modes) are not covered", path="coefficients"
+        )
+    values = np.array([row[3:] if len(row) == 5 else [row[3], np.nan] for row in rows])
+    unique, inverse = np.unique(keys, return_inverse=True)
+    omega = converter(unique)
+    # Terms that WAMIT leaves out are zero by symmetry of the body
+    added_mass = np.zeros((unique.size, 6, 6))
+    damping = np.zeros((unique.size, 6, 6))
+    # Row "i j" is the force in i for the motion j, so that j radiates
+    added_mass[inverse, indices[:, 1], indices[:, 0]] = values[:, 0]
+    damping[inverse, indices[:, 1], indices[:, 0]] = values[:, 1]
+    ordinary = np.isfinite(omega) & (omega > 0.0)
+    limits = {}
+    for name, limit in (
+        ("zero_frequency_added_mass", omega == 0.0),
+        ("infinite_frequency_added_mass", np.isinf(omega)),
+    ):
+        if np.any(limit):
+            limits[name] = added_mass[limit][0]
+    return omega[ordinary], added_mass[ordinary], damping[ordinary], limits
+
+
+def _read_forces(path: Path, converter: _FirstColumn, omega: FloatArray) -> tuple[FloatArray, ComplexArray]:
+    rows = np.array(read_table(path, (7,)))
+    directions = np.unique(rows[:, 1])
+    frequencies = converter(rows[:, 0])
+    forces = np.zeros((omega.size, directions.size, 6), dtype=complex)
+    found = np.zeros((omega.size, directions.size), dtype=bool)
+    for row, frequency in zip(rows, frequencies):
+        if frequency == 0.0 or not math.isfinite(frequency):
+            continue
+        i = _nearest(omega, frequency, path)
+        j = int(np.searchsorted(directions, row[1]))
+        forces[i, j, int(row[2]) - 1] = complex(row[5], row[6])
+        found[i, j] = True
+    if not found.all():
+        raise InputError(
+            f"{path.name}: {np.count_nonzero(~found)} pairs of frequency and heading have no exciting force",
+            path="coefficients",
+        )
+    return directions, forces
+
+
+def _nearest(omega: FloatArray, frequency: float, path: Path) -> int:
+    """Return the index of a frequency; the files print seven digits or fewer."""
+    i = int(np.argmin(np.abs(omega - frequency)))
+    if abs(omega[i] - frequency) > 2e-5 * frequency:
+        raise InputError(f"{path.name}: frequency {frequency:.6g} rad/s is not in the .1 file", path="coefficients")
+    return i
+
+
+def _read_stiffness(path: Path) -> NDArray[np.float64]:
+    stiffness = np.zeros((6, 6))
+    for i, j, value in read_table(path, (3,)):
+        stiffness[int(i) - 1, int(j) - 1] = value
+    return stiffness
+
+
+def _read_drift(path: Path, converter: _FirstColumn, omega: FloatArray, directions: FloatArray) -> FloatArray | None:
+    """Return the mean drift of long-crested waves, pressure integration (.9) first, else momentum (.8)."""
+    for suffix in (".9", ".8"):
+        file = find_companion(path, suffix)
+        if file is None:
+            continue
+        drift = np.full((omega.size, directions.size, 6), np.nan)
+        for period, heading, second, mode, *_, real, _imaginary in read_table(file, (8,)):
+            # Pairs of different headings belong to short-crested seas; negative modes repeat moments in body axes
+            if heading != second or mode < 0:
+                continue
+            i = _nearest(omega, float(converter(np.array([period]))[0]), file)
+            drift[i, np.argmin(np.abs(directions - heading)), int(mode) - 1] = real
+        return drift
+    return None
+
+
+def _read_surroundings(path: Path) -> _Surroundings:
+    gravity = length_scale = water_depth = None
+    point: tuple[float, float, float] | None = None
+    column: FirstColumn | None = None
+    geometry = find_companion(path, ".gdf")
+    if geometry is not None:
+        numbers = leading_numbers(read_lines(geometry)[1])
+        if len(numbers) >= 2:
+            length_scale, gravity = numbers[0], numbers[1]
+    potential = find_companion(path, ".pot")
+    if potential is not None:
+        water_depth, point = _read_potential_control(potential)
+    configuration = find_companion(path, ".cfg")
+    if configuration is not None:
+        for line in read_lines(configuration):
+            key, _, value = line.partition("=")
+            numbers = leading_numbers(value)
+            if key.strip().upper() == "IPEROUT" and numbers and numbers[0] != 1:
+                if numbers[0] != 2:
+                    raise InputError(
+                        f"{configuration.name}: IPEROUT = {numbers[0]:g}: the first column is a wave number",
+                        path="first_column",
+                        remedy="give first_column='wave_number' after dividing by ULEN, or run WAMIT with IPEROUT = 1",
+                    )
+                column = "angular_frequency"
+    hams = any(entry.name.lower() == "controlfile.in" for entry in path.parent.iterdir())
+    return _Surroundings(gravity, length_scale, water_depth, point, column, hams)
+
+
+def _read_potential_control(path: Path) -> tuple[float | None, tuple[float, float, float] | None]:
+    """Return depth and XBODY of a .pot file in WAMIT's alternative form 2 (one number, HBOT, on its second line)."""
+    lines = read_lines(path)
+    if len(lines) < 2 or len(leading_numbers(lines[1])) != 1:
+        return None, None
+    depth = leading_numbers(lines[1])[0]
+    water_depth = depth if depth > 0.0 else math.inf
+    for number, line in enumerate(lines):
+        if (
+            line.strip().lower().split()[:1]
+            and line.strip().lower().split()[0].endswith(".gdf")
+            and number + 1 < len(lines)
+        ):
+            numbers = leading_numbers(lines[number + 1])
+            if len(numbers) >= 4:
+                if numbers[3] != 0.0:
+                    raise InputError(
+                        f"{path.name}: the body is turned by {numbers[3]:g} degrees about the vertical",
+                        path="coefficients",
+                        remedy="run WAMIT with XBODY(4) = 0",
+                    )
+                return water_depth, (numbers[0], numbers[1], numbers[2])
+    return water_depth, None

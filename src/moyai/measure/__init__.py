@@ -1,0 +1,1 @@
+"""Measured records: reading them, harmonics of periodic motion, incident and reflected waves."""
