@@ -1,0 +1,229 @@
+"""Functions for the velocity under the edge of a rectangle, and the sums over the modes below it.
+
+The horizontal velocity in the gap between the corner and the bed is the unknown of :mod:`moyai.potential.rectangle`.
+Lengths are divided by the height of the gap here: ``y`` runs from 0 at the bed to 1 at the corner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gamma, gammaln, ive, jv, roots_gegenbauer
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+#: Exponents of the velocity at a corner of 270 degrees are -1/3 and +1/3 plus whole numbers: Gegenbauer index minus 1/2
+CORNER_INDICES = (1.0 / 6.0, 5.0 / 6.0)
+
+_RICHARDSON_LEVELS = 5
+_FIRST_LEVEL = 512
+
+
+@dataclass(frozen=True)
+class GapBasis:
+    """Even functions of y with the corner singularities of the exact velocity, [eq:reference-gap-basis].
+
+    Parameters
+    ----------
+    pairs : int
+        Functions of each of the two corner families; one constant is added to them.
+    """
+
+    pairs: int
+
+    @property
+    def index(self) -> FloatArray:
+        """Gegenbauer index of every function; 1/2 is the constant."""
+        families = [np.full(self.pairs, index) for index in CORNER_INDICES]
+        return np.concatenate([*families, [0.5]])
+
+    @property
+    def degree(self) -> FloatArray:
+        """Even polynomial degree of every function."""
+        orders = 2.0 * np.arange(self.pairs)
+        return np.concatenate([orders, orders, [0.0]])
+
+    @property
+    def scale(self) -> FloatArray:
+        """Scale of every function that keeps the matrix of the log kernel near unit diagonal."""
+        return np.maximum(self.degree / 2.0, 1.0) ** (self.index + 0.5)
+
+    @property
+    def size(self) -> int:
+        """Number of functions."""
+        return 2 * self.pairs + 1
+
+    def at_zero(self) -> FloatArray:
+        """Return the integral of every function over 0 < y < 1."""
+        index = self.index
+        return np.where(self.degree == 0.0, self.scale * 0.5**index / gamma(index + 1.0), 0.0)
+
+    def cosine_transform(self, argument: FloatArray) -> FloatArray:
+        """Return the integrals of every function times cos(argument y) over 0 < y < 1, [eq:reference-gap-transform].
+
+        Parameters
+        ----------
+        argument : ndarray (k,)
+            Not negative.
+
+        Returns
+        -------
+        ndarray (size, k)
+        """
+        x = np.asarray(argument, dtype=float)
+        out = np.empty((self.size, x.size))
+        safe = np.where(x > 0.0, x, 1.0)
+        for row, (index, degree, scale) in enumerate(zip(self.index, self.degree, self.scale, strict=True)):
+            out[row] = scale * jv(degree + index, safe) / safe**index
+        out[:, x == 0.0] = self.at_zero()[:, None]
+        return out
+
+    def hyperbolic_transform(self, argument: ComplexArray) -> ComplexArray:
+        """Return exp(-argument) times the integrals with cosh(argument y); the real part of the argument is positive."""
+        x = np.asarray(argument)
+        out = np.empty((self.size, x.size), dtype=complex)
+        # The library refuses very large complex arguments; four terms of the asymptotic series are exact there
+        far = np.abs(x) > 1e7
+        near = np.where(far, 1.0, x)
+        # ive carries exp(-|Re x|); exp(-x) needs the phase of the imaginary part as well
+        phase = np.exp(-1j * np.imag(x)) if np.iscomplexobj(x) else 1.0
+        for row, (index, degree, scale) in enumerate(zip(self.index, self.degree, self.scale, strict=True)):
+            sign = 1.0 - 2.0 * (int(degree) // 2 % 2)
+            out[row] = scale * sign * np.where(far, 0.0, ive(degree + index, near) * phase) / x**index
+            four = 4.0 * (degree + index) ** 2
+            leading = 1.0 - (four - 1.0) / (8.0 * x) * (
+                1.0 - (four - 9.0) / (16.0 * x) * (1.0 - (four - 25.0) / (24.0 * x))
+            )
+            out[row] += np.where(far, scale * sign * leading / np.sqrt(2.0 * np.pi * x) / x**index, 0.0)
+        return out
+
+    def moment_rules(self) -> tuple[FloatArray, FloatArray]:
+        """Return points (3, q) of y and weights (size, q) that integrate a smooth even function with every basis function."""
+        points, weights = [], np.empty((self.size, 0))
+        rows = []
+        count = 2 * self.pairs + 48
+        for row, (index, degree, scale) in enumerate(zip(self.index, self.degree, self.scale, strict=True)):
+            y, w, polynomials = _gegenbauer_rule(float(index), count, int(self.degree.max()))
+            n = int(degree)
+            factor = np.exp(gammaln(n + 1) + gammaln(index) - gammaln(n + 2 * index)) * 2.0**index / np.pi
+            sign = 1.0 - 2.0 * (n // 2 % 2)
+            rows.append(scale * sign * factor * w * polynomials[n] / 2.0)
+            if row in (0, self.pairs, 2 * self.pairs):
+                points.append(y)
+        weights = np.array(rows)
+        return np.array(points), weights
+
+    def moments(self, function_values: NDArray) -> NDArray:
+        """Return integrals over 0 < y < 1 of basis times a function given (3, q) at the points of :meth:`moment_rules`."""
+        _, weights = self.moment_rules()
+        family = np.concatenate([np.zeros(self.pairs, int), np.ones(self.pairs, int), [2]])
+        return np.einsum("iq,iq->i", weights, np.asarray(function_values)[family])
+
+
+@lru_cache(maxsize=32)
+def _gegenbauer_rule(index: float, count: int, highest: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Gauss rule of the weight (1 - y^2)^(index - 1/2) on (-1, 1) and the Gegenbauer polynomials at its points."""
+    y, w = roots_gegenbauer(count, index)
+    polynomials = np.empty((highest + 2, count))
+    polynomials[0] = 1.0
+    polynomials[1] = 2.0 * index * y
+    for n in range(2, highest + 2):
+        polynomials[n] = (
+            2.0 * y * (n + index - 1.0) * polynomials[n - 1] - (n + 2.0 * index - 2.0) * polynomials[n - 2]
+        ) / n
+    return y, w, polynomials
+
+
+@lru_cache(maxsize=8)
+def _table_at_multiples(pairs: int, count: int) -> FloatArray:
+    """Cosine transforms at pi, 2 pi, ..., count pi."""
+    return GapBasis(pairs).cosine_transform(np.pi * np.arange(1, count + 1))
+
+
+def extrapolated_sum(terms: NDArray, first: int, exponent: FloatArray) -> NDArray:
+    """Sum a series whose terms have an asymptotic expansion in powers of 1/m, [eq:reference-richardson].
+
+    Parameters
+    ----------
+    terms : ndarray (levels, ...)
+        Partial sums to ``first``, ``2 first``, ``4 first``, ...
+    first : int
+        Number of terms of the first partial sum.
+    exponent : ndarray (...)
+        Exponent p of the tail, ``S - S_M = M^-p (d0 + d1/M + ...)``; at most of another shape that broadcasts.
+    """
+    levels = len(terms)
+    # Coordinates scaled by the last level keep the small system well conditioned
+    ratio = 0.5 ** np.arange(levels)[::-1]
+    out = np.empty(np.broadcast_shapes(terms.shape[1:], exponent.shape), dtype=terms.dtype)
+    exponents = np.broadcast_to(exponent, out.shape)
+    for value in np.unique(exponents):
+        system = np.ones((levels, levels))
+        for column in range(1, levels):
+            system[:, column] = ratio ** -(value + column - 1.0)
+        weights = np.linalg.solve(system.T, np.eye(levels)[0])
+        chosen = exponents == value
+        total = np.tensordot(weights, terms, axes=(0, 0))
+        out[chosen] = np.broadcast_to(total, out.shape)[chosen]
+    return out
+
+
+@dataclass(frozen=True)
+class InnerSums:
+    """Sums over the modes m >= 1 below the body, lengths in gap heights.
+
+    ``matrix`` = 2 sum U U / (kappa T), ``vector`` = 2 sum U w / (kappa T), ``scalar`` = 2 sum w w / (kappa T).
+    """
+
+    matrix: FloatArray
+    vector: FloatArray
+    scalar: float
+
+
+def inner_sums(basis: GapBasis, half_beam: float, along: float, symmetric: bool) -> InnerSums:
+    """Return the sums over the modes below the body, [eq:reference-inner-kernel], for one parity.
+
+    Parameters
+    ----------
+    basis : GapBasis
+        Functions of the velocity.
+    half_beam, along : float
+        Half the beam over the gap height; wave number along the crest times the gap height.
+    symmetric : bool
+        Heave (cosh) or sway and roll (sinh).
+
+    Notes
+    -----
+    w is the cosine transform of the edge velocity of the particular solution of roll; that of heave is constant.
+    """
+    # Terms follow their asymptotic power series once the hyperbolic tangent is 1 and m is past the highest degree
+    start = max(20.0 / (np.pi * half_beam), (basis.degree.max() + 1.0) ** 2 / np.pi, 4.0 * along / np.pi)
+    first = _FIRST_LEVEL
+    while first < start and first < 65536:
+        first *= 2
+    count = first * 2 ** (_RICHARDSON_LEVELS - 1)
+    table = _table_at_multiples(basis.pairs, count)
+    m = np.arange(1, count + 1)
+    kappa = np.hypot(np.pi * m, along)
+    reach = np.tanh(kappa * half_beam)
+    weight = 2.0 / (kappa * reach) if symmetric else 2.0 * reach / kappa
+    roll = np.zeros(count) if symmetric else -((-1.0) ** m) / kappa**2
+    edges = [0, *(first * 2**level for level in range(_RICHARDSON_LEVELS))]
+    matrices, vectors, scalars = [], [], []
+    for start_mode, stop in zip(edges[:-1], edges[1:], strict=True):
+        block = table[:, start_mode:stop]
+        weighted = block * weight[start_mode:stop]
+        matrices.append(weighted @ block.T)
+        vectors.append(weighted @ roll[start_mode:stop])
+        scalars.append(float(np.sum(weight[start_mode:stop] * roll[start_mode:stop] ** 2)))
+    index = basis.index
+    # The transform of the constant vanishes at every multiple of pi, so that its sums need no care
+    return InnerSums(
+        matrix=extrapolated_sum(np.cumsum(matrices, axis=0), first, index[:, None] + index[None, :] + 1.0),
+        vector=extrapolated_sum(np.cumsum(vectors, axis=0), first, index + 2.5),
+        scalar=float(extrapolated_sum(np.cumsum(scalars, axis=0), first, np.array(4.0))),
+    )
