@@ -159,8 +159,10 @@ class MooringLine:
         x from the centre line, y along the unit, z above the keel [m].
     anchor : tuple of three float
         x, y from the centre of the unit, z above the bed [m].
-    segments : tuple of Segment or Clump
+    segments : tuple of Segment
         From the anchor to the fairlead.
+    clumps : tuple of Clump
+        Weights or buoys between segments.
     bed_friction : float
         Coulomb coefficient of the line on the bed.
     """
@@ -169,7 +171,8 @@ class MooringLine:
     count: int
     fairlead: tuple[float, float, float]
     anchor: tuple[float, float, float]
-    segments: tuple[Segment | Clump, ...]
+    segments: tuple[Segment, ...]
+    clumps: tuple[Clump, ...] = ()
     bed_friction: float = 0.0
 
 
