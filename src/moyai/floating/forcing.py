@@ -200,13 +200,13 @@ class IrregularForcing:
         return 2.0 * math.pi * float(np.sum(np.round(multiples)) / np.sum(self.omega))
 
     def fitted_step(self, time_step: float) -> float:
-        """Return a step whose half divides the repeat period into a number that Fourier transforms like."""
+        """Return a step that divides the repeat period into a number that Fourier transforms like."""
         repeat = self.repeat_period
         if math.isinf(repeat):
             return time_step
         from scipy.fft import next_fast_len
 
-        return 2.0 * repeat / next_fast_len(math.ceil(2.0 * repeat / time_step - 1e-9))
+        return repeat / next_fast_len(math.ceil(repeat / time_step - 1e-9))
 
     def mean_drift(self) -> FloatArray:
         """Return the mean drift force (m,) of the sea, sum of T_i |a_i|^2."""

@@ -21,7 +21,7 @@ LineForce = Callable[[FloatArray, FloatArray], "tuple[FloatArray, FloatArray]"]
 """Arrays of span and rise from anchor to fairlead [m] -> horizontal pull towards the anchor and downward pull [N]."""
 
 FIRST_CHORDS, FIRST_ANGLES = 17, 5
-LARGEST_CHORDS, LARGEST_ANGLES = 1025, 129
+LARGEST_CHORDS, LARGEST_ANGLES = 1025, 513
 
 
 @dataclass(frozen=True)
