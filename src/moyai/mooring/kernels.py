@@ -1,9 +1,9 @@
 """Compiled kernel of the exact elastic catenary of one uniform line, every regime; callable from other compiled code.
 
-Lengths are divided by the unstretched length L, forces by the weight W = |w| L, and e = W / EA. Two scalar equations, each
-monotone in its unknown, cover the plane: ``[eq:mooring-suspended]`` in u (half the difference of the slope parameters of
-the ends) for a line clear of the bed, and ``[eq:mooring-grounded]`` in H / W for a line that rests on it in part.
-Newton steps in a variable that makes the equation almost straight, held inside a bracket, cannot fail.
+Lengths are divided by the unstretched length L, forces by the weight W = |w| L, and e = W / EA. Two scalar equations,
+each monotone in its unknown, cover the plane: ``[eq:mooring-suspended]`` in u (half the difference of the slope
+parameters of the ends) for a line clear of the bed, and ``[eq:mooring-grounded]`` in H / W for a line that rests on it
+in part. Newton steps in a variable that makes the equation almost straight, held inside a bracket, cannot fail.
 """
 
 from __future__ import annotations
@@ -207,7 +207,7 @@ def _bed_stretch(eta: float, ground: float, e: float, friction: float) -> tuple[
 def _grounded_tension(
     gap: float, rise: float, drop: float, e: float, friction: float, highest: float, start: float
 ) -> tuple[float, bool]:
-    """Solve ``[eq:mooring-grounded]`` for H/W; ``rise`` and ``drop`` are the heights of fairlead and anchor over the bed."""
+    """Solve ``[eq:mooring-grounded]`` for H/W; ``rise``, ``drop``: heights of fairlead and anchor over the bed."""
     eta = start if start > 0.0 else _grounded_guess(gap, rise, drop, e)
     if not eta > 0.0:
         eta = rise + drop
@@ -259,9 +259,9 @@ def _grounded_tension(
 
 @njit(cache=True, error_model="numpy")
 def _suspended_outputs(x: float, z: float, e: float, h: float, v: float) -> tuple[float, float, float, float, float]:
-    """Return flexibility (3 entries) and residuals of x, z of a suspended line from its forces over W ``[eq:mooring-flexibility]``.
+    """Return flexibility (3 entries) and residuals of x, z of a suspended line ``[eq:mooring-flexibility]``.
 
-    ``v`` is the mean vertical force; everything is formed without cancellation.
+    ``h`` is H/W, ``v`` the mean vertical force over W; everything is formed without cancellation.
     """
     upper = v + 0.5
     lower = v - 0.5
@@ -323,9 +323,9 @@ def solve_single(
     Returns
     -------
     tuple
-        (H fairlead, V fairlead, H anchor, V anchor, grounded length, dH/dX, dH/dZ, dV/dX, dV/dZ, residual / length, regime).
-        H, V are the force of fairlead on line: V positive upwards at both ends in the sense of tension rising towards the
-        fairlead (the line pulls the anchor with +H towards the fairlead and +V upwards).
+        (H fairlead, V fairlead, H anchor, V anchor, grounded length, dH/dX, dH/dZ, dV/dX, dV/dZ, residual / length,
+        regime). H, V at the fairlead are the force of the body on the line; the line pulls the anchor with H towards
+        the fairlead and V upwards.
     """
     nan = np.nan
     if not (horizontal >= 0.0 and length > 0.0 and axial_stiffness > 0.0 and friction >= 0.0) or not np.isfinite(

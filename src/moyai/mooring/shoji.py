@@ -1,8 +1,8 @@
-"""The modified catenary of Shoji, used by Japanese floating-breakwater practice, as an independent path to the same numbers.
+"""The modified catenary of Shoji, used for floating breakwaters in Japan: an independent path to the same numbers.
 
-Its equation ``[eq:mooring-shoji]`` is the elastic catenary on a frictionless bed, written with the whole length S. It holds
-while part of the line lies on the bed and only together with its closure ``sinh(.) = w s / T_H``; docs/theory/mooring.md
-explains the common misreading.
+Its equation ``[eq:mooring-shoji]`` is the elastic catenary on a frictionless bed, written with the whole length S. It
+holds while part of the line lies on the bed and only together with its closure ``sinh(.) = w s / T_H``;
+docs/theory/mooring.md explains the common misreading.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class ShojiSolution:
 def modified_catenary_height(
     horizontal_tension: float, reduced_distance: float, length: float, axial_stiffness: float, weight: float
 ) -> float:
-    """Return zbar [m] of the printed equation ``[eq:mooring-shoji]`` for given T_H [N], xbar [m], S [m], EA [N], w [N/m]."""
+    """Return zbar [m] of ``[eq:mooring-shoji]`` as printed, for given T_H [N], xbar [m], S [m], EA [N], w [N/m]."""
     scale = horizontal_tension / weight
     angle = reduced_distance / scale - weight * length / axial_stiffness
     stretch = horizontal_tension * scale / (2.0 * axial_stiffness) * math.sinh(angle) ** 2

@@ -1,0 +1,439 @@
+"""Mooring lines and springs: what they are made of, and their force on a body for given positions of the fairlead."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.mooring import kernels, segments
+from moyai.mooring.catenary import FloatArray, IntArray
+
+if TYPE_CHECKING:
+    from moyai.tables.lines import LineProperties
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class LineType:
+    """What a segment is made of.
+
+    Parameters
+    ----------
+    name : str
+        For messages and reports.
+    submerged_weight : float
+        Weight in water per unstretched metre [N/m]; negative for a buoyant rope.
+    axial_stiffness : float
+        EA [N]; ``inf`` for inextensible.
+    breaking_load : float
+        Minimum breaking load [N]; ``inf`` where it is not known, then no check against it is made.
+    """
+
+    name: str
+    submerged_weight: float
+    axial_stiffness: float
+    breaking_load: float = math.inf
+
+    def __post_init__(self) -> None:
+        _number(self.submerged_weight, f"line_type.{self.name}.submerged_weight", positive=False)
+        _number(self.axial_stiffness, f"line_type.{self.name}.axial_stiffness", infinite=True)
+        _number(self.breaking_load, f"line_type.{self.name}.breaking_load", infinite=True)
+
+    @classmethod
+    def from_properties(cls, properties: LineProperties, density: float, gravity: float) -> LineType:
+        """Make a line type of a catalogue entry for water of ``density`` [kg/m3] under ``gravity`` [m/s2]."""
+        return cls(
+            properties.name,
+            properties.submerged_weight_per_length(density, gravity),
+            properties.axial_stiffness,
+            properties.breaking_load,
+        )
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A length of one line type.
+
+    Parameters
+    ----------
+    line_type : LineType
+        The material.
+    length : float
+        Unstretched length [m].
+    """
+
+    line_type: LineType
+    length: float
+
+    def __post_init__(self) -> None:
+        _number(self.length, "segment.length")
+
+
+@dataclass(frozen=True)
+class Clump:
+    """A weight or buoy at the upper end of a segment that is not the last one.
+
+    Parameters
+    ----------
+    after_segment : int
+        Index of the segment below it, counted from 0 at the anchor.
+    submerged_weight : float
+        Weight in water [N]; negative for a buoy.
+    """
+
+    after_segment: int
+    submerged_weight: float
+
+
+@dataclass(frozen=True)
+class LineState:
+    """Lines at rest for n fairlead positions.
+
+    Parameters
+    ----------
+    force : ndarray (n, 3)
+        Force of all copies on the body [N], site axes.
+    stiffness : ndarray (n, 3, 3)
+        Minus the derivative of ``force`` with respect to the fairlead position [N/m].
+    tension_fairlead, tension_anchor : ndarray (n,)
+        Tensions of one copy [N].
+    horizontal_tension, vertical_tension_fairlead, vertical_tension_anchor : ndarray (n,)
+        Components for one copy [N].
+    grounded_length : ndarray (n,)
+        Unstretched length on the bed of one copy [m].
+    anchor_uplift_angle : ndarray (n,)
+        Angle at the anchor above the horizontal [rad].
+    residual : ndarray (n,)
+        Error of the end position over the line length.
+    regime : ndarray (n,) of int
+        Codes of :mod:`moyai.mooring.kernels`; -1 for a spring.
+    """
+
+    force: FloatArray
+    stiffness: FloatArray
+    tension_fairlead: FloatArray
+    tension_anchor: FloatArray
+    horizontal_tension: FloatArray
+    vertical_tension_fairlead: FloatArray
+    vertical_tension_anchor: FloatArray
+    grounded_length: FloatArray
+    anchor_uplift_angle: FloatArray
+    residual: FloatArray
+    regime: IntArray
+
+
+class LineElement(Protocol):
+    """What a line system asks of its members."""
+
+    @property
+    def name(self) -> str:
+        """Name, unique in a system."""
+
+    @property
+    def anchor(self) -> Vector:
+        """Fixed end [m], site axes."""
+
+    @property
+    def fairlead(self) -> Vector:
+        """End on the body [m], body axes."""
+
+    @property
+    def count(self) -> int:
+        """Number of identical copies at the same place."""
+
+    @property
+    def breaking_load(self) -> float:
+        """Lowest breaking load along the line [N]."""
+
+    def solve(self, points: FloatArray, water_depth: float) -> LineState:
+        """Solve for fairlead positions (n, 3) in site axes."""
+
+
+def _number(value: float, path: str, *, positive: bool = True, infinite: bool = False) -> None:
+    good = not math.isnan(value) and (infinite or math.isfinite(value)) and (value > 0.0 or not positive)
+    if not good:
+        raise InputError(f"{value:g}", path=path, allowed="greater than 0" if positive else "a finite number")
+
+
+def _vector(value: ArrayLike, path: str) -> Vector:
+    array = np.asarray(value, dtype=float)
+    if array.shape != (3,) or not np.all(np.isfinite(array)):
+        raise InputError(f"{value!r} is not a position", path=path, allowed="three finite coordinates (x, y, z)")
+    return float(array[0]), float(array[1]), float(array[2])
+
+
+def _force_and_stiffness(
+    span: FloatArray, h: FloatArray, v: FloatArray, k: FloatArray, count: int
+) -> tuple[FloatArray, FloatArray]:
+    """Turn (H, V) and their 2x2 stiffness in the line's plane into force on the body and 3x3 stiffness, site axes."""
+    reach = np.hypot(span[:, 0], span[:, 1])
+    safe = np.where(reach > 0.0, reach, 1.0)
+    # a line whose ends stand on one vertical has no direction; its sideways stiffness is the same all round
+    direction = np.where(reach[:, None] > 0.0, span[:, :2] / safe[:, None], [1.0, 0.0])
+    across = np.where(reach > 1e-12 * np.hypot(reach, span[:, 2]), h / safe, k[:, 0, 0])
+    force = -np.concatenate([h[:, None] * direction, v[:, None]], axis=1)
+    c, s = direction[:, 0], direction[:, 1]
+    out = np.empty((len(h), 3, 3))
+    out[:, 0, 0] = k[:, 0, 0] * c * c + across * s * s
+    out[:, 0, 1] = out[:, 1, 0] = (k[:, 0, 0] - across) * c * s
+    out[:, 1, 1] = k[:, 0, 0] * s * s + across * c * c
+    out[:, 0, 2], out[:, 1, 2] = k[:, 0, 1] * c, k[:, 0, 1] * s
+    out[:, 2, 0], out[:, 2, 1] = k[:, 1, 0] * c, k[:, 1, 0] * s
+    out[:, 2, 2] = k[:, 1, 1]
+    return count * force, count * out
+
+
+@dataclass(frozen=True)
+class Line:
+    """A mooring line of one or more segments from an anchor to a fairlead on a body.
+
+    Parameters
+    ----------
+    name : str
+        Unique name.
+    anchor : tuple
+        Position of the anchor (x, y, z) [m], site axes, z up from still water.
+    fairlead : tuple
+        Position of the fairlead (x, y, z) [m], body axes (equal to site axes at zero motion).
+    segments : tuple of Segment
+        From the anchor to the fairlead.
+    clumps : tuple of Clump
+        Weights or buoys between segments.
+    bed_friction : float
+        Coulomb coefficient of the bed [-].
+    count : int
+        Number of identical copies at the same place.
+
+    Raises
+    ------
+    InputError
+        For an empty line, a clump that is not between two segments, NaN.
+    """
+
+    name: str
+    anchor: Vector
+    fairlead: Vector
+    segments: tuple[Segment, ...]
+    clumps: tuple[Clump, ...] = ()
+    bed_friction: float = 0.0
+    count: int = 1
+
+    def __post_init__(self) -> None:
+        path = f"lines.{self.name}"
+        object.__setattr__(self, "anchor", _vector(self.anchor, f"{path}.anchor"))
+        object.__setattr__(self, "fairlead", _vector(self.fairlead, f"{path}.fairlead"))
+        object.__setattr__(self, "segments", tuple(self.segments))
+        object.__setattr__(self, "clumps", tuple(self.clumps))
+        if not self.segments:
+            raise InputError("a line needs at least one segment", path=f"{path}.segments")
+        if self.count < 1:
+            raise InputError(f"{self.count} copies", path=f"{path}.count", allowed="1 or more")
+        if not (math.isfinite(self.bed_friction) and self.bed_friction >= 0.0):
+            raise InputError(f"{self.bed_friction:g}", path=f"{path}.bed_friction", allowed="0 or more")
+        for clump in self.clumps:
+            _number(clump.submerged_weight, f"{path}.clumps", positive=False)
+            if not 0 <= clump.after_segment < len(self.segments) - 1:
+                raise InputError(
+                    f"clump after segment {clump.after_segment}",
+                    path=f"{path}.clumps",
+                    allowed=f"0 to {len(self.segments) - 2} (between two segments)",
+                )
+
+    @property
+    def length(self) -> float:
+        """Unstretched length of the whole line [m]."""
+        return sum(segment.length for segment in self.segments)
+
+    @property
+    def breaking_load(self) -> float:
+        """Lowest breaking load along the line [N]."""
+        return min(segment.line_type.breaking_load for segment in self.segments)
+
+    @property
+    def table(self) -> FloatArray:
+        """One row a segment for the kernels: length, EA, submerged weight, clump at its upper end."""
+        rows = np.zeros((len(self.segments), 4))
+        for row, segment in zip(rows, self.segments):
+            row[:3] = segment.length, segment.line_type.axial_stiffness, segment.line_type.submerged_weight
+        for clump in self.clumps:
+            rows[clump.after_segment, 3] += clump.submerged_weight
+        return rows
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether the line is one material throughout."""
+        rows = self.table
+        return bool(np.all(rows[:, 1:3] == rows[0, 1:3]) and np.all(rows[:-1, 3] == 0.0))
+
+    def bed_clearance(self, water_depth: float) -> float:
+        """Return the height of the anchor over the bed [m]; -1 (no bed) in infinite depth.
+
+        Raises
+        ------
+        InputError
+            When the anchor lies under the bed.
+        """
+        if math.isinf(water_depth):
+            return kernels.NO_BED
+        clearance = self.anchor[2] + water_depth
+        if abs(clearance) <= 1e-6 * max(1.0, water_depth):
+            return 0.0
+        if clearance < 0.0:
+            raise InputError(
+                f"the anchor lies {-clearance:g} m under the bed (z = {self.anchor[2]:g} m, depth {water_depth:g} m)",
+                path=f"lines.{self.name}.anchor",
+                allowed=f"z of {-water_depth:g} m or higher",
+            )
+        return clearance
+
+    def solve_plane(
+        self, horizontal: FloatArray, vertical: FloatArray, water_depth: float
+    ) -> tuple[FloatArray, IntArray]:
+        """Solve in the line's own vertical plane for distances (n,) from anchor to fairlead [m].
+
+        Returns
+        -------
+        tuple
+            Array (n, 11): H fairlead, V fairlead, H anchor, V anchor, grounded length, dH/dX, dH/dZ, dV/dX, dV/dZ,
+            residual over length, q (vertical tension at the anchor or minus the bed reaction); and regimes (n,).
+        """
+        rows = self.table
+        clearance = self.bed_clearance(water_depth)
+        n = horizontal.size
+        out = np.empty((n, 11))
+        regime = np.empty(n, dtype=np.int64)
+        length = rows[:, 0].sum()
+        mean_weight = float((rows[:, 0] * rows[:, 2]).sum() + rows[:-1, 3].sum()) / length
+        soft = float((rows[:, 0] / rows[:, 1]).sum())
+        mean_stiffness = length / soft if soft > 0.0 else math.inf
+
+        def full(value: float) -> FloatArray:
+            return np.full(n, value)
+
+        kernels.solve_batch(
+            np.ascontiguousarray(horizontal),
+            np.ascontiguousarray(vertical),
+            full(length),
+            full(mean_stiffness),
+            full(mean_weight),
+            full(clearance),
+            full(self.bed_friction),
+            out[:, :10],
+            regime,
+        )
+        weight = rows[0, 2]
+        out[:, 10] = out[:, 3]
+        resting = (out[:, 4] > 0.0) & (clearance == 0.0)
+        out[:, 10] = np.where(resting, -weight * out[:, 4], out[:, 10])
+        if not self.is_uniform:
+            start = np.where(np.isfinite(out[:, 0]), out[:, 0], 0.0)
+            segments.solve_segments_batch(
+                np.ascontiguousarray(horizontal),
+                np.ascontiguousarray(vertical),
+                rows,
+                clearance,
+                self.bed_friction,
+                start,
+                out,
+                regime,
+            )
+        return out, regime
+
+    def solve(self, points: FloatArray, water_depth: float) -> LineState:
+        """Solve for fairlead positions (n, 3) [m], site axes; see :class:`LineState`."""
+        span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
+        out, regime = self.solve_plane(np.hypot(span[:, 0], span[:, 1]), np.ascontiguousarray(span[:, 2]), water_depth)
+        force, stiffness = _force_and_stiffness(span, out[:, 0], out[:, 1], out[:, 5:9].reshape(-1, 2, 2), self.count)
+        return LineState(
+            force=force,
+            stiffness=stiffness,
+            tension_fairlead=np.hypot(out[:, 0], out[:, 1]),
+            tension_anchor=np.hypot(out[:, 2], out[:, 3]),
+            horizontal_tension=out[:, 0],
+            vertical_tension_fairlead=out[:, 1],
+            vertical_tension_anchor=out[:, 3],
+            grounded_length=out[:, 4],
+            anchor_uplift_angle=np.arctan2(out[:, 3], out[:, 2]),
+            residual=out[:, 9],
+            regime=regime,
+        )
+
+
+@dataclass(frozen=True)
+class SpringLine:
+    """A straight weightless linear spring between a fixed point and the body, for flume tests and soft guides.
+
+    Parameters
+    ----------
+    name, anchor, fairlead, count
+        As for :class:`Line`.
+    stiffness : float
+        [N/m].
+    pretension : float
+        Tension at zero motion of the body [N]; may be negative unless ``tension_only``.
+    tension_only : bool
+        Whether the spring goes slack instead of pushing.
+    breaking_load : float
+        [N]; ``inf`` where it is not known.
+    """
+
+    name: str
+    anchor: Vector
+    fairlead: Vector
+    stiffness: float
+    pretension: float
+    tension_only: bool = False
+    count: int = 1
+    breaking_load: float = math.inf
+
+    def __post_init__(self) -> None:
+        path = f"lines.{self.name}"
+        object.__setattr__(self, "anchor", _vector(self.anchor, f"{path}.anchor"))
+        object.__setattr__(self, "fairlead", _vector(self.fairlead, f"{path}.fairlead"))
+        _number(self.stiffness, f"{path}.stiffness")
+        _number(self.pretension, f"{path}.pretension", positive=False)
+        if self.count < 1:
+            raise InputError(f"{self.count} copies", path=f"{path}.count", allowed="1 or more")
+        if math.dist(self.anchor, self.fairlead) == 0.0:
+            raise InputError("the spring has no length", path=f"{path}.anchor", remedy="move the anchor")
+
+    @property
+    def natural_length(self) -> float:
+        """Length at which the spring bears nothing [m]; may be negative when strongly pretensioned."""
+        return math.dist(self.anchor, self.fairlead) - self.pretension / self.stiffness
+
+    def solve(self, points: FloatArray, water_depth: float) -> LineState:
+        """Solve for fairlead positions (n, 3) [m], site axes; the water depth plays no part."""
+        span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
+        length = np.maximum(np.linalg.norm(span, axis=1), 1e-300)
+        unit = span / length[:, None]
+        tension = self.stiffness * (length - self.natural_length)
+        rate = np.full_like(tension, self.stiffness)
+        if self.tension_only:
+            slack = tension <= 0.0
+            tension = np.where(slack, 0.0, tension)
+            rate = np.where(slack, 0.0, rate)
+        along = unit[:, :, None] * unit[:, None, :]
+        stiffness = rate[:, None, None] * along + (tension / length)[:, None, None] * (np.eye(3) - along)
+        zero = np.zeros_like(tension)
+        horizontal = tension * np.hypot(unit[:, 0], unit[:, 1])
+        vertical = tension * unit[:, 2]
+        return LineState(
+            force=-self.count * tension[:, None] * unit,
+            stiffness=self.count * stiffness,
+            tension_fairlead=tension,
+            tension_anchor=tension,
+            horizontal_tension=horizontal,
+            vertical_tension_fairlead=vertical,
+            vertical_tension_anchor=vertical,
+            grounded_length=zero,
+            anchor_uplift_angle=np.arctan2(unit[:, 2], np.hypot(unit[:, 0], unit[:, 1])),
+            residual=zero,
+            regime=np.full(len(tension), -1, dtype=np.int64),
+        )

@@ -1,0 +1,63 @@
+"""Exact finite rotations of a rigid body.
+
+Order stated once for the room: ``R = Rz(yaw) @ Ry(pitch) @ Rx(roll)``, roll first about x, then pitch about y, then yaw
+about z, all axes fixed to the site. ``R`` takes body coordinates to site coordinates. ``[eq:mooring-rotation]``
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def rotation_matrix(angles: ArrayLike) -> FloatArray:
+    """Return R (..., 3, 3) for roll, pitch, yaw [rad] (..., 3)."""
+    angles = np.asarray(angles, dtype=float)
+    cr, cp, cy = (np.cos(angles[..., i]) for i in range(3))
+    sr, sp, sy = (np.sin(angles[..., i]) for i in range(3))
+    rows = (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def roll_pitch_yaw(rotation: ArrayLike) -> FloatArray:
+    """Return roll, pitch, yaw [rad] (..., 3) of R; pitch within a quarter turn."""
+    r = np.asarray(rotation, dtype=float)
+    pitch = np.arctan2(-r[..., 2, 0], np.hypot(r[..., 0, 0], r[..., 1, 0]))
+    roll = np.arctan2(r[..., 2, 1], r[..., 2, 2])
+    yaw = np.arctan2(r[..., 1, 0], r[..., 0, 0])
+    return np.stack([roll, pitch, yaw], axis=-1)
+
+
+def cross_matrix(vector: ArrayLike) -> FloatArray:
+    """Return S (..., 3, 3) with ``S @ b = vector x b``."""
+    v = np.asarray(vector, dtype=float)
+    out = np.zeros((*v.shape[:-1], 3, 3))
+    out[..., 0, 1], out[..., 0, 2] = -v[..., 2], v[..., 1]
+    out[..., 1, 0], out[..., 1, 2] = v[..., 2], -v[..., 0]
+    out[..., 2, 0], out[..., 2, 1] = -v[..., 1], v[..., 0]
+    return out
+
+
+def rotation_from_vector(vector: ArrayLike) -> FloatArray:
+    """Return R (..., 3, 3) of a rotation by ``|vector|`` [rad] about ``vector`` (Rodrigues)."""
+    v = np.asarray(vector, dtype=float)
+    angle = np.linalg.norm(v, axis=-1)[..., None, None]
+    s = cross_matrix(v)
+    half = np.sinc(0.5 * angle / np.pi)
+    return np.eye(3) + np.sinc(angle / np.pi) * s + 0.5 * half**2 * (s @ s)
+
+
+def spin_of_angle_rates(angles: ArrayLike) -> FloatArray:
+    """Return B (..., 3, 3): a change d of (roll, pitch, yaw) turns the body by the vector ``B @ d``, site axes."""
+    angles = np.asarray(angles, dtype=float)
+    cp, cy = np.cos(angles[..., 1]), np.cos(angles[..., 2])
+    sp, sy = np.sin(angles[..., 1]), np.sin(angles[..., 2])
+    zero, one = np.zeros_like(cp), np.ones_like(cp)
+    rows = ((cy * cp, -sy, zero), (sy * cp, cy, zero), (-sp, zero, one))
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

@@ -1,0 +1,339 @@
+"""Mooring lines on one body: forces, tensions, tangent stiffness, restoring curves, equilibrium (6 degrees of freedom).
+
+A position is (x, y, z, roll, pitch, yaw) of the body origin, zero where body and site axes coincide; rotations are
+finite and exact (order in :mod:`moyai.mooring.rotations`). Forces act on the body, in site axes; moments are about
+the body origin or any other body-fixed point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.mooring.catenary import FloatArray
+from moyai.mooring.lines import LineElement, LineState, Vector
+from moyai.mooring.rotations import cross_matrix, rotation_matrix, spin_of_angle_rates
+
+if TYPE_CHECKING:
+    from moyai.mooring.planar import PlanarLineSystem
+
+DEGREES_OF_FREEDOM = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True)
+class RestoringCurve:
+    """Answer of a line system to an imposed offset.
+
+    Parameters
+    ----------
+    offsets : ndarray (n,)
+        Imposed offsets [m or rad].
+    direction : ndarray (d,)
+        Unit motion of the offset.
+    force : ndarray (n, d)
+        Force and moment on the body [N, N m].
+    tension : ndarray (n, lines)
+        Fairlead tension of one copy of every line [N].
+    stiffness : ndarray (n, d, d)
+        Tangent stiffness at every offset.
+    """
+
+    offsets: FloatArray
+    direction: FloatArray
+    force: FloatArray
+    tension: FloatArray
+    stiffness: FloatArray
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A body at rest under its lines, an external load and linear hydrostatics.
+
+    Parameters
+    ----------
+    position : ndarray (d,)
+        Position found.
+    line_force : ndarray (d,)
+        Force of the lines on the body there [N, N m].
+    tension : ndarray (lines,)
+        Fairlead tensions of one copy [N].
+    stiffness : ndarray (d, d)
+        Tangent stiffness of the lines there.
+    residual : float
+        Largest imbalance over the largest load taking part.
+    iterations : int
+        Newton steps.
+    """
+
+    position: FloatArray
+    line_force: FloatArray
+    tension: FloatArray
+    stiffness: FloatArray
+    residual: float
+    iterations: int
+
+
+@dataclass(frozen=True)
+class LineSystem:
+    """Lines between the bed and one body.
+
+    Parameters
+    ----------
+    lines : tuple of Line or SpringLine
+        With unique names.
+    water_depth : float
+        [m]; the bed lies at z = -water_depth; ``inf`` for no bed.
+    """
+
+    lines: tuple[LineElement, ...]
+    water_depth: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "lines", tuple(self.lines))
+        if not self.water_depth > 0.0:
+            raise InputError(f"{self.water_depth:g} m", path="water_depth", allowed="greater than 0")
+        names = [line.name for line in self.lines]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError(f"two lines are named {name!r}", path="lines", remedy="give every line its own name")
+        for line in self.lines:
+            clearance = getattr(line, "bed_clearance", None)
+            if clearance is not None:
+                clearance(self.water_depth)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the lines, in the order of every ``tension`` array."""
+        return tuple(line.name for line in self.lines)
+
+    def fairleads(self, position: ArrayLike) -> FloatArray:
+        """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6)."""
+        position = _positions(position)
+        rotation = rotation_matrix(position[..., 3:])
+        body = np.array([line.fairlead for line in self.lines]).reshape(-1, 3)
+        return position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, body)
+
+    def states(self, position: ArrayLike) -> dict[str, LineState]:
+        """Solve every line for body positions (n, 6) or (6,); arrays of the states have a leading axis n."""
+        points = self.fairleads(np.atleast_2d(_positions(position)))
+        return {line.name: line.solve(points[:, i], self.water_depth) for i, line in enumerate(self.lines)}
+
+    def forces(self, position: ArrayLike, about: Vector = (0.0, 0.0, 0.0)) -> FloatArray:
+        """Return force and moment (..., 6) [N, N m] of all lines on the body.
+
+        Parameters
+        ----------
+        position : array_like (..., 6)
+            Body positions.
+        about : tuple
+            Body-fixed point of the moments [m], body axes.
+        """
+        position = _positions(position)
+        flat = position.reshape(-1, 6)
+        lever = self._levers(flat, about)
+        out = np.zeros((len(flat), 6))
+        for i, state in enumerate(self.states(flat).values()):
+            out[:, :3] += state.force
+            out[:, 3:] += np.cross(lever[:, i], state.force)
+        return out.reshape(position.shape)
+
+    def tensions(self, position: ArrayLike) -> FloatArray:
+        """Return fairlead tensions (..., lines) [N] of one copy of every line."""
+        position = _positions(position)
+        states = self.states(position.reshape(-1, 6)).values()
+        columns = [state.tension_fairlead for state in states]
+        shape = (*position.shape[:-1], len(self.lines))
+        return np.stack(columns, axis=-1).reshape(shape) if columns else np.zeros(shape)
+
+    def stiffness(self, position: ArrayLike, about: Vector = (0.0, 0.0, 0.0)) -> FloatArray:
+        """Return the tangent stiffness (..., 6, 6) about any position ``[eq:mooring-stiffness]``.
+
+        Minus the derivative of force and moment about ``about`` with respect to the displacement of that point and a
+        small rotation vector, both in site axes. It holds the exact stiffness of every line and the moment of the
+        turning lever; with frictionless lines it is symmetric wherever the total moment vanishes (and in its
+        translational part everywhere).
+        """
+        position = _positions(position)
+        flat = position.reshape(-1, 6)
+        lever = self._levers(flat, about)
+        out = np.zeros((len(flat), 6, 6))
+        for i, state in enumerate(self.states(flat).values()):
+            r = lever[:, i]
+            s = cross_matrix(r)
+            k = state.stiffness
+            turn = -k @ s
+            out[:, :3, :3] += k
+            out[:, :3, 3:] += turn
+            out[:, 3:, :3] += s @ k
+            dot = np.einsum("ni,ni->n", r, state.force)
+            geometric = dot[:, None, None] * np.eye(3) - r[:, :, None] * state.force[:, None, :]
+            out[:, 3:, 3:] += s @ turn + geometric
+        return out.reshape(*position.shape[:-1], 6, 6)
+
+    def restoring_curve(
+        self, direction: str | ArrayLike, offsets: ArrayLike, position: ArrayLike = (0.0,) * 6
+    ) -> RestoringCurve:
+        """Move the body along ``direction`` (a name of :data:`DEGREES_OF_FREEDOM` or 6 numbers) from ``position``."""
+        unit = direction_vector(direction, DEGREES_OF_FREEDOM)
+        steps = np.atleast_1d(np.asarray(offsets, dtype=float))
+        path = _positions(position) + steps[:, None] * unit
+        return RestoringCurve(steps, unit, self.forces(path), self.tensions(path), self.stiffness(path))
+
+    def equilibrium(
+        self,
+        load: ArrayLike,
+        hydrostatic_stiffness: ArrayLike | None = None,
+        *,
+        start: ArrayLike = (0.0,) * 6,
+        subtract_rest_force: bool = False,
+        free: Sequence[int] = range(6),
+        tolerance: float = 1e-10,
+    ) -> Equilibrium:
+        """Find where line force + load - hydrostatic stiffness x position vanishes.
+
+        Parameters
+        ----------
+        load : array_like (6,)
+            External force and moment about the body origin [N, N m], constant in site axes.
+        hydrostatic_stiffness : array_like (6, 6), optional
+            Linear restoring of buoyancy and weight about the zero position; none for a body carried by its lines alone.
+        start : array_like (6,)
+            First position.
+        subtract_rest_force : bool
+            Whether the line force at zero position is balanced already (by weight and buoyancy), so that a zero load
+            leaves the body at zero.
+        free : sequence of int
+            Degrees of freedom that may move; the others stay at ``start``.
+        tolerance : float
+            Accepted imbalance over the largest load taking part.
+
+        Raises
+        ------
+        ConvergenceError
+            When no equilibrium is found.
+        """
+        load = np.asarray(load, dtype=float)
+        hydrostatic = (
+            np.zeros((6, 6)) if hydrostatic_stiffness is None else np.asarray(hydrostatic_stiffness, dtype=float)
+        )
+        rest = self.forces(np.zeros(6)) if subtract_rest_force else np.zeros(6)
+
+        def imbalance(position: FloatArray) -> FloatArray:
+            return self.forces(position) - rest + load - hydrostatic @ position
+
+        def jacobian(position: FloatArray) -> FloatArray:
+            spin = np.eye(6)
+            spin[3:, 3:] = spin_of_angle_rates(position[3:])
+            return -self.stiffness(position) @ spin - hydrostatic
+
+        scale = self._load_scale(np.asarray(start, dtype=float), load)
+        position, residual, steps = newton_with_line_search(
+            imbalance, jacobian, np.asarray(start, dtype=float), scale, list(free), tolerance
+        )
+        return Equilibrium(
+            position, self.forces(position), self.tensions(position), self.stiffness(position), residual, steps
+        )
+
+    def planar(self) -> PlanarLineSystem:
+        """Return the view in x-z: sway x, heave z, roll positive about +y (see :mod:`moyai.mooring.planar`)."""
+        from moyai.mooring.planar import PlanarLineSystem
+
+        return PlanarLineSystem(self)
+
+    def _levers(self, flat: FloatArray, about: Vector) -> FloatArray:
+        rotation = rotation_matrix(flat[:, 3:])
+        arms = np.array([line.fairlead for line in self.lines]).reshape(-1, 3) - np.asarray(about, dtype=float)
+        return np.einsum("nij,lj->nli", rotation, arms)
+
+    def _load_scale(self, start: FloatArray, load: FloatArray) -> FloatArray:
+        """Return the largest force and moment taking part, for judging an imbalance (6,)."""
+        force = max(float(np.sum(self.tensions(start))), float(np.max(np.abs(load[:3]))), 1e-12)
+        arm = max((float(np.linalg.norm(line.fairlead)) for line in self.lines), default=1.0) or 1.0
+        moment = max(force * arm, float(np.max(np.abs(load[3:]))))
+        return np.array([force] * 3 + [moment] * 3)
+
+
+def newton_with_line_search(
+    imbalance: Callable[[FloatArray], FloatArray],
+    jacobian: Callable[[FloatArray], FloatArray],
+    start: FloatArray,
+    scale: FloatArray,
+    free: list[int],
+    tolerance: float,
+    most: int = 100,
+) -> tuple[FloatArray, float, int]:
+    """Solve ``imbalance(position) = 0`` in the ``free`` components by damped Newton steps.
+
+    Steps follow the Jacobian, are shortened until the scaled imbalance falls, and lean to steepest descent
+    (Levenberg-Marquardt) where the Jacobian is singular, for instance while all lines are slack.
+
+    Raises
+    ------
+    ConvergenceError
+        After ``most`` steps without success.
+    """
+    position = np.array(start, dtype=float)
+    weight = 1.0 / scale[free]
+    value = imbalance(position)[free] * weight
+    norm = float(np.linalg.norm(value))
+    damping = 0.0
+    for iteration in range(most):
+        if float(np.max(np.abs(value), initial=0.0)) <= tolerance:
+            return position, float(np.max(np.abs(value), initial=0.0)), iteration
+        matrix = jacobian(position)[np.ix_(free, free)] * weight[:, None]
+        columns = np.linalg.norm(matrix, axis=0)
+        columns = np.where(columns > 0.0, columns, max(float(columns.max()), 1e-300))
+        scaled = matrix / columns
+        accepted = False
+        for _ in range(40):
+            system = np.vstack([scaled, np.sqrt(damping) * np.eye(len(free))])
+            step = np.linalg.lstsq(system, np.concatenate([-value, np.zeros(len(free))]), rcond=1e-14)[0] / columns
+            for shrink in (1.0, 0.5, 0.2, 0.05):
+                trial = position.copy()
+                trial[free] += shrink * step
+                trial_value = imbalance(trial)[free] * weight
+                trial_norm = float(np.linalg.norm(trial_value))
+                if trial_norm < norm * (1.0 - 1e-4 * shrink):
+                    accepted = True
+                    break
+            if accepted:
+                break
+            damping = max(10.0 * damping, 1e-8)
+        if not accepted:
+            break
+        position, value, norm = trial, trial_value, trial_norm
+        damping = 0.0 if damping < 1e-7 else 0.1 * damping
+    worst = float(np.max(np.abs(value)))
+    if worst <= 1e3 * tolerance:  # rounding of stiff lines
+        return position, worst, most
+    raise ConvergenceError(
+        f"no equilibrium of the moored body: imbalance {worst:.2e} of the largest load remains",
+        path="load",
+        remedy="check that the lines and hydrostatics can carry the load, or start nearer",
+    )
+
+
+def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> FloatArray:
+    """Return a direction given by name or by components."""
+    if isinstance(direction, str):
+        if direction not in names:
+            raise InputError(f"unknown direction {direction!r}", path="direction", allowed=", ".join(names))
+        return np.eye(len(names))[list(names).index(direction)]
+    vector = np.asarray(direction, dtype=float)
+    if vector.shape != (len(names),):
+        raise InputError(f"{vector.size} components", path="direction", allowed=f"{len(names)} components or a name")
+    return vector
+
+
+def _positions(position: ArrayLike) -> FloatArray:
+    array = np.asarray(position, dtype=float)
+    if array.shape[-1:] != (6,):
+        raise InputError(f"shape {array.shape}", path="position", allowed="last axis of 6: x, y, z, roll, pitch, yaw")
+    if not np.all(np.isfinite(array)):
+        raise InputError("position holds NaN or infinity", path="position")
+    return array

@@ -1,0 +1,182 @@
+"""Catalogue of mooring chain and rope (data/lines.csv holds the numbers, their sources and ranges)."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from dataclasses import dataclass
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.tables.reader import read_notes, read_table
+
+_FILE = "lines.csv"
+
+
+@dataclass(frozen=True)
+class LineProperties:
+    """Properties of one mooring line type at one diameter.
+
+    Parameters
+    ----------
+    name, material : str
+        Catalogue name and what it is.
+    diameter : float
+        Nominal diameter d (bar diameter of a chain) [m].
+    mass_per_length : float
+        In air [kg/m].
+    volume_per_length : float
+        Displaced volume [m2].
+    axial_stiffness : float
+        EA [N]; of fibre ropes the quasi-static value.
+    breaking_load : float
+        Minimum breaking load, new [N].
+    drag_normal, drag_tangential : float
+        Drag coefficients on the nominal diameter [-]: force per length rho/2 C d u|u|.
+    added_mass_normal, added_mass_tangential : float
+        Added-mass coefficients on the displaced volume [-].
+    diameter_range : tuple
+        Range of the source [m].
+    confirmed : bool
+        Whether every value was read in the source named; otherwise check before design use.
+    source : str
+        Where the values come from.
+    """
+
+    name: str
+    material: str
+    diameter: float
+    mass_per_length: float
+    volume_per_length: float
+    axial_stiffness: float
+    breaking_load: float
+    drag_normal: float
+    drag_tangential: float
+    added_mass_normal: float
+    added_mass_tangential: float
+    diameter_range: tuple[float, float]
+    confirmed: bool
+    source: str
+
+    def submerged_weight_per_length(self, density: float, gravity: float) -> float:
+        """Return the weight in water of ``density`` [kg/m3] under ``gravity`` [m/s2], per length [N/m]."""
+        return (self.mass_per_length - density * self.volume_per_length) * gravity
+
+    @property
+    def volume_diameter(self) -> float:
+        """Diameter of the cylinder of equal displacement [m]."""
+        return 2.0 * math.sqrt(self.volume_per_length / math.pi)
+
+
+def available_line_types() -> tuple[str, ...]:
+    """Return the names of the catalogue."""
+    return tuple(record["name"] for record in read_table(_FILE))
+
+
+def line_sources() -> str:
+    """Return the sources and the meaning of the columns of the catalogue."""
+    return read_notes(_FILE)
+
+
+def line_type(name: str, diameter: float) -> LineProperties:
+    """Return a catalogue entry at a nominal diameter [m].
+
+    Parameters
+    ----------
+    name : str
+        One of :func:`available_line_types`.
+    diameter : float
+        Nominal diameter [m].
+
+    Raises
+    ------
+    InputError
+        For an unknown name or a diameter that is not positive, or so large that the strength formula turns down.
+    """
+    if not (math.isfinite(diameter) and diameter > 0.0):
+        raise InputError(f"diameter is {diameter:g} m", path="diameter", allowed="greater than 0")
+    for record in read_table(_FILE):
+        if record["name"] == name:
+            break
+    else:
+        near = difflib.get_close_matches(name, available_line_types(), 1, 0.3)
+        raise InputError(
+            f"unknown line type {name!r}",
+            path="line_type",
+            allowed=", ".join(available_line_types()),
+            remedy=f"did you mean {near[0]!r}?" if near else "",
+        )
+    value = {key: float(record[key]) for key in record if key not in ("name", "material", "confirmed", "source")}
+    d = diameter
+    breaking = value["breaking_d2"] * d**2 + value["breaking_d3"] * d**3
+    if 2.0 * value["breaking_d2"] + 3.0 * value["breaking_d3"] * d <= 0.0:
+        raise InputError(
+            f"diameter is {d:g} m: the strength formula of {name} falls beyond its maximum",
+            path="diameter",
+            allowed=f"{value['diameter_min']:g} to {value['diameter_max']:g} m",
+        )
+    return LineProperties(
+        name=name,
+        material=record["material"],
+        diameter=d,
+        mass_per_length=value["mass_d2"] * d**2,
+        volume_per_length=math.pi / 4.0 * (value["volume_ratio"] * d) ** 2,
+        axial_stiffness=value["axial_d2"] * d**2 + value["axial_d3"] * d**3 + value["axial_per_breaking"] * breaking,
+        breaking_load=breaking,
+        drag_normal=value["drag_normal"],
+        drag_tangential=value["drag_tangential"],
+        added_mass_normal=value["added_mass_normal"],
+        added_mass_tangential=value["added_mass_tangential"],
+        diameter_range=(value["diameter_min"], value["diameter_max"]),
+        confirmed=record["confirmed"] == "true",
+        source=record["source"],
+    )
+
+
+def diameter_for_submerged_weight(name: str, weight: float, density: float, gravity: float) -> float:
+    """Return the nominal diameter [m] whose submerged weight is ``weight`` [N/m] in water of ``density`` [kg/m3].
+
+    Raises
+    ------
+    InputError
+        When the type floats or the weight is not positive.
+    """
+    unit = line_type(name, 1e-3).submerged_weight_per_length(density, gravity) * 1e6
+    if not (weight > 0.0 and unit > 0.0):
+        raise InputError(
+            f"{name} with a submerged weight of {weight:g} N/m in water of {density:g} kg/m3",
+            path="submerged_weight",
+            allowed="a positive weight and a type heavier than water",
+        )
+    return math.sqrt(weight / unit)
+
+
+def check_line_properties(properties: LineProperties) -> tuple[Notice, ...]:
+    """Tell where a catalogue entry is used outside its source's range or rests on unconfirmed values."""
+    low, high = properties.diameter_range
+    notices = []
+    if not low <= properties.diameter <= high:
+        limit = low if properties.diameter < low else high
+        notices.append(
+            Notice(
+                "line-diameter-range",
+                f"{properties.name}: nominal diameter {properties.diameter * 1e3:.4g} mm is outside the "
+                f"{low * 1e3:g} to {high * 1e3:g} mm of its source; the properties are extrapolated",
+                properties.diameter,
+                limit,
+                "information",
+                "give mass, stiffness and breaking load of the maker",
+                properties.source,
+            )
+        )
+    if not properties.confirmed:
+        notices.append(
+            Notice(
+                "line-values-unconfirmed",
+                f"{properties.name}: not every catalogue value was seen in its source",
+                severity="information",
+                remedy="give the breaking load of the maker's certificate before design use",
+                source=properties.source,
+            )
+        )
+    return tuple(notices)
