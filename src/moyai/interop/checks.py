@@ -90,7 +90,10 @@ def check_time_convention(dataset: xr.Dataset) -> tuple[Notice, ...]:
         if "Heave" in names and "hydrostatic_stiffness" in dataset:
             i = names.index("Heave")
             stiffness = float(dataset["hydrostatic_stiffness"].values[i, i])
-            if stiffness > 0.0 and abs(forces[j, i] - stiffness) > 0.5 * stiffness:
+            # Only where the lowest wave is much longer than the waterplane is wide
+            size = math.sqrt(stiffness / (low["rho"].item() * low["g"].item())) if stiffness > 0.0 else math.inf
+            number = float(wave_number(low["omega"].item(), low["water_depth"].item(), low["g"].item()))
+            if number * size < 0.05 and abs(forces[j, i] - stiffness) > 0.5 * stiffness:
                 notices.append(
                     Notice(
                         "long-wave-heave",

@@ -254,20 +254,27 @@ def _read_stiffness(path: Path) -> NDArray[np.float64]:
 
 
 def _read_drift(path: Path, converter: _FirstColumn, omega: FloatArray, directions: FloatArray) -> FloatArray | None:
-    """Return the mean drift of long-crested waves, pressure integration (.9) first, else momentum (.8)."""
-    for suffix in (".9", ".8"):
+    """Return the mean drift of long-crested waves: far-field momentum (.8) where it is there, else pressure (.9).
+
+    Momentum gives surge, sway and yaw and needs no velocities at the corners of the hull, where pressure integration is
+    weakest.
+    """
+    drift = np.full((omega.size, directions.size, 6), np.nan)
+    found = False
+    for suffix in (".8", ".9"):
         file = find_companion(path, suffix)
         if file is None:
             continue
-        drift = np.full((omega.size, directions.size, 6), np.nan)
-        for period, heading, second, mode, *_, real, _imaginary in read_table(file, (8,)):
+        found = True
+        for first, heading, second, mode, *_, real, _imaginary in read_table(file, (8,)):
             # Pairs of different headings belong to short-crested seas; negative modes repeat moments in body axes
             if heading != second or mode < 0:
                 continue
-            i = _nearest(omega, float(converter(np.array([period]))[0]), file)
-            drift[i, np.argmin(np.abs(directions - heading)), int(mode) - 1] = real
-        return drift
-    return None
+            i = _nearest(omega, float(converter(np.array([first]))[0]), file)
+            place = (i, int(np.argmin(np.abs(directions - heading))), int(mode) - 1)
+            if np.isnan(drift[place]):
+                drift[place] = real
+    return drift if found else None
 
 
 def _read_surroundings(path: Path) -> _Surroundings:

@@ -170,10 +170,11 @@ class RegularRun:
 
 
 def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = None) -> FlumeRecord:
-    """Read a comma-separated record: one heading row ``name [unit]``, time in the first column.
+    """Read a comma-separated record: one heading row ``name [unit]``, then numbers.
 
-    The first heading may be empty (it is the time); a heading without unit is kept and told. Empty and unreadable cells
-    become NaN and are counted, never filled.
+    Time is the column named ``Time``, else the first one, whose heading may be empty. A running row number without
+    heading before the time is left out. A heading without unit is kept and told. Empty and unreadable cells become NaN
+    and are counted, never filled.
 
     Parameters
     ----------
@@ -203,6 +204,11 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
                 f"{file.name}: row {number} has {len(row)} columns, the heading {len(heading)}", path="record"
             )
     table, unreadable = _numbers(body)
+    if not heading[0].strip() and len(heading) > 2 and heading[1].strip().lower().startswith("time"):
+        heading, table = heading[1:], table[:, 1:]
+        column = 2
+    else:
+        column = 1
     labels = [_HEADING.match(label) for label in heading]
     names = [label["name"] if label else "" for label in labels]
     stated = [(label["unit"] or "").strip() if label else "" for label in labels]
@@ -211,10 +217,12 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     time = table[:, 0]
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        raise InputError(f"{file.name}: row {bad[0] + 2}, column 1: time is missing or not a number", path="record")
+        raise InputError(
+            f"{file.name}: row {bad[0] + 2}, column {column}: time is missing or not a number", path="record"
+        )
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
-        raise InputError(f"{file.name}: row {back[0] + 3}, column 1: time does not increase", path="record")
+        raise InputError(f"{file.name}: row {back[0] + 3}, column {column}: time does not increase", path="record")
     notices = _reading_notices(file.name, time, names, channel_units, table[:, 1:], unreadable)
     return FlumeRecord(time, tuple(names[1:]), channel_units, table[:, 1:], notices, file.name)
 

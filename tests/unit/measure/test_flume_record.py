@@ -20,6 +20,16 @@ def write(path, time, columns, headings):
     path.write_text("\n".join(rows) + "\n")
 
 
+def test_row_numbers_before_the_time_are_left_out(tmp_path):
+    (tmp_path / "r.csv").write_text(",Time [s],a [m]\n0,0.0,1\n1,0.5,2\n2,1.0,x\n")
+    record = read_flume_record(tmp_path / "r.csv")
+    np.testing.assert_allclose(record.time, [0.0, 0.5, 1.0])
+    assert record.names == ("a",)
+    (tmp_path / "r.csv").write_text(",Time [s],a [m]\n0,0.0,1\n1,,2\n2,1.0,3\n")
+    with pytest.raises(InputError, match="row 3, column 2"):
+        read_flume_record(tmp_path / "r.csv")
+
+
 def test_headings_units_and_gaps(tmp_path):
     file = tmp_path / "r.csv"
     file.write_text(

@@ -51,7 +51,7 @@ def test_sliding_shows_the_drift_and_only_that():
     drifting = sliding_fits(time, (1.0 + 0.01 * time) * np.cos(omega * time), omega, count=1, start=2.0, end=20.1)
     assert max(abs(fit.first[0] - steady[3].first[0]) for fit in steady) < 1e-9
     moved = drifting[-1].start - drifting[0].start
-    # The product of trend and carrier holds a second harmonic, which moves the fit by up to rate / (2 omega) at each end
+    # The product of trend and carrier holds a second harmonic that moves the fit by up to rate / (2 omega) at each end
     assert abs(drifting[-1].first[0]) - abs(drifting[0].first[0]) == pytest.approx(0.01 * moved, abs=0.01 / omega)
 
 

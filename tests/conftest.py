@@ -1,0 +1,16 @@
+"""Fixtures for all tests."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """Folder of measured records and files of other programs; tests that need it carry the marker ``shared_data``."""
+    beside = Path(__file__).resolve().parents[2] / "shared" / "data"
+    folder = Path(os.environ.get("MOYAI_SHARED_DATA", beside))
+    if not (folder / "README.md").is_file():
+        pytest.skip(f"measured records are not at {folder}: set MOYAI_SHARED_DATA to their folder")
+    return folder
