@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 _MODES = ("sway", "heave", "roll")
 _SIDES = ("minus", "plus")
+#: Sway and roll change sign when the picture is mirrored
+_MIRROR = np.array([-1.0, 1.0, -1.0])
 #: Waves closer than this to travelling along the structure have no reflection and transmission to speak of
 _LEAST_COSINE = 1e-3
 #: Sine of the heading below which waves count as travelling along x; the answer changes with its square
@@ -198,7 +200,8 @@ def solve_rectangle(
 
     Notes
     -----
-    Infinite depth is not covered: the gap below the body is the unknown of the method. Depths of hundreds of draughts are.
+    Infinite depth is not covered, since the gap below the body is the unknown of the method; depths of hundreds of
+    draughts are.
     """
     frequencies, headings = _checked(beam, draught, water, omega, centre, heading)
     gap = water.depth - draught
@@ -206,48 +209,36 @@ def solve_rectangle(
     count = _pairs(beam, draught, gap, float(k.max())) if pairs is None else int(pairs)
     if count < 2:
         raise InputError(f"pairs is {count}", path="pairs", allowed="at least 2")
-    basis = GapBasis(count)
+    shape = _Shape(GapBasis(count), 0.5 * beam / gap, water.depth / gap, draught / gap)
+    surface = frequencies**2 / water.gravity * gap
+    oblique = np.abs(np.sin(headings)) > _LEAST_SINE
+    total = float(len(frequencies) * (1 + np.count_nonzero(oblique)))
+
+    straight, limits = _along_x(shape, surface, k * gap, progress, total)
     turn = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-centre[1], centre[0], 1.0]])
     size = np.array([1.0, 1.0, gap])
+    lever = np.outer(size, size) * gap**2
+    moments = turn @ (np.array([fields.potential_moment for fields in straight]) * lever) @ turn.T
+    infinite, zero = (-water.density * turn @ (limit * lever) @ turn.T for limit in limits)
+    lift = 1j * frequencies / water.gravity * gap * np.array([fields.surface for fields in straight])
+    towards_plus = np.array([fields.radiated for fields in straight]) * size * lift[:, None]
+    radiated = np.stack([(towards_plus * _MIRROR) @ turn.T, towards_plus @ turn.T], axis=-1)
 
-    surface = frequencies**2 / water.gravity * gap
-    inner = inner_region(basis, 0.5 * beam / gap, 0.0)
-    kernel = outer_kernel(basis, water.depth / gap, draught / gap, 0.0, surface, k * gap)
-    square: list[Fields] = []
-    total = len(frequencies) * (1 + int(np.count_nonzero(np.abs(np.sin(headings)) > _LEAST_SINE)))
-    for index in range(len(frequencies)):
-        square.append(solve_fields(inner, kernel, surface[index], k[index] * gap))
-        progress("rectangle", index + 1, total)
-    moments = np.array([fields.potential_moment for fields in square]) * gap**2 * np.outer(size, size)
-    moments = turn @ moments @ turn.T
-    added_mass = -water.density * moments.real
-    damping = -water.density * frequencies[:, None, None] * moments.imag
-    lift = 1j * frequencies / water.gravity * gap * np.array([fields.surface for fields in square])
-    towards_plus = (np.array([fields.radiated for fields in square]) * size) * lift[:, None]
-    mirror = np.array([-1.0, 1.0, -1.0])
-    radiated = np.stack([(towards_plus * mirror) @ turn.T, towards_plus @ turn.T], axis=-1)
+    answers = [straight] * len(headings)
+    done = float(len(frequencies))
+    for index in np.flatnonzero(oblique):
+        answers[index] = _oblique(shape, surface, k * gap, float(headings[index]))
+        done += len(frequencies)
+        progress("rectangle", done, total)
+    unit = -water.density * water.gravity * gap * size
 
-    infinite = solve_fields(inner, kernel, math.inf, math.nan).potential_moment.real
-    zero_kernel_k = _ALMOST_ZERO / water.depth * gap
-    zero_surface = zero_kernel_k * math.tanh(_ALMOST_ZERO)
-    zero_kernel = outer_kernel(
-        basis, water.depth / gap, draught / gap, 0.0, np.array([zero_surface]), np.array([zero_kernel_k])
-    )
-    zero = solve_fields(inner, zero_kernel, zero_surface, zero_kernel_k).potential_moment.real
-    limits = [-water.density * gap**2 * turn @ (limit * np.outer(size, size)) @ turn.T for limit in (infinite, zero)]
-
-    forces, undisturbed, reflection, transmission = [], [], [], []
-    for angle in headings:
-        fields_of_heading = square
-        if abs(math.sin(angle)) > _LEAST_SINE:
-            fields_of_heading = _oblique(basis, beam, draught, water, surface, k, angle)
-            progress("rectangle", len(forces) + 1, total)
-        sign = mirror if math.cos(angle) < 0.0 else np.ones(3)
-        for store, name in ((forces, "exciting_moment"), (undisturbed, "incident_moment")):
+    def force(name: str) -> ComplexArray:
+        columns = []
+        for angle, fields_of_heading in zip(headings, answers, strict=True):
             values = np.array([getattr(fields, name) / fields.surface for fields in fields_of_heading])
-            store.append((-water.density * water.gravity * gap * values * size * sign) @ turn.T)
-        reflection.append([fields.reflection for fields in fields_of_heading])
-        transmission.append([fields.transmission for fields in fields_of_heading])
+            columns.append((values * unit * (_MIRROR if math.cos(angle) < 0.0 else 1.0)) @ turn.T)
+        return np.stack(columns, axis=1)
+
     solution = RectangleSolution(
         beam=float(beam),
         draught=float(draught),
@@ -255,18 +246,28 @@ def solve_rectangle(
         water=water,
         omega=frequencies,
         heading=headings,
-        added_mass=added_mass,
-        radiation_damping=damping,
-        infinite_frequency_added_mass=limits[0],
-        zero_frequency_added_mass=limits[1],
+        added_mass=-water.density * moments.real,
+        radiation_damping=-water.density * frequencies[:, None, None] * moments.imag,
+        infinite_frequency_added_mass=infinite,
+        zero_frequency_added_mass=zero,
         radiated_wave=radiated,
-        excitation_force=np.stack(forces, axis=1),
-        froude_krylov_force=np.stack(undisturbed, axis=1),
-        reflection=np.array(reflection).T,
-        transmission=np.array(transmission).T,
+        excitation_force=force("exciting_moment"),
+        froude_krylov_force=force("incident_moment"),
+        reflection=np.array([[fields.reflection for fields in column] for column in answers]).T,
+        transmission=np.array([[fields.transmission for fields in column] for column in answers]).T,
         checks=(),
     )
-    return _with_checks(solution)
+    return replace(solution, checks=_identities(solution))
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """Rectangle and depth in gap heights, with the functions of the velocity."""
+
+    basis: GapBasis
+    half_beam: float
+    depth: float
+    draught: float
 
 
 def _checked(
@@ -307,21 +308,36 @@ def _pairs(beam: float, draught: float, gap: float, wave_number: float) -> int:
     return min(8 + math.ceil(math.sqrt(slenderness)), 48)
 
 
-def _oblique(
-    basis: GapBasis, beam: float, draught: float, water: Water, surface: FloatArray, k: FloatArray, angle: float
-) -> list[Fields]:
+def _along_x(
+    shape: _Shape, surface: FloatArray, k: FloatArray, progress: Progress, total: float
+) -> tuple[list[Fields], tuple[FloatArray, FloatArray]]:
+    """Solve all frequencies for waves and motions that are equal along the structure, and the two limits."""
+    inner = inner_region(shape.basis, shape.half_beam, 0.0)
+    kernel = outer_kernel(shape.basis, shape.depth, shape.draught, 0.0, surface, k)
+    fields = []
+    for index, (number, wave) in enumerate(zip(surface, k, strict=True)):
+        fields.append(solve_fields(inner, kernel, float(number), float(wave)))
+        progress("rectangle", index + 1.0, total)
+    infinite = solve_fields(inner, kernel, math.inf, math.nan)
+    wave = _ALMOST_ZERO / shape.depth
+    number = wave * math.tanh(_ALMOST_ZERO)
+    slow = outer_kernel(shape.basis, shape.depth, shape.draught, 0.0, np.array([number]), np.array([wave]))
+    zero = solve_fields(inner, slow, number, wave)
+    return fields, (infinite.potential_moment.real, zero.potential_moment.real)
+
+
+def _oblique(shape: _Shape, surface: FloatArray, k: FloatArray, angle: float) -> list[Fields]:
     """Solve all frequencies for waves at an angle; the wave number along the crest differs from one to the next."""
-    gap = water.depth - draught
     out = []
-    for number, wave in zip(surface, k * gap, strict=True):
-        along = wave * abs(math.sin(angle))
-        inner = inner_region(basis, 0.5 * beam / gap, along)
-        kernel = outer_kernel(basis, water.depth / gap, draught / gap, along, np.array([number]), np.array([wave]))
+    for number, wave in zip(surface, k, strict=True):
+        along = float(wave) * abs(math.sin(angle))
+        inner = inner_region(shape.basis, shape.half_beam, along)
+        kernel = outer_kernel(shape.basis, shape.depth, shape.draught, along, np.array([number]), np.array([wave]))
         out.append(solve_fields(inner, kernel, float(number), float(wave)))
     return out
 
 
-def _with_checks(solution: RectangleSolution) -> RectangleSolution:
+def _identities(solution: RectangleSolution) -> tuple[IdentityCheck, ...]:
     """Hold the solution against what every correct one obeys, [eq:reference-identities]."""
     water, omega = solution.water, solution.omega
     speed = np.atleast_1d(np.asarray(group_velocity(omega, water.depth, water.gravity), dtype=float))
@@ -347,4 +363,4 @@ def _with_checks(solution: RectangleSolution) -> RectangleSolution:
             force = solution.excitation_force[:, index]
             worst = max(worst, float(np.max(np.abs(force - expected) / np.abs(expected).max(axis=0))))
         checks.append(IdentityCheck("Haskind relation", worst, 1e-9, "X_j = -2 rho g c_g r_j towards the wave"))
-    return replace(solution, checks=tuple(checks))
+    return tuple(checks)

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gamma, gammaln, ive, jv, roots_gegenbauer
+
+from moyai.potential.extrapolation import extrapolated_limit
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -83,7 +86,7 @@ class GapBasis:
         return out
 
     def hyperbolic_transform(self, argument: ComplexArray) -> ComplexArray:
-        """Return exp(-argument) times the integrals with cosh(argument y); the real part of the argument is positive."""
+        """Return exp(-argument) times the integrals with cosh(argument y), real part of the argument positive."""
         x = np.asarray(argument)
         out = np.empty((self.size, x.size), dtype=complex)
         # The library refuses very large complex arguments; four terms of the asymptotic series are exact there
@@ -102,9 +105,9 @@ class GapBasis:
         return out
 
     def moment_rules(self) -> tuple[FloatArray, FloatArray]:
-        """Return points (3, q) of y and weights (size, q) that integrate a smooth even function with every basis function."""
-        points, weights = [], np.empty((self.size, 0))
-        rows = []
+        """Return points (3, q) of y and weights (size, q) that integrate basis functions times smooth even ones."""
+        points: list[FloatArray] = []
+        rows: list[FloatArray] = []
         count = 2 * self.pairs + 48
         for row, (index, degree, scale) in enumerate(zip(self.index, self.degree, self.scale, strict=True)):
             y, w, polynomials = _gegenbauer_rule(float(index), count, int(self.degree.max()))
@@ -114,11 +117,10 @@ class GapBasis:
             rows.append(scale * sign * factor * w * polynomials[n] / 2.0)
             if row in (0, self.pairs, 2 * self.pairs):
                 points.append(y)
-        weights = np.array(rows)
-        return np.array(points), weights
+        return np.array(points), np.array(rows)
 
     def moments(self, function_values: NDArray) -> NDArray:
-        """Return integrals over 0 < y < 1 of basis times a function given (3, q) at the points of :meth:`moment_rules`."""
+        """Return integrals over 0 < y < 1 of basis times a function given (3, q) at :meth:`moment_rules`."""
         _, weights = self.moment_rules()
         family = np.concatenate([np.zeros(self.pairs, int), np.ones(self.pairs, int), [2]])
         return np.einsum("iq,iq->i", weights, np.asarray(function_values)[family])
@@ -141,35 +143,7 @@ def _gegenbauer_rule(index: float, count: int, highest: int) -> tuple[FloatArray
 @lru_cache(maxsize=8)
 def _table_at_multiples(pairs: int, count: int) -> FloatArray:
     """Cosine transforms at pi, 2 pi, ..., count pi."""
-    return GapBasis(pairs).cosine_transform(np.pi * np.arange(1, count + 1))
-
-
-def extrapolated_sum(terms: NDArray, first: int, exponent: FloatArray) -> NDArray:
-    """Sum a series whose terms have an asymptotic expansion in powers of 1/m, [eq:reference-richardson].
-
-    Parameters
-    ----------
-    terms : ndarray (levels, ...)
-        Partial sums to ``first``, ``2 first``, ``4 first``, ...
-    first : int
-        Number of terms of the first partial sum.
-    exponent : ndarray (...)
-        Exponent p of the tail, ``S - S_M = M^-p (d0 + d1/M + ...)``; at most of another shape that broadcasts.
-    """
-    levels = len(terms)
-    # Coordinates scaled by the last level keep the small system well conditioned
-    ratio = 0.5 ** np.arange(levels)[::-1]
-    out = np.empty(np.broadcast_shapes(terms.shape[1:], exponent.shape), dtype=terms.dtype)
-    exponents = np.broadcast_to(exponent, out.shape)
-    for value in np.unique(exponents):
-        system = np.ones((levels, levels))
-        for column in range(1, levels):
-            system[:, column] = ratio ** -(value + column - 1.0)
-        weights = np.linalg.solve(system.T, np.eye(levels)[0])
-        chosen = exponents == value
-        total = np.tensordot(weights, terms, axes=(0, 0))
-        out[chosen] = np.broadcast_to(total, out.shape)[chosen]
-    return out
+    return GapBasis(pairs).cosine_transform(np.asarray(np.pi * np.arange(1, count + 1), dtype=float))
 
 
 @dataclass(frozen=True)
@@ -214,7 +188,7 @@ def inner_sums(basis: GapBasis, half_beam: float, along: float, symmetric: bool)
     roll = np.zeros(count) if symmetric else -((-1.0) ** m) / kappa**2
     edges = [0, *(first * 2**level for level in range(_RICHARDSON_LEVELS))]
     matrices, vectors, scalars = [], [], []
-    for start_mode, stop in zip(edges[:-1], edges[1:], strict=True):
+    for start_mode, stop in pairwise(edges):
         block = table[:, start_mode:stop]
         weighted = block * weight[start_mode:stop]
         matrices.append(weighted @ block.T)
@@ -223,7 +197,7 @@ def inner_sums(basis: GapBasis, half_beam: float, along: float, symmetric: bool)
     index = basis.index
     # The transform of the constant vanishes at every multiple of pi, so that its sums need no care
     return InnerSums(
-        matrix=extrapolated_sum(np.cumsum(matrices, axis=0), first, index[:, None] + index[None, :] + 1.0),
-        vector=extrapolated_sum(np.cumsum(vectors, axis=0), first, index + 2.5),
-        scalar=float(extrapolated_sum(np.cumsum(scalars, axis=0), first, np.array(4.0))),
+        matrix=extrapolated_limit(np.cumsum(matrices, axis=0), index[:, None] + index[None, :] + 1.0),
+        vector=extrapolated_limit(np.cumsum(vectors, axis=0), index + 2.5),
+        scalar=float(extrapolated_limit(np.cumsum(scalars, axis=0), 4.0)),
     )

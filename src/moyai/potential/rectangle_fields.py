@@ -203,7 +203,8 @@ def solve_fields(inner: InnerRegion, kernel: OuterKernel, surface_number: float,
             mirror[symmetric] = shift**2 * (1.0 + amplitude[-1])
             exciting[list(modes)] *= (0.5 if symmetric else -0.5) * shift
     if not waves:
-        return Fields(potential, exciting * 0.0, exciting * 0.0, outgoing, 0j, 0j, 0.0)
+        nothing = np.zeros(3, dtype=complex)
+        return Fields(potential, nothing, nothing, outgoing, 0j, 0j, 0.0)
     return Fields(
         potential_moment=potential,
         exciting_moment=exciting,

@@ -20,7 +20,7 @@ _TRIANGLE_POINTS = 14
 
 @dataclass(frozen=True)
 class OuterMatrices:
-    """Moments of the potential beside the wall for unit moments of velocity; the potential is minus kernel times velocity.
+    """Moments of the kernel beside the wall; the potential there is minus kernel times velocity.
 
     ``gap_gap`` (q, q), ``gap_side`` (q, 2) and ``side_side`` (2, 2): basis functions in the gap, the functions 1 and z
     on the wall. ``wave_gap`` (q,), ``wave_side`` (2,): moments of the wave mode of unit norm; ``wave_surface`` its
@@ -83,7 +83,10 @@ def _real_axis_table(pairs: int) -> tuple[FloatArray, FloatArray, FloatArray, fl
 
 
 def oblique_correction(basis: GapBasis, along: float, reference: float) -> FloatArray:
-    """Return what K0(along |y - y'|) + K0(along (y + y')) over pi has beyond :func:`log_matrix`, [eq:reference-oblique]."""
+    """Return the moments of (K0(along |y - y'|) + K0(along (y + y'))) / pi less :func:`log_matrix`.
+
+    See [eq:reference-oblique].
+    """
     points, weights, table, last = _real_axis_table(basis.pairs)
     oblique = 1.0 / np.hypot(points, along)
     zero = basis.at_zero()
@@ -148,12 +151,12 @@ class OuterKernel:
         norm = np.array([[draught, -(draught**2) / 2.0], [-(draught**2) / 2.0, draught**3 / 3.0]])
         tail = norm / self.last
         factor = 2.0 / np.pi
-        result = (factor * gap_gap + self.free, factor * gap_side, factor * (side_side + tail))
-        wave = self._wave(wave_number) if np.isfinite(surface_number) else None
-        if wave is None:
-            count = self.basis.size
-            return OuterMatrices(*(np.real(part) + 0j for part in result), np.zeros(count), np.zeros(2), 0.0, 0.0)
-        return OuterMatrices(*result, *wave)
+        gap_gap, gap_side, side_side = factor * gap_gap + self.free, factor * gap_side, factor * (side_side + tail)
+        if np.isfinite(surface_number):
+            return OuterMatrices(gap_gap, gap_side, side_side, *self._wave(wave_number))
+        # Without waves the kernel is real
+        parts = [np.asarray(part.real, dtype=complex) for part in (gap_gap, gap_side, side_side)]
+        return OuterMatrices(parts[0], parts[1], parts[2], np.zeros(self.basis.size), np.zeros(2), 0.0, 0.0)
 
     def _wave(self, k: float) -> tuple[FloatArray, FloatArray, float, float]:
         """Moments of the progressive mode cosh k(z + h), scaled to unit norm over the depth."""
@@ -197,7 +200,7 @@ def outer_kernel(
 
 
 def _wall_moments(g: ComplexArray, alpha: float, beta: float, draught: float) -> ComplexArray:
-    """exp(-gamma d) times the wall moments (2, k) of alpha gamma cosh gamma t - beta sinh gamma t, t below the surface."""
+    """Return exp(-gamma d) times the wall moments (2, k) of alpha gamma cosh gamma t - beta sinh gamma t, t = -z."""
     x = g * draught
     out = np.empty((2, g.size), dtype=complex)
     small = np.abs(x) < 2.0
