@@ -333,7 +333,7 @@ def solve_with_drift(
     Notes
     -----
     The fixed point F -> X0(F) -> K_M(X0) -> motions -> C_R, E_L -> F is damped by one half as in P3 and hastened by
-    secant steps where they stay within the bracket of the last two [eq:floating-drift-loop].
+    secant steps where those do not leap [eq:floating-drift-loop].
     """
     hydro = problem.one_heading()
     count = len(hydro.omega)
@@ -432,7 +432,7 @@ def _loop(
         next_force = force + 0.5 * gap
         if gap != previous_gap:
             secant = force - gap * (force - previous_force) / (gap - previous_gap)
-            if abs(secant - force) <= abs(force - previous_force):
+            if abs(secant - force) <= 4.0 * abs(force - previous_force):
                 next_force = secant
         previous_force, previous_gap, force = force, gap, next_force
     return state, used, "not_converged"

@@ -66,7 +66,7 @@ def dynamic_stiffness(omega: FloatArray, mass: FloatArray, damping: FloatArray, 
         Broadcast against ``omega[..., None, None]``.
     """
     w = np.asarray(omega)[..., None, None]
-    return -(w**2) * mass - 1j * w * damping + stiffness
+    return np.asarray(-(w**2) * mass - 1j * w * damping + stiffness, dtype=np.complex128)
 
 
 def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArray, FloatArray]:
@@ -166,8 +166,12 @@ def solve_motions(
     iterations, change = 0, 0.0
     if iterated:
         added = np.zeros_like(constant)
-        # Start from a finite velocity even at an undamped resonance
-        displacement = np.where(np.isnan(displacement), 0.0, displacement)
+        if np.any(condition > SINGULAR):
+            # A finite first velocity even at an undamped resonance; the iteration forgets it
+            first = LinearDamping(np.zeros((size, size)), np.full(size, 0.1))
+            started = solution(extra + first.at(inertia, hydrodynamics.added_mass, stiffness)[:, None])[0]
+            displacement = np.where(np.isnan(displacement), started, displacement)
+        displacement = np.nan_to_num(displacement)
         change = np.inf
         while change > tolerance and iterations < maximum_iterations:
             iterations += 1

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh
 from scipy.optimize import brentq, linear_sum_assignment
@@ -70,38 +70,37 @@ def natural_modes(
     Raises
     ------
     InputError
-        When M + A is not positive definite.
+        When the inertia has no positive diagonal.
 
     Notes
     -----
-    For each mode the root of ``w^2 - lambda_j(w)`` is bracketed on a grid and found by Brent's method, lambda_j being
-    the j-th eigenvalue of the symmetric pencil with the added mass at w; modes do not change places by overshooting.
+    A mode is a frequency at which the symmetric matrix K - w^2 (M + A(w)) is singular. Its sorted eigenvalues (modes
+    scaled by their inertia) fall from those of K at rest, one through zero at each natural frequency; the first
+    crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change places, and
+    the added mass may even be negative, as it is near a gap resonance.
     """
     size = hydrodynamics.size
     inertia = square_matrix(inertia, size, "inertia")
     stiffness = square_matrix(stiffness, size, "stiffness")
     restoring = 0.5 * (stiffness + stiffness.T)
+    if np.any(np.diag(inertia) <= 0.0):
+        raise InputError("a mode has no inertia", path="inertia", allowed="a positive diagonal")
     extra = np.zeros((size, size)) if damping is None else square_matrix(damping, size, "damping")
     added = added_mass_function(hydrodynamics)
 
-    def pencil(omega: float) -> tuple[FloatArray, FloatArray]:
+    scale = 1.0 / np.sqrt(np.diag(inertia))
+
+    def spectrum(omega: float) -> tuple[FloatArray, FloatArray]:
         matrix = added(omega)
-        mass = inertia + 0.5 * (matrix + matrix.T)
-        try:
-            values, vectors = eigh(restoring, mass)
-        except np.linalg.LinAlgError as error:
-            raise InputError(
-                f"inertia and added mass are not positive definite at {omega:.4g} rad/s",
-                path="inertia",
-                remedy="look at the added mass near irregular or gap resonances there",
-            ) from error
-        return values, vectors
+        dynamic = restoring - omega**2 * (inertia + 0.5 * (matrix + matrix.T))
+        values, columns = eigh(dynamic * scale[:, None] * scale[None, :])
+        return values, columns
 
     omega, vectors, outside = np.zeros(size), np.zeros((size, size)), []
     for number in range(size):
-        root = _mode_frequency(pencil, number, hydrodynamics)
+        root = _mode_frequency(spectrum, number, hydrodynamics)
         omega[number] = root
-        vectors[number] = pencil(max(root, 0.0) if np.isfinite(root) else 0.0)[1][:, number]
+        vectors[number] = scale * spectrum(root if np.isfinite(root) else 0.0)[1][:, number]
         if np.isfinite(root) and root > 0.0 and not hydrodynamics.omega[0] <= root <= hydrodynamics.omega[-1]:
             outside.append(root)
     order, shapes = _lead(vectors, inertia)
@@ -156,34 +155,34 @@ def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float], FloatArr
 
 
 def _mode_frequency(
-    pencil: Callable[[float], tuple[FloatArray, FloatArray]], number: int, hydrodynamics: Hydrodynamics
+    spectrum: Callable[[float], tuple[FloatArray, FloatArray]], number: int, hydrodynamics: Hydrodynamics
 ) -> float:
-    """Return the root of ``w^2 = lambda_number(w)``: 0 without restoring, NaN with negative restoring."""
-    values = pencil(0.0)[0]
-    scale = float(np.max(np.abs(values)))
-    if scale == 0.0 or abs(values[number]) <= 1e-12 * scale:
+    """Return where eigenvalue ``number`` passes zero: 0 without restoring, NaN with negative restoring."""
+    values = spectrum(0.0)[0]
+    largest = float(np.max(np.abs(values)))
+    if largest == 0.0 or abs(values[number]) <= 1e-12 * largest:
         return 0.0
     if values[number] < 0.0:
         return float("nan")
 
-    def gap(omega: float) -> float:
-        return omega**2 - float(pencil(omega)[0][number])
+    def eigenvalue(omega: float) -> float:
+        return float(spectrum(omega)[0][number])
 
-    top = 2.0 * max(float(np.sqrt(np.max(values))), float(hydrodynamics.omega[-1]))
+    top = 2.0 * max(float(np.sqrt(largest)), float(hydrodynamics.omega[-1]))
     for _ in range(60):
-        if gap(top) > 0.0:
+        if eigenvalue(top) < 0.0:
             break
         top *= 2.0
-    grid = np.unique(np.concatenate([[0.0], hydrodynamics.omega[hydrodynamics.omega < top], [top]]))
+    grid = np.unique(np.concatenate([hydrodynamics.omega[hydrodynamics.omega < top], [top]]))
     below = 0.0
-    for upper in grid[1:]:
-        if gap(float(upper)) >= 0.0:
-            return float(brentq(gap, below, float(upper), xtol=1e-13 * top, rtol=1e-13))
+    for upper in grid:
+        if eigenvalue(float(upper)) <= 0.0:
+            return float(brentq(eigenvalue, below, float(upper), xtol=1e-13 * top, rtol=1e-13))
         below = float(upper)
     return float("nan")
 
 
-def _lead(vectors: FloatArray, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _lead(vectors: FloatArray, inertia: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
     """Give every mode the motion that carries most of its kinetic energy, each motion once; scale it to 1 there."""
     share = vectors**2 * np.diag(inertia)
     share = share / np.sum(share, axis=1, keepdims=True)

@@ -270,7 +270,7 @@ def simulate(
     cost["kernel"] = clock.process_time() - started
     good = done // every + 1
     return Simulation(
-        time=step * every * np.arange(good),
+        time=step * every * np.arange(good, dtype=np.float64),
         position=saved[0][:good],
         velocity=saved[1][:good],
         mooring_force=saved[2][:good],
