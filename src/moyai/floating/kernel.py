@@ -1,8 +1,11 @@
-"""Compiled kernels of the time domain: arrays in, arrays out. One call graph, so one file.
+"""Compiled kernels of the time domain: arrays in, arrays out.
 
 Method [eq:floating-etd]: the classical fourth-order Runge-Kutta method for position and velocity joined with its
 exponential form (Cox and Matthews 2002, ETDRK4) for the states of the memory, so that fast memory poles neither limit
 the step nor lose their steady value.
+
+The pull of the lines comes from :mod:`moyai.mooring.planar_kernel`. The compiler's cache knows this file alone:
+touch it after a change there.
 """
 
 from __future__ import annotations
@@ -12,111 +15,30 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from moyai.mooring.planar_kernel import planar_line_force
+
 RUNNING, DIVERGED = 0, 1
 
 
 @njit(cache=True, error_model="numpy")
-def _interval(grid: Any, start: int, size: int, value: float) -> int:
-    """Return i with grid[start + i] <= value < grid[start + i + 1], the end intervals outside."""
-    low, high = 0, size - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if grid[start + middle] <= value:
-            low = middle
-        else:
-            high = middle
-    return low
+def mooring_force(position: Any, lines: Any, force: Any, tension: Any) -> None:
+    """Add the pull of all lines on the body of the first three modes to ``force``; write the ``tension`` of each.
 
-
-@njit(cache=True, error_model="numpy")
-def _table_pull(
-    chords: Any, angles: Any, nodes: Any, c0: int, a0: int, n0: int, p: int, q: int, span: float, rise: float
-) -> tuple[float, float]:
-    """Return H and V of a bicubic Hermite table at span and rise; beyond its edges the edge value and slope go on."""
-    chord = np.sqrt(span * span + rise * rise)
-    angle = np.arctan2(rise, span)
-    c = min(max(chord, chords[c0]), chords[c0 + p - 1])
-    a = min(max(angle, angles[a0]), angles[a0 + q - 1])
-    i, j = _interval(chords, c0, p, c), _interval(angles, a0, q, a)
-    dc, da = chords[c0 + i + 1] - chords[c0 + i], angles[a0 + j + 1] - angles[a0 + j]
-    s, t = (c - chords[c0 + i]) / dc, (a - angles[a0 + j]) / da
-    beyond_c, beyond_a = chord - c, angle - a
-    horizontal = vertical = 0.0
-    for side_c in range(2):
-        if side_c == 0:
-            value_c, slope_c = (1.0 + 2.0 * s) * (1.0 - s) ** 2, s * (1.0 - s) ** 2 * dc
-        else:
-            value_c, slope_c = s * s * (3.0 - 2.0 * s), s * s * (s - 1.0) * dc
-        for side_a in range(2):
-            if side_a == 0:
-                value_a, slope_a = (1.0 + 2.0 * t) * (1.0 - t) ** 2, t * (1.0 - t) ** 2 * da
-            else:
-                value_a, slope_a = t * t * (3.0 - 2.0 * t), t * t * (t - 1.0) * da
-            k = n0 + ((i + side_c) * q + j + side_a) * 8
-            w0, w1, w2, w3 = value_c * value_a, slope_c * value_a, value_c * slope_a, slope_c * slope_a
-            horizontal += w0 * nodes[k] + w1 * nodes[k + 1] + w2 * nodes[k + 2] + w3 * nodes[k + 3]
-            vertical += w0 * nodes[k + 4] + w1 * nodes[k + 5] + w2 * nodes[k + 6] + w3 * nodes[k + 7]
-    if beyond_c != 0.0 or beyond_a != 0.0:
-        # At an edge s or t is 0 or 1: the slopes there are those of the nearest nodes, blended along the edge
-        for side_c in range(2):
-            for side_a in range(2):
-                weight = (s if side_c == 1 else 1.0 - s) * (t if side_a == 1 else 1.0 - t)
-                k = n0 + ((i + side_c) * q + j + side_a) * 8
-                horizontal += weight * (beyond_c * nodes[k + 1] + beyond_a * nodes[k + 2])
-                vertical += weight * (beyond_c * nodes[k + 5] + beyond_a * nodes[k + 6])
-    return horizontal, vertical
-
-
-@njit(cache=True, error_model="numpy")
-def table_pull_many(chord: Any, angle: Any, nodes: Any, span: Any, rise: Any) -> Any:
-    """Return H and V (n, 2) of one table (nodes (p, q, 2, 4)) at spans and rises (n,)."""
-    flat = nodes.ravel()
-    values = np.empty((span.size, 2))
-    for i in range(span.size):
-        values[i, 0], values[i, 1] = _table_pull(chord, angle, flat, 0, 0, 0, chord.size, angle.size, span[i], rise[i])
-    return values
-
-
-@njit(cache=True, error_model="numpy")
-def mooring_force(position: Any, lines: Any, force: Any, pulls: Any) -> None:
-    """Add the pull of all lines to ``force`` (m,) and write H and V of one line each into ``pulls`` (n, 2).
-
-    Planar bodies [eq:floating-fairlead]: a positive roll turns z towards x. Spatial bodies: yaw after pitch after roll.
+    ``lines`` is (parameters, index, nodes, lookup, rest pose, starts of the exact solver) [eq:floating-lines].
     """
-    chords, angles, nodes, info, fairlead, anchor, count = lines
-    for line in range(info.shape[0]):
-        c0, a0, n0, p, q = info[line, 0], info[line, 1], info[line, 2], info[line, 3], info[line, 4]
-        first, per_body = info[line, 6], info[line, 7]
-        x, y, z = fairlead[line, 0], fairlead[line, 1], fairlead[line, 2]
-        if per_body == 3:
-            cosine, sine = np.cos(position[first + 2]), np.sin(position[first + 2])
-            rx, ry, rz = x * cosine + z * sine, y, -x * sine + z * cosine
-            px, py, pz = position[first] + rx, ry, position[first + 1] + rz
-        else:
-            cr, sr = np.cos(position[first + 3]), np.sin(position[first + 3])
-            cp, sp = np.cos(position[first + 4]), np.sin(position[first + 4])
-            cy, sy = np.cos(position[first + 5]), np.sin(position[first + 5])
-            y1, z1 = cr * y - sr * z, sr * y + cr * z
-            x2, rz = cp * x + sp * z1, -sp * x + cp * z1
-            rx, ry = cy * x2 - sy * y1, sy * x2 + cy * y1
-            px, py, pz = position[first] + rx, position[first + 1] + ry, position[first + 2] + rz
-        to_x, to_y = anchor[line, 0] - px, anchor[line, 1] - py
-        span = np.sqrt(to_x * to_x + to_y * to_y)
-        horizontal, vertical = _table_pull(chords, angles, nodes, c0, a0, n0, p, q, span, pz - anchor[line, 2])
-        pulls[line, 0], pulls[line, 1] = horizontal, vertical
-        along = count[line] * horizontal / span if span > 0.0 else 0.0
-        fx, fy, fz = along * to_x, along * to_y, -count[line] * vertical
-        if per_body == 3:
-            force[first] += fx
-            force[first + 1] += fz
-            force[first + 2] += fx * rz - fz * rx
-        else:
-            force[first] += fx
-            force[first + 1] += fy
-            force[first + 2] += fz
-            force[first + 3] += ry * fz - rz * fy
-            force[first + 4] += rz * fx - rx * fz
-            force[first + 5] += rx * fy - ry * fx
+    parameters, index, nodes, lookup, rest, starts = lines
+    planar_line_force(
+        rest[0] + position[0],
+        rest[1] + position[1],
+        rest[2] + position[2],
+        parameters,
+        index,
+        nodes,
+        lookup,
+        starts,
+        force,
+        tension,
+    )
 
 
 @njit(cache=True, error_model="numpy")
@@ -131,7 +53,7 @@ def _acceleration(
         for j in range(m):
             total -= damping[i, j] * v[j] + stiffness[i, j] * q[j]
         work[i] = total
-    if lines[3].shape[0] > 0:
+    if lines[0].shape[0] > 0:
         mooring_force(q, lines, work, pulls)
     for k in range(quadratic.size):
         measure = 0.0
@@ -187,7 +109,7 @@ def run_state_space(
     """
     half, full, weight_q, f1, f2, f3 = exponential
     m, n = q.size, z.size
-    work, pulls = np.empty(m), np.zeros((lines[3].shape[0], 2))
+    work, pulls = np.empty(m), np.zeros(lines[0].shape[0])
     a1, a2, a3, a4 = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     q_stage, v2, v3, v4, memory = np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     n1, n2, n3, n4 = (
@@ -247,7 +169,7 @@ def _save(number: int, every: int, q: Any, v: Any, lines: Any, saved: Any, work:
     row = number // every
     saved[0][row] = q
     saved[1][row] = v
-    if lines[3].shape[0] > 0:
+    if lines[0].shape[0] > 0:
         work[:] = 0.0
         mooring_force(q, lines, work, pulls)
         saved[2][row] = work
@@ -265,7 +187,7 @@ def run_convolution(
     The rest as in :func:`run_state_space`.
     """
     m, length = q.size, history.shape[0]
-    work, pulls = np.empty(m), np.zeros((lines[3].shape[0], 2))
+    work, pulls = np.empty(m), np.zeros(lines[0].shape[0])
     a1, a2, a3, a4 = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     q_stage, v2, v3, v4, memory = np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     now, middle, end = np.empty(m), np.empty(m), np.empty(m)

@@ -76,8 +76,8 @@ def natural_modes(
     -----
     A mode is a frequency at which the symmetric matrix K - w^2 (M + A(w)) is singular. Its sorted eigenvalues (modes
     scaled by their inertia) fall from those of K at rest, one through zero at each natural frequency; the first
-    crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change places, and
-    the added mass may even be negative, as it is near a gap resonance.
+    crossing of each is bracketed on the grid of the coefficients and found by Brent's method. So modes do not change
+    places, and the added mass may even be negative, as it is near a gap resonance.
     """
     size = hydrodynamics.size
     inertia = square_matrix(inertia, size, "inertia")

@@ -18,7 +18,7 @@ from moyai.floating import kernel
 from moyai.floating.arrays import ComplexArray, FloatArray, finite, square_matrix
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.forcing import Forcing
-from moyai.floating.line_table import TabulatedMooring
+from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import Memory, StateSpaceMemory
 
 STEPS_PER_PERIOD = 40
@@ -42,8 +42,8 @@ class CumminsModel:
     linear_damping : ndarray (m, m)
         Beyond radiation.
     memory : StateSpaceMemory or ConvolutionMemory
-    mooring : TabulatedMooring or None
-        Nonlinear lines; their force at rest balances weight and buoyancy and is subtracted.
+    mooring : PlanarMooring or None
+        Nonlinear lines on the first three modes; their force at rest balances weight and buoyancy and is subtracted.
     quadratic : QuadraticDamping or None
     modes : tuple of str
     """
@@ -52,7 +52,7 @@ class CumminsModel:
     stiffness: FloatArray
     linear_damping: FloatArray
     memory: Memory
-    mooring: TabulatedMooring | None = None
+    mooring: PlanarMooring | None = None
     quadratic: QuadraticDamping | None = None
     modes: tuple[str, ...] = ("sway", "heave", "roll")
 
@@ -63,8 +63,10 @@ class CumminsModel:
         eigenvalues = np.linalg.eigvalsh(0.5 * (self.inertia + np.transpose(self.inertia)))
         if eigenvalues[0] <= 0.0:
             raise InputError("inertia with infinite-frequency added mass is not positive definite", path="inertia")
-        if self.memory.size != size or (self.mooring is not None and self.mooring.size != size):
-            raise InputError("memory or mooring has another number of modes", path="modes", allowed=f"{size}")
+        if self.memory.size != size:
+            raise InputError(f"the memory has {self.memory.size} modes", path="memory", allowed=f"{size}")
+        if self.mooring is not None and size < 3:
+            raise InputError(f"lines on a body of {size} modes", path="mooring", allowed="sway, heave, roll first")
 
 
 Status = Literal["converged", "diverged", "interrupted"]
@@ -82,8 +84,8 @@ class Simulation:
         Relative to rest [m, rad; per second].
     mooring_force : ndarray (n, m)
         Of all nonlinear lines, at-rest force included [N, N m].
-    line_pull : ndarray (n, l, 2)
-        Horizontal and downward pull of one line of each kind on its fairlead [N].
+    tension : ndarray (n, l)
+        Fairlead tension of one copy of each line [N].
     elevation : ndarray (n,)
         Incident surface at x = 0 [m].
     time_step : float
@@ -101,18 +103,13 @@ class Simulation:
     position: FloatArray
     velocity: FloatArray
     mooring_force: FloatArray
-    line_pull: FloatArray
+    tension: FloatArray
     elevation: FloatArray
     time_step: float
     status: Status
     message: str
     notices: tuple[Notice, ...] = ()
     cost: Mapping[str, float] = field(default_factory=dict)
-
-    @property
-    def tension(self) -> FloatArray:
-        """Fairlead tension (n, l) of one line of each kind [N]."""
-        return np.hypot(self.line_pull[..., 0], self.line_pull[..., 1])
 
 
 def choose_time_step(
@@ -144,7 +141,7 @@ def choose_time_step(
     for sign in (0.0, 1.0, -1.0) if model.mooring is not None else (0.0,):
         restoring = np.array(model.stiffness, dtype=float)
         if model.mooring is not None:
-            restoring = restoring + model.mooring.stiffness(sign * offsets)
+            restoring[:3, :3] += model.mooring.stiffness(sign * offsets[:3])
         values = np.linalg.eigvals(np.linalg.solve(model.inertia, restoring))
         stiffness.append(float(np.max(np.abs(values))))
     if max(stiffness) > 0.0:
@@ -255,13 +252,13 @@ def simulate(
     lines, rest, line_count = _packed_lines(model.mooring, size)
     body = _packed_body(model)
     rows = steps // every + 1
-    saved = (np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, line_count, 2)))
+    saved = (np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, line_count)))
     saved[0][0], saved[1][0] = q, v
     if model.mooring is not None:
-        saved[2][0], saved[3][0] = model.mooring.forces(q)
+        saved[2][0, :3], saved[3][0] = model.mooring.force_and_tension(q[:3])
     limit = np.full(size, np.inf) if motion_limit is None else np.asarray(motion_limit, dtype=float)
     if motion_limit is None and model.mooring is not None:
-        limit = np.full(size, 1e3 * float(np.max(np.abs(model.mooring.anchor))))
+        limit = np.full(size, 1e3 * model.mooring.reach)
     limit = np.where(np.isinf(limit), 1e30, limit)
     advance, memory_notice = _stepper(model.memory, q, v, step, force, body, lines, rest, limit, every, saved)
     notices.extend(memory_notice)
@@ -274,7 +271,7 @@ def simulate(
         position=saved[0][:good],
         velocity=saved[1][:good],
         mooring_force=saved[2][:good],
-        line_pull=saved[3][:good],
+        tension=saved[3][:good],
         elevation=elevation[:: 2 * every][:good],
         time_step=step,
         status=status,
@@ -284,20 +281,21 @@ def simulate(
     )
 
 
-def _packed_lines(mooring: TabulatedMooring | None, size: int) -> tuple[tuple[FloatArray, ...], FloatArray, int]:
+def _packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, ...], FloatArray, int]:
     """Return the lines as kernel arrays, their force at rest and their number."""
-    if mooring is not None:
-        return mooring.packed(), mooring.force(np.zeros(size)), mooring.lines
-    empty: tuple[Any, ...] = (
-        np.zeros(0),
-        np.zeros(0),
-        np.zeros(0),
-        np.zeros((0, 8), dtype=np.int64),
-        np.zeros((0, 3)),
-        np.zeros((0, 3)),
-        np.zeros(0),
-    )
-    return empty, np.zeros(size), 0
+    if mooring is None:
+        none: tuple[Any, ...] = (
+            np.zeros((0, 16)),
+            np.zeros((0, 8), dtype=np.int64),
+            np.zeros(1),
+            np.zeros(1, dtype=np.int64),
+            np.zeros(3),
+            np.zeros(0),
+        )
+        return none, np.zeros(size), 0
+    rest = np.zeros(size)
+    rest[:3] = mooring.force(np.zeros(3))
+    return mooring.packed(), rest, mooring.count
 
 
 def _packed_body(model: CumminsModel) -> tuple[FloatArray, ...]:
