@@ -40,7 +40,9 @@ def envelope_indices(values: ArrayLike, bins: int) -> NDArray[np.int64]:
     return indices[indices < samples]
 
 
-def focus_indices(values: ArrayLike, window: tuple[int, int], bins: int, window_budget: int = 4000) -> NDArray[np.int64]:
+def focus_indices(
+    values: ArrayLike, window: tuple[int, int], bins: int, window_budget: int = 4000
+) -> NDArray[np.int64]:
     """Return indices that keep every sample in a window and the extremes of the record outside it.
 
     Parameters

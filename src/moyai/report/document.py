@@ -159,6 +159,10 @@ class Column:
         Significant digits shown.
     fixed : bool
         Keep the unit as given.
+    uniform : bool
+        One number of decimals for the column; switch off where rows are of different kinds.
+    trim : bool
+        Drop trailing zeros (input echo).
     """
 
     label: str
@@ -166,6 +170,8 @@ class Column:
     unit: str = ""
     digits: int = 3
     fixed: bool = False
+    uniform: bool = True
+    trim: bool = False
 
 
 @dataclass(frozen=True)
@@ -266,12 +272,16 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Animation:
-    """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`."""
+    """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`.
+
+    ``still`` is an SVG of its governing moment with colours, for paper.
+    """
 
     key: str
     title: str
     scene: Mapping[str, Any]
     caption: str = ""
+    still: str = ""
 
 
 @dataclass(frozen=True)
@@ -314,9 +324,7 @@ class Choice:
     print_all: bool = True
 
 
-Block = (
-    Figure | Table | KeyFigures | Paragraph | Listing | Drawing | Animation | NoticeBlock | Choice
-)
+Block = Figure | Table | KeyFigures | Paragraph | Listing | Drawing | Animation | NoticeBlock | Choice
 
 
 @dataclass(frozen=True)

@@ -94,8 +94,15 @@ class Sketch:
         self._parts.append(f'<circle class="{style}" cx="{self.px(x):.1f}" cy="{self.pz(z):.1f}" r="{radius}"/>')
 
     def text(
-        self, x: float, z: float, words: str, style: str = "note", *, shift: tuple[float, float] = (0.0, 0.0),
-        anchor: str = "middle", size: float = 12.0,
+        self,
+        x: float,
+        z: float,
+        words: str,
+        style: str = "note",
+        *,
+        shift: tuple[float, float] = (0.0, 0.0),
+        anchor: str = "middle",
+        size: float = 12.0,
     ) -> None:
         """Write ``words`` at a point [m], shifted in pixels."""
         self._parts.append(
@@ -119,9 +126,8 @@ class Sketch:
         size = 7.0 if style == "axis" else 5.5
         bx, by = x - size * ux, y - size * uy
         wx, wy = -0.4 * size * uy, 0.4 * size * ux
-        self._parts.append(
-            f'<path class="{style}-head" d="M{x:.1f},{y:.1f} L{bx + wx:.1f},{by + wy:.1f} L{bx - wx:.1f},{by - wy:.1f} Z"/>'
-        )
+        wings = f"L{bx + wx:.1f},{by + wy:.1f} L{bx - wx:.1f},{by - wy:.1f} Z"
+        self._parts.append(f'<path class="{style}-head" d="M{x:.1f},{y:.1f} {wings}"/>')
 
     def turn(self, x: float, z: float, radius: float, style: str) -> None:
         """Draw a clockwise three-quarter arrow about a point: positive roll, the top towards +x."""
@@ -160,7 +166,9 @@ class Sketch:
     def level_mark(self, x: float, z: float) -> None:
         """Draw the triangle of a water level."""
         cx, cy = self.px(x), self.pz(z)
-        self._parts.append(f'<path class="hollow" d="M{cx:.1f},{cy:.1f} L{cx - 5:.1f},{cy - 8:.1f} L{cx + 5:.1f},{cy - 8:.1f} Z"/>')
+        self._parts.append(
+            f'<path class="hollow" d="M{cx:.1f},{cy:.1f} L{cx - 5:.1f},{cy - 8:.1f} L{cx + 5:.1f},{cy - 8:.1f} Z"/>'
+        )
 
     def svg(self) -> str:
         """Return the drawing."""
@@ -203,7 +211,10 @@ class SectionGeometry:
         points = np.concatenate(parts) if parts else np.array([[-1.0, -1.0], [1.0, 1.0]])
         points = points[np.isfinite(points).all(axis=1)]
         return (
-            float(points[:, 0].min()), float(points[:, 0].max()), float(points[:, 1].min()), float(points[:, 1].max()),
+            float(points[:, 0].min()),
+            float(points[:, 0].max()),
+            float(points[:, 1].min()),
+            float(points[:, 1].max()),
         )
 
 
@@ -226,7 +237,7 @@ def mooring_elevation(geometry: SectionGeometry) -> str:
     pad = 0.06 * span
     sketch = Sketch(
         (x0 - pad, x1 + pad, bottom - 0.012 * span, max(z1, 0.0) + 0.02 * span),
-        margin=(10.0, 40.0, 10.0, 58.0),
+        margin=(10.0, 40.0, 10.0, 40.0),
         title="Body, mooring lines, water and bed to scale",
     )
     sketch.rectangle(x0 - pad, 0.0, x1 + pad, bottom, "water")
@@ -237,7 +248,9 @@ def mooring_elevation(geometry: SectionGeometry) -> str:
     for _, shape in geometry.lines:
         sketch.path(shape, "mooring")
         ax, az = shape[0]
-        sketch.rectangle(ax - 4 / sketch.scale, az + 4 / sketch.scale, ax + 4 / sketch.scale, az - 4 / sketch.scale, "anchor")
+        sketch.rectangle(
+            ax - 4 / sketch.scale, az + 4 / sketch.scale, ax + 4 / sketch.scale, az - 4 / sketch.scale, "anchor"
+        )
     for outline in geometry.outlines:
         sketch.path(outline, "hull", closed=True)
     _line_labels(sketch, geometry, bottom)
@@ -255,24 +268,21 @@ def mooring_elevation(geometry: SectionGeometry) -> str:
 def _line_labels(sketch: Sketch, geometry: SectionGeometry, bottom: float) -> None:
     body = geometry.box(with_lines=False)
     centre = 0.5 * (body[0] + body[1])
-    row = {False: 0, True: 0}
-    last: dict[bool, float] = {}
-    for name, shape in sorted(geometry.lines, key=lambda item: -abs(float(item[1][0, 0]) - centre)):
-        ax = float(shape[0, 0])
+    rows: list[tuple[float, int]] = []
+    for name, shape in geometry.lines:
+        ax, az = float(shape[0, 0]), float(shape[0, 1])
         right = ax > centre
-        if right in last and abs(last[right] - ax) > 0.08 * (sketch.width / sketch.scale):
-            row[right] = 0
-        last[right] = ax
-        anchor = "end" if right else "start"
-        sketch.text(ax, bottom, name, "faint", shift=(6.0 if right else -6.0, 20.0 + 14.0 * row[right]), anchor=anchor)
-        row[right] += 1
+        near = [row for at, row in rows if abs(at - ax) * sketch.scale < 90.0]
+        row = max(near, default=-1) + 1
+        rows.append((ax, row))
+        sketch.text(ax, az, name, shift=(-9.0 if right else 9.0, -9.0 - 14.0 * row), anchor="end" if right else "start")
     for right in (False, True):
         ends = [shape for _, shape in geometry.lines if (float(shape[0, 0]) > centre) == right]
         if not ends:
             continue
         far = max(ends, key=lambda shape: abs(float(shape[0, 0]) - float(shape[-1, 0])))
         a, f = float(far[0, 0]), float(far[-1, 0])
-        sketch.dimension(min(a, f), bottom, max(a, f), bottom, format_quantity(abs(a - f), "m"), offset=46.0)
+        sketch.dimension(min(a, f), bottom, max(a, f), bottom, format_quantity(abs(a - f), "m"), offset=30.0)
 
 
 def _axes(sketch: Sketch, origin: tuple[float, float], length: float) -> None:
@@ -302,7 +312,9 @@ def section_detail(geometry: SectionGeometry) -> str:
     if math.isfinite(geometry.water_depth):
         low = max(low, -geometry.water_depth)
     sketch = Sketch(
-        (x0 - 0.55 * width, x1 + 0.55 * width, low, top), width=960.0, margin=(10.0, 10.0, 10.0, 10.0),
+        (x0 - 0.55 * width, x1 + 0.55 * width, low, top),
+        width=960.0,
+        margin=(10.0, 10.0, 10.0, 10.0),
         title="Section with dimensions and signs of the motions",
     )
     sketch.rectangle(x0 - 0.55 * width, 0.0, x1 + 0.55 * width, low, "water")
@@ -361,9 +373,11 @@ def _motion_signs(sketch: Sketch, box: tuple[float, float, float, float], top: f
     sketch.arrow((x, y), (x, y - 44.0), "axis")
     sketch._parts.append(f'<text class="axis-text" x="{x + 50:.1f}" y="{y + 4:.1f}" font-size="12">sway +</text>')
     sketch._parts.append(f'<text class="axis-text" x="{x - 14:.1f}" y="{y - 50:.1f}" font-size="12">heave +</text>')
-    centre = sketch.x0 + (x + 128.0 - sketch.left) / sketch.scale, sketch.z1 - (y - 10.0 - sketch.top) / sketch.scale
+    centre = sketch.x0 + (x + 104.0 - sketch.left) / sketch.scale, sketch.z1 - (y - 10.0 - sketch.top) / sketch.scale
     sketch.turn(centre[0], centre[1], 18.0, "axis")
-    sketch._parts.append(f'<text class="axis-text" x="{x + 152:.1f}" y="{y + 4:.1f}" font-size="12">roll +</text>')
+    sketch._parts.append(
+        f'<text class="axis-text" x="{x + 104:.1f}" y="{y - 34:.1f}" text-anchor="middle" font-size="12">roll +</text>'
+    )
 
 
 def snapshot(
@@ -397,7 +411,7 @@ def snapshot(
     str
         SVG with CSS classes.
     """
-    x0, x1, z0, z1 = extent
+    x0, x1, z0, _ = extent
     sketch = Sketch(extent, title=title)
     level = np.array([[x0, 0.0], [x1, 0.0]])
     if surface is not None:

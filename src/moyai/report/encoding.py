@@ -180,7 +180,9 @@ def figure_csv(figure: Figure) -> str:
                 columns.append([axis_label(abscissa.label, abscissa.unit), *values])
         for item in group:
             panel = figure.panels[item.panel]
-            name = item.label if len(figure.panels) == 1 or item.label == panel.label else f"{panel.label}: {item.label}"
+            name = (
+                item.label if len(figure.panels) == 1 or item.label == panel.label else f"{panel.label}: {item.label}"
+            )
             columns.append([axis_label(name, panel.unit), *(plain_number(float(value)) for value in item.y)])
     return _columns_to_csv(columns)
 

@@ -9,13 +9,22 @@ from typing import Any
 import numpy as np
 
 from moyai.report.document import Figure, Mark, Series
-from moyai.report.formatting import pretty_unit
+from moyai.report.formatting import pretty_unit, subscripted
 
 TONES = ("#0072b2", "#d55e00", "#009e73", "#b5609a", "#b98500", "#4aa3d8", "#5a5f66")
 _MARKERS = ("o", "s", "^", "D", "P", "X", "*")
 _DASHES: dict[str, Any] = {"solid": "-", "dash": (0, (5, 2)), "dot": (0, (1, 1.5)), "dashdot": (0, (5, 1.5, 1, 1.5))}
 _INK, _MUTED, _RULE = "#1b2430", "#5b6775", "#d8dee5"
-_FONTS = ("Noto Sans CJK JP", "Noto Sans JP", "Yu Gothic", "Hiragino Sans", "Meiryo", "IPAexGothic", "IPAGothic", "Takao Gothic")
+_FONTS = (
+    "Noto Sans CJK JP",
+    "Noto Sans JP",
+    "Yu Gothic",
+    "Hiragino Sans",
+    "Meiryo",
+    "IPAexGothic",
+    "IPAGothic",
+    "Takao Gothic",
+)
 
 
 @cache
@@ -27,7 +36,7 @@ def _font_families() -> tuple[str, ...]:
     return ("DejaVu Sans", *(name for name in _FONTS if name in present))
 
 
-def _settings() -> dict[str, Any]:
+def _settings() -> Any:
     return {
         "font.family": list(_font_families()),
         "font.size": 8.0,
@@ -51,6 +60,7 @@ def _settings() -> dict[str, Any]:
 
 
 def _labelled(label: str, unit: str) -> str:
+    label = subscripted(label)
     return f"{label} [{pretty_unit(unit)}]" if unit else label
 
 
@@ -77,7 +87,7 @@ def draw_figure(figure: Figure, *, image_format: str = "svg", width: float = 17.
     from matplotlib.figure import Figure as Canvas
 
     inches = width / 2.54
-    with matplotlib.rc_context(_settings()):
+    with matplotlib.rc_context(rc=_settings()):
         canvas = Canvas(figsize=(inches, inches * figure.height / 760.0), layout="constrained")
         FigureCanvasAgg(canvas)
         axes = canvas.subplots(len(figure.panels), 1, sharex=True, squeeze=False)[:, 0]
@@ -87,13 +97,15 @@ def draw_figure(figure: Figure, *, image_format: str = "svg", width: float = 17.
             _draw_mark(axes[mark.panel], mark)
         _finish_axes(canvas, axes, figure)
         stream = io.BytesIO()
-        canvas.savefig(stream, format=image_format, dpi=dots_per_inch, metadata={"Date": None} if image_format == "svg" else None)
+        canvas.savefig(
+            stream, format=image_format, dpi=dots_per_inch, metadata={"Date": None} if image_format == "svg" else None
+        )
     return stream.getvalue()
 
 
 def _draw_series(axis: Any, figure: Figure, item: Series) -> None:
     tone = TONES[item.tone % len(TONES)]
-    label = item.label
+    label = subscripted(item.label) if item.label != figure.panels[item.panel].label else "_"
     if item.style == "bar":
         bars = [entry for entry in figure.series if entry.style == "bar" and entry.panel == item.panel]
         breadth = 0.7 / len(bars)
@@ -110,7 +122,11 @@ def _draw_series(axis: Any, figure: Figure, item: Series) -> None:
     marker = _MARKERS[item.tone % len(_MARKERS)]
     hollow = item.style == "points"
     axis.plot(
-        x, y, color=tone, label=label, zorder=3,
+        x,
+        y,
+        color=tone,
+        label=label,
+        zorder=3,
         linestyle="none" if hollow else _DASHES[item.dash],
         linewidth=0.6 if item.faint else 1.2,
         marker=None if item.style == "line" else marker,
@@ -123,7 +139,12 @@ def _draw_mark(axis: Any, mark: Mark) -> None:
     words = {"fontsize": 7.0, "color": _MUTED}
     if mark.x is not None and mark.y is not None:
         axis.annotate(
-            mark.label, (mark.x, mark.y), xytext=(14, 8), textcoords="offset points", fontsize=7.0, color=_INK,
+            mark.label,
+            (mark.x, mark.y),
+            xytext=(14, 8),
+            textcoords="offset points",
+            fontsize=7.0,
+            color=_INK,
             arrowprops={"arrowstyle": "-", "color": _MUTED, "linewidth": 0.6},
         )
     elif mark.x is not None:
@@ -132,8 +153,13 @@ def _draw_mark(axis: Any, mark: Mark) -> None:
     elif mark.y is not None:
         axis.axhline(mark.y, color=_MUTED, linewidth=0.7, linestyle=":")
         axis.annotate(
-            mark.label, (0.995, mark.y), xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
-            ha="right", **words,
+            mark.label,
+            (0.995, mark.y),
+            xycoords=("axes fraction", "data"),
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="right",
+            **words,
         )
 
 
@@ -159,5 +185,7 @@ def _finish_axes(canvas: Any, axes: Any, figure: Figure) -> None:
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
-    if len(handles) > 1 and not (len(figure.panels) > 1 and len(handles) == len(figure.panels)):
-        canvas.legend(handles.values(), handles.keys(), loc="outside upper left", ncols=min(len(handles), 4), fontsize=7.5)
+    if handles:
+        canvas.legend(
+            handles.values(), handles.keys(), loc="outside upper left", ncols=min(len(handles), 4), fontsize=7.5
+        )

@@ -27,6 +27,8 @@ _DISPLAY: dict[str, tuple[tuple[float, str, float], ...]] = {
     "kg m": ((0.0, "kg m", 1.0), (1e4, "t m", 1e-3)),
     "kg m2": ((0.0, "kg m2", 1.0), (1e5, "t m2", 1e-3)),
     "kg/m": ((0.0, "kg/m", 1.0), (1e4, "t/m", 1e-3)),
+    "N s/m": ((0.0, "N s/m", 1.0), (1e4, "kN s/m", 1e-3)),
+    "N m s": ((0.0, "N m s", 1.0), (1e4, "kN m s", 1e-3)),
 }
 _NO_UNIT = {"", "1", "-"}
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -67,10 +69,11 @@ def pretty_unit(name: str) -> str:
     """
     if name in _NO_UNIT:
         return ""
-    if name == "deg":
-        return "°"
-    raised = re.sub(r"(?<=[A-Za-z])(-?\d+)", lambda match: match.group(1).translate(_SUPERSCRIPTS), name)
-    return raised.replace(" ", "·").replace("deg/", "°/")
+    if " per " in name:
+        return " per ".join(pretty_unit(part) for part in name.split(" per "))
+    name = re.sub(r"\bdeg", "°", name)
+    raised = re.sub(r"(?<=[A-Za-z°])(-?\d+)", lambda match: match.group(1).translate(_SUPERSCRIPTS), name)
+    return raised.replace(" ", "·")
 
 
 def display_unit(unit: str, values: ArrayLike | None = None) -> DisplayUnit:
@@ -145,6 +148,50 @@ def format_number(value: float, digits: int = 3) -> str:
     if exponent >= digits:
         return f"{sign}{abs(number):.0f}"
     return f"{sign}{magnitude:.{max(digits - 1 - exponent, 0)}f}"
+
+
+def format_fixed(value: float, decimals: int) -> str:
+    """Format a number with fixed decimals, so that the numbers of a column stand under each other."""
+    number = float(value)
+    if not math.isfinite(number) or abs(number) >= 1e6:
+        return format_number(number)
+    text = f"{number:.{decimals}f}"
+    return (text[1:] if float(text) == 0.0 else MINUS + text[1:]) if text.startswith("-") else text
+
+
+def column_decimals(values: ArrayLike, digits: int) -> int | None:
+    """Return the decimals that give the largest of ``values`` its significant digits.
+
+    Parameters
+    ----------
+    values : array_like
+        Numbers in the unit shown.
+    digits : int
+        Significant digits of the largest.
+
+    Returns
+    -------
+    int or None
+        ``None`` where no number of decimals suits (all unknown or zero, very large or very small numbers).
+    """
+    array = finite(values)
+    if array.size and (array == np.rint(array)).all() and largest_magnitude(array) < 1e4:
+        return 0
+    largest = largest_magnitude(array)
+    if largest == 0.0 or not 1e-4 <= largest < 1e6:
+        return None
+    return max(digits - 1 - math.floor(math.log10(float(f"{largest:.{digits - 1}e}"))), 0)
+
+
+def trimmed(text: str) -> str:
+    """Drop trailing zeros behind the decimal point: an input echo shows 4.5 as it was given."""
+    return text.rstrip("0").rstrip(".") if "." in text and "×" not in text else text
+
+
+def subscripted(text: str) -> str:
+    """Write K_T and its like with a lowered letter of Unicode, for media without markup."""
+    lowered = {"T": "ₜ", "R": "ᵣ"}
+    return re.sub(r"\bK_([TR])", lambda match: "K" + lowered[match.group(1)], text)
 
 
 def format_quantity(value: float, unit: str, digits: int = 3) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+import re
 from functools import cache
 from html import escape
 from importlib import resources
@@ -28,7 +29,7 @@ from moyai.report.document import (
     Table,
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
-from moyai.report.formatting import DASH, format_number, pretty_unit
+from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 
 STATUS_WORDS = {
     "converged": "Converged",
@@ -37,7 +38,7 @@ STATUS_WORDS = {
     "interrupted": "Interrupted: partial result",
     "failed": "Failed",
 }
-_STATUS_TONE = {"converged": "good", "outside_validity": "caution", "interrupted": "caution"}
+STATUS_TONE = {"converged": "good", "outside_validity": "caution", "interrupted": "caution"}
 _SCRIPTS = ("report.js", "figures.js", "player.js")
 
 
@@ -105,7 +106,7 @@ it.</p></noscript>
 {sections}
 </main>
 </div>
-<footer>{_foot(document)}</footer>
+<footer>{escape(foot_text(document))}</footer>
 <script type="application/json" id="report-data">{data}</script>
 {plotly}
 {scripts}
@@ -115,30 +116,54 @@ it.</p></noscript>
 
 
 def _status(document: Document) -> str:
-    tone = _STATUS_TONE.get(document.status, "bad")
+    tone = STATUS_TONE.get(document.status, "bad")
     word = STATUS_WORDS.get(document.status, document.status)
     message = f'<p class="status-message">{escape(document.message)}</p>' if document.message else ""
     return f'<div class="status {tone}"><strong>{escape(word)}</strong>{message}</div>'
 
 
-def _foot(document: Document) -> str:
+def foot_text(document: Document) -> str:
+    """Return version, time and case hash for the foot of the page."""
     parts = []
-    for key, words in (("moyai_version", "moyai"), ("created", ""), ("case_hash", "case")):
+    for key, label in (("moyai_version", "moyai"), ("created", ""), ("case_hash", "case")):
         value = str(document.provenance.get(key, ""))
         if value:
-            parts.append(f"{words} {value[:25]}".strip())
-    return escape(" · ".join(parts))
+            parts.append(f"{label} {value[:25]}".strip())
+    return " · ".join(parts)
 
 
-def cell_text(value: Cell, factor: float, digits: int) -> str:
-    """Return the shown text of a table cell: a dash for what is not known."""
-    if value is None:
-        return DASH
-    if isinstance(value, str):
-        return value or DASH
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return format_number(float(value) * factor, digits)
+def column_texts(column: Column) -> list[str]:
+    """Return the shown texts of a column: a dash for what is not known, decimals under each other.
+
+    Parameters
+    ----------
+    column : Column
+
+    Returns
+    -------
+    list of str
+    """
+    factor = column_unit(column).factor
+    numbers = [float(value) * factor for value in column.values if not isinstance(value, str | bool | None)]
+    decimals = column_decimals(numbers, column.digits) if column.uniform else None
+
+    def text(value: Cell) -> str:
+        if value is None:
+            return DASH
+        if isinstance(value, str):
+            return value or DASH
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        number = float(value) * factor
+        shown = format_number(number, column.digits) if decimals is None else format_fixed(number, decimals)
+        return trimmed(shown) if column.trim else shown
+
+    return [text(value) for value in column.values]
+
+
+def words(text: str) -> str:
+    """Escape a text for HTML; the letter behind ``K_`` is lowered."""
+    return re.sub(r"\b([KC])_([TRg])\b", r"\1<sub>\2</sub>", escape(text))
 
 
 def is_text_column(column: Column) -> bool:
@@ -177,7 +202,7 @@ class _Page:
             case KeyFigures():
                 return '<div class="key-figures">' + "".join(_key_figure(item) for item in block.items) + "</div>"
             case Paragraph():
-                return f'<p class="{"quiet" if block.quiet else "text"}">{escape(block.text)}</p>'
+                return f'<p class="{"quiet" if block.quiet else "text"}">{words(block.text)}</p>'
             case Listing():
                 opened = "" if block.collapsed else " open"
                 return (
@@ -205,12 +230,12 @@ class _Page:
             )
             switch = f'<span class="segmented" role="group" aria-label="Plot against">{buttons}</span>'
         overview = (
-            '<canvas class="overview" tabindex="0" role="slider" aria-label="Part of the record that is shown"></canvas>'
+            '<canvas class="overview" tabindex="0" role="slider" aria-label="Shown part of the record"></canvas>'
             if figure.slider
             else ""
         )
         return f"""<figure class="figure" id="{name}" data-figure="{name}">
-<figcaption><h3>{escape(figure.title)}</h3>{_caption(figure.caption)}</figcaption>
+<figcaption><h3>{words(figure.title)}</h3>{_caption(figure.caption)}</figcaption>
 <div class="plot" style="height:{figure.height}px" role="img" aria-label="{escape(figure.title)}"></div>{overview}
 <div class="tools">{switch}<span class="spring"></span>
 <button type="button" data-do="csv" title="Download the data of this figure">CSV</button>
@@ -225,15 +250,15 @@ class _Page:
         for column, unit in zip(table.columns, units, strict=True):
             kind = ' class="text"' if is_text_column(column) else ""
             shown = f"<span>{escape(pretty_unit(unit.name))}</span>" if unit.name else ""
-            heads.append(f'<th scope="col"{kind}>{escape(column.label)}{shown}</th>')
+            heads.append(f'<th scope="col"{kind}>{words(column.label)}{shown}</th>')
         rows = []
+        texts = [column_texts(column) for column in table.columns]
         for row in range(table.row_count):
             kinds = [word for word, at in (("governs", table.emphasised), ("failed", table.failed)) if row in at]
             cells = []
-            for column, unit in zip(table.columns, units, strict=True):
+            for column, shown_texts in zip(table.columns, texts, strict=True):
                 kind = ' class="text"' if is_text_column(column) else ""
-                text = cell_text(column.values[row], unit.factor, column.digits)
-                cells.append(f"<td{kind}>{escape(text)}</td>")
+                cells.append(f"<td{kind}>{words(shown_texts[row])}</td>")
             rows.append(f'<tr class="{" ".join(kinds)}">' + "".join(cells) + "</tr>")
         body = f"""<div class="scroll" tabindex="0" role="region" aria-label="{escape(table.title)}"><table>
 <thead><tr>{"".join(heads)}</tr></thead>
@@ -242,15 +267,15 @@ class _Page:
 <button type="button" data-do="csv">CSV</button><button type="button" data-do="copy">Copy data</button></div>"""
         if table.collapsed:
             return (
-                f'<details class="table" id="{name}" data-table="{name}"><summary>{escape(table.title)}</summary>'
+                f'<details class="table" id="{name}" data-table="{name}"><summary>{words(table.title)}</summary>'
                 f"{body}</details>"
             )
-        return f'<div class="table" id="{name}" data-table="{name}"><h3>{escape(table.title)}</h3>{body}</div>'
+        return f'<div class="table" id="{name}" data-table="{name}"><h3>{words(table.title)}</h3>{body}</div>'
 
     def _drawing(self, drawing: Drawing) -> str:
         name = self._unique(drawing.key)
         return f"""<figure class="drawing" id="{name}" data-drawing="{name}">
-<figcaption><h3>{escape(drawing.title)}</h3>{_caption(drawing.caption)}</figcaption>
+<figcaption><h3>{words(drawing.title)}</h3>{_caption(drawing.caption)}</figcaption>
 {drawing.svg}
 <div class="tools"><span class="spring"></span><button type="button" data-do="svg">SVG</button></div></figure>"""
 
@@ -258,7 +283,7 @@ class _Page:
         name = self._unique(animation.key)
         self.scenes[name] = dict(animation.scene)
         return f"""<figure class="animation" id="{name}">
-<figcaption><h3>{escape(animation.title)}</h3>{_caption(animation.caption)}</figcaption>
+<figcaption><h3>{words(animation.title)}</h3>{_caption(animation.caption)}</figcaption>
 <div class="player" data-scene="{name}"></div></figure>"""
 
     def _choice(self, choice: Choice) -> str:
@@ -268,13 +293,15 @@ class _Page:
         number = self._choices
         if sum(len(option.label) for option in choice.options) + 4 * len(choice.options) > 96:
             items = "".join(
-                f'<option value="{i}"{" selected" if i == choice.default else ""}>{escape(option.label)}</option>'
+                f"<option{' selected' if i == choice.default else ''}>{escape(option.label)}</option>"
                 for i, option in enumerate(choice.options)
             )
-            control = f'<label>{escape(choice.label)} <select data-choose="{escape(choice.group)}">{items}</select></label>'
+            control = (
+                f'<label>{escape(choice.label)} <select data-choose="{escape(choice.group)}">{items}</select></label>'
+            )
         else:
             items = "".join(
-                f'<button type="button" data-choose="{escape(choice.group)}" data-option="{i}" '
+                f'<button type="button" data-choose="{escape(choice.group)}" data-option="{escape(option.label)}" '
                 f'aria-pressed="{"true" if i == choice.default else "false"}">{escape(option.label)}</button>'
                 for i, option in enumerate(choice.options)
             )
@@ -287,7 +314,7 @@ class _Page:
             hidden = "" if i == choice.default else " hidden"
             inner = "\n".join(self.block(block) for block in option.blocks)
             heading = f'<p class="print-only">{escape(choice.label)}: <strong>{escape(option.label)}</strong></p>'
-            panes.append(f'<div class="pane" data-option="{i}"{hidden}>{heading}{inner}</div>')
+            panes.append(f'<div class="pane" data-option="{escape(option.label)}"{hidden}>{heading}{inner}</div>')
         return (
             f'<div class="choice" data-group="{escape(choice.group)}" id="choice-{number}">'
             f'<div class="chooser">{control}</div>{"".join(panes)}</div>'
@@ -295,7 +322,7 @@ class _Page:
 
 
 def _caption(text: str) -> str:
-    return f'<p class="caption">{escape(text)}</p>' if text else ""
+    return f'<p class="caption">{words(text)}</p>' if text else ""
 
 
 def _key_figure(item: KeyFigure) -> str:
@@ -305,8 +332,8 @@ def _key_figure(item: KeyFigure) -> str:
         over = " over" if item.utilisation > 1.0 else ""
         bar = f'<div class="meter{over}" aria-hidden="true"><i style="width:{100 * filled:.1f}%"></i></div>'
     return (
-        f'<div class="key-figure {item.judgement}"><div class="label">{escape(item.label)}</div>'
-        f'<div class="number">{escape(item.text)}</div>{bar}<div class="detail">{escape(item.detail)}</div></div>'
+        f'<div class="key-figure {item.judgement}"><div class="label">{words(item.label)}</div>'
+        f'<div class="number">{words(item.text)}</div>{bar}<div class="detail">{words(item.detail)}</div></div>'
     )
 
 
@@ -339,10 +366,14 @@ def _notices(block: NoticeBlock) -> str:
         items.append((notice.severity, *notice_text(notice)))
     if not items:
         return ""
-    words = {"error": "Error", "warning": "Warning", "information": "Note"}
-    return '<ul class="notices">' + "".join(
-        f'<li class="notice {severity}"><strong>{words.get(severity, severity)}</strong><span>{escape(first)}'
-        + (f"<small>{escape(second)}</small>" if second else "")
-        + "</span></li>"
-        for severity, first, second in items
-    ) + "</ul>"
+    kinds = {"error": "Error", "warning": "Warning", "information": "Note"}
+    return (
+        '<ul class="notices">'
+        + "".join(
+            f'<li class="notice {severity}"><strong>{kinds.get(severity, severity)}</strong><span>{words(first)}'
+            + (f"<small>{words(second)}</small>" if second else "")
+            + "</span></li>"
+            for severity, first, second in items
+        )
+        + "</ul>"
+    )

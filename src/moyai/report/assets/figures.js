@@ -1,12 +1,12 @@
 // Figures: each is a small table of data with drawing instructions; plotly draws it, the buttons hand the data out.
 "use strict";
-MOYAI.escape = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+MOYAI.escape = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/\b([KC])_([TRg])\b/g, "$1<sub>$2</sub>");
 
 MOYAI.theme = (paper) => {
   const html = document.documentElement, had = html.classList.contains("paper");
   if (paper) html.classList.add("paper");
   const s = MOYAI.style;
-  const theme = { ink: s("--ink"), muted: s("--muted"), rule: s("--rule"), page: s("--page"), accent: s("--accent"), soft: s("--soft"), tones: s("--tones").split(/\s+/) };
+  const theme = { ink: s("--ink"), muted: s("--muted"), rule: s("--rule"), page: s("--page"), accent: s("--accent"), bad: s("--bad"), soft: s("--soft"), tones: s("--tones").split(/\s+/) };
   if (paper && !had) html.classList.remove("paper");
   return theme;
 };
@@ -36,7 +36,7 @@ class Figure {
     return this.spec.series.filter((s) => bars || this.abscissa.key in s.x).map((s) => {
       const color = theme.tones[s.tone % theme.tones.length];
       const axis = s.panel ? "y" + (s.panel + 1) : "y";
-      const trace = { name: MOYAI.escape(s.label), yaxis: axis, y: this.values(s.y), legendgroup: s.label, showlegend: !seen.has(s.label) };
+      const trace = { name: MOYAI.escape(s.label), yaxis: axis, y: this.values(s.y), legendgroup: s.label, showlegend: !seen.has(s.label) && s.label !== this.spec.panels[s.panel].label };
       seen.add(s.label);
       trace.hovertemplate = "%{y:.4~g}" + (this.spec.panels[s.panel].unit ? " " + MOYAI.escape(MOYAI.pretty(this.spec.panels[s.panel].unit)) : "");
       if (s.style === "bar") {
@@ -53,26 +53,39 @@ class Figure {
   }
   layout(theme) {
     const n = this.spec.panels.length, gap = n > 1 ? 0.045 : 0, share = (1 - gap * (n - 1)) / n;
-    const axisStyle = { gridcolor: theme.rule, linecolor: theme.muted, zerolinecolor: theme.muted, zerolinewidth: 1, ticks: "outside", tickcolor: theme.muted, ticklen: 4, showline: true, mirror: true, automargin: true };
+    const axisStyle = { gridcolor: theme.rule, linecolor: theme.muted, zerolinecolor: theme.muted, zerolinewidth: 1, ticks: "outside", tickcolor: theme.muted, ticklen: 4, showline: true, mirror: true, automargin: true, exponentformat: "none" };
     const layout = {
       paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", barmode: "group", bargap: 0.35, dragmode: "zoom",
       font: { family: getComputedStyle(document.body).fontFamily, size: 12, color: theme.ink },
       margin: { l: 64, r: 14, t: 30, b: 46 }, hovermode: this.spec.categories.length ? "closest" : "x unified",
       hoverlabel: { bgcolor: theme.page, bordercolor: theme.rule, font: { color: theme.ink } },
-      legend: { orientation: "h", x: 0, y: 1.01, xanchor: "left", yanchor: "bottom", font: { size: 12 }, itemsizing: "constant" },
+      legend: { orientation: "h", x: 0, y: 1.01, xanchor: "left", yanchor: "bottom", font: { size: 12 } },
       shapes: [], annotations: [],
     };
-    layout.xaxis = { ...axisStyle, zeroline: false, hoverformat: ".4~g", anchor: n > 1 ? "y" + n : "y", title: { text: this.spec.categories.length ? "" : this.label(this.abscissa), standoff: 8 }, type: this.spec.categories.length ? "category" : this.abscissa.log ? "log" : "linear" };
+    layout.xaxis = { ...axisStyle, mirror: "all", zeroline: false, hoverformat: ".4~g", anchor: n > 1 ? "y" + n : "y", title: { text: this.spec.categories.length ? "" : this.label(this.abscissa), standoff: 8 }, type: this.spec.categories.length ? "category" : this.abscissa.log ? "log" : "linear" };
     if (!this.spec.categories.length) layout.xaxis.range = this.range || undefined;
     this.spec.panels.forEach((panel, i) => {
       const top = 1 - i * (share + gap);
       layout[i ? "yaxis" + (i + 1) : "yaxis"] = {
         ...axisStyle, title: { text: this.label(panel), standoff: 6, font: { size: n > 2 ? 11 : 12 } }, domain: [Math.max(top - share, 0), top],
-        range: panel.limits || undefined, rangemode: panel.from_zero ? "tozero" : "normal", nticks: n > 2 ? 4 : undefined,
+        range: panel.limits || this.windowed(i) || undefined, rangemode: panel.from_zero ? "tozero" : "normal", nticks: n > 2 ? 4 : undefined,
       };
     });
     for (const mark of this.spec.marks) this.addMark(layout, mark, theme, n);
     return layout;
+  }
+  // Where the figure opens on a part of its abscissa the ordinates suit that part.
+  windowed(panel) {
+    if (!this.range || this.spec.slider || this.abscissa !== this.spec.abscissae[0]) return null;
+    const [a, b] = this.range;
+    let low = this.spec.panels[panel].from_zero ? 0 : Infinity, high = -Infinity;
+    for (const s of this.spec.series) {
+      if (s.panel !== panel || !(this.abscissa.key in s.x)) continue;
+      const x = this.values(s.x[this.abscissa.key]), y = this.values(s.y);
+      for (let i = 0; i < x.length; i++) if (x[i] >= a && x[i] <= b && Number.isFinite(y[i])) { low = Math.min(low, y[i]); high = Math.max(high, y[i]); }
+    }
+    const pad = 0.06 * (high - low);
+    return high > low ? [this.spec.panels[panel].from_zero && low >= 0 ? 0 : low - pad, high + pad] : null;
   }
   addMark(layout, mark, theme, n) {
     const axis = mark.panel ? "y" + (mark.panel + 1) : "y";
@@ -80,7 +93,7 @@ class Figure {
     const text = { text: MOYAI.escape(mark.label), showarrow: false, font: { size: 11, color: theme.muted }, bgcolor: theme.page, borderpad: 1 };
     const first = this.abscissa === this.spec.abscissae[0];
     if (mark.x !== null && mark.y !== null && first) {
-      layout.annotations.push({ ...text, showarrow: true, arrowhead: 0, arrowcolor: theme.muted, ax: 34, ay: -22, x: mark.x, y: mark.y, yref: axis, font: { size: 11, color: theme.ink } });
+      layout.annotations.push({ ...text, showarrow: true, arrowhead: 6, arrowsize: 0.7, arrowwidth: 1.2, arrowcolor: theme.bad, ax: 40, ay: -14, xanchor: "left", x: mark.x, y: mark.y, yref: axis, font: { size: 11, color: theme.ink } });
     } else if (mark.x !== null && first) {
       layout.shapes.push({ type: "line", x0: mark.x, x1: mark.x, yref: "paper", y0: 0, y1: 1, line });
       layout.annotations.push({ ...text, x: mark.x, yref: "paper", y: 0, yanchor: "bottom", textangle: -90, xanchor: "right" });
@@ -101,9 +114,10 @@ class Figure {
     if (this.range === undefined && this.abscissa === this.spec.abscissae[0]) this.range = this.spec.window || null;
     const layout = this.layout(theme);
     layout.width = MOYAI.printing ? 672 : undefined;
-    layout.height = this.spec.height;
+    layout.height = MOYAI.printing ? Math.round(0.76 * this.spec.height) : this.spec.height;
+    this.plot.style.height = `${layout.height}px`;
     layout.autosize = !MOYAI.printing;
-    Plotly.react(this.plot, this.traces(theme), layout, { displayModeBar: false, responsive: true });
+    Plotly.react(this.plot, this.traces(theme), layout, { displayModeBar: false, responsive: true, doubleClick: "reset+autosize" });
     if (!this.drawn) this.plot.on("plotly_relayout", (change) => this.relayouted(change));
     this.drawn = true;
     this.plot.classList.remove("waiting");

@@ -64,7 +64,7 @@ class SideView {
   paint(pen, width, height, t, view) {
     const theme = MOYAI.theme(MOYAI.printing), s = MOYAI.style, [x0, x1, z0, z1] = this.scene.extents[view];
     const top = 26, bottom = 22, scale = Math.min(width / (x1 - x0), (height - top - bottom) / (z1 - z0));
-    const left = (width - scale * (x1 - x0)) / 2, middle = top + (height - top - bottom - scale * (z1 - z0)) / 2;
+    const left = (width - scale * (x1 - x0)) / 2, middle = height - bottom - scale * (z1 - z0);
     const X = (x) => left + (x - x0) * scale, Z = (z) => middle + (z1 - z) * scale;
     const place = MOYAI.placeInTime(this.times, t);
     pen.fillStyle = theme.page;
@@ -293,7 +293,7 @@ class Player {
   repaint() {
     if (!this.painter || !MOYAI.isVisible(this.holder)) return;
     const width = MOYAI.printing ? 670 : this.canvas.clientWidth || this.holder.clientWidth;
-    const height = Math.round(Math.max(210, Math.min(430, width * this.painter.aspect(this.view) + 48)));
+    const height = Math.round(Math.max(180, Math.min(430, width * this.painter.aspect(this.view) + 48)));
     const ratio = MOYAI.printing ? 3 : window.devicePixelRatio || 1;
     if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
       this.canvas.width = Math.round(width * ratio);

@@ -26,7 +26,7 @@ MOYAI.number = (v, digits = 3) => {
   return text.replace("-", "−");
 };
 MOYAI.style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-MOYAI.pretty = (unit) => unit.replace(/([A-Za-z])(\d)/g, (m, a, d) => a + "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).replace(/ /g, "·");
+MOYAI.pretty = (unit) => unit.replace(/\bdeg/g, "°").replace(/([A-Za-z°])(\d)/g, (m, a, d) => a + "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).replace(/ per /g, "\n").replace(/ /g, "·").replace(/\n/g, " per ");
 
 MOYAI.save = (name, content, type) => {
   const blob = content instanceof Blob ? content : new Blob([content], { type });
@@ -64,15 +64,15 @@ MOYAI.acknowledge = (button, text) => {
 };
 
 // Choices of one group change together. Only what becomes visible is drawn.
-MOYAI.choose = (group, index) => {
+MOYAI.choose = (group, label) => {
   for (const choice of document.querySelectorAll(".choice")) {
     if (choice.dataset.group !== group) continue;
     const panes = [...choice.children].filter((c) => c.classList.contains("pane"));
-    if (!panes.some((p) => p.dataset.option === String(index))) continue;
-    for (const pane of panes) pane.hidden = pane.dataset.option !== String(index);
+    if (!panes.some((p) => p.dataset.option === label)) continue;
+    for (const pane of panes) pane.hidden = pane.dataset.option !== label;
     const chooser = choice.querySelector(":scope > .chooser");
-    for (const b of chooser.querySelectorAll("button")) b.setAttribute("aria-pressed", String(b.dataset.option === String(index)));
-    for (const s of chooser.querySelectorAll("select")) s.value = String(index);
+    for (const b of chooser.querySelectorAll("button")) b.setAttribute("aria-pressed", String(b.dataset.option === label));
+    for (const s of chooser.querySelectorAll("select")) s.value = label;
   }
   MOYAI.drawVisible();
 };

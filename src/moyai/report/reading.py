@@ -1,0 +1,161 @@
+"""Read groups of a result without stumbling over what is absent."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.report.formatting import display_unit, largest_magnitude
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Group:
+    """One group of a result; everything asked of it may be absent.
+
+    Parameters
+    ----------
+    name : str
+        Last part of its path.
+    node : xarray.DataTree or None
+        ``None`` where the group does not exist.
+    """
+
+    name: str
+    node: xr.DataTree | None
+
+    @property
+    def exists(self) -> bool:
+        """Whether the group is there and holds anything."""
+        return self.node is not None and (len(self.node.data_vars) > 0 or len(self.node.children) > 0)
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the group, empty where absent."""
+        return {} if self.node is None else {str(key): value for key, value in self.node.attrs.items()}
+
+    def child(self, path: str) -> Group:
+        """Return a group below this one."""
+        node: Any = self.node
+        for part in path.split("/"):
+            node = None if node is None or part not in node.children else node.children[part]
+        return Group(path.rsplit("/", 1)[-1], node)
+
+    def children(self) -> tuple[Group, ...]:
+        """Return the groups directly below."""
+        return () if self.node is None else tuple(Group(name, node) for name, node in self.node.children.items())
+
+    def variable(self, name: str) -> xr.DataArray | None:
+        """Return a variable or coordinate, ``None`` where it is absent or not numeric."""
+        if self.node is None:
+            return None
+        if name not in self.node.data_vars and name not in self.node.coords:
+            return None
+        found: Any = self.node[name]
+        return found if np.issubdtype(found.dtype, np.number) or np.issubdtype(found.dtype, np.bool_) else None
+
+    def array(self, name: str, *dims: str, **choice: str) -> NDArray[Any] | None:
+        """Return a variable with its dimensions in the order of ``dims``, after selecting the labels of ``choice``.
+
+        ``None`` where the variable is absent, has other dimensions or lacks a label.
+        """
+        found = self.variable(name)
+        if found is None:
+            return None
+        for dim, label in choice.items():
+            if dim not in found.dims or dim not in found.coords or label not in found.coords[dim].values:
+                return None
+            found = found.sel({dim: label})
+        if set(found.dims) != set(dims):
+            return None
+        return np.asarray(found.transpose(*dims).values)
+
+    def real(self, name: str, *dims: str, **choice: str) -> Array | None:
+        """As :meth:`array`, the modulus of complex values."""
+        found = self.array(name, *dims, **choice)
+        if found is None:
+            return None
+        return np.asarray(np.abs(found) if np.iscomplexobj(found) else found, dtype=float)
+
+    def value(self, name: str, **choice: str) -> float:
+        """Return a single number, NaN where it is not known."""
+        found = self.real(name, **choice)
+        return math.nan if found is None else float(found)
+
+    def unit(self, name: str, otherwise: str = "") -> str:
+        """Return the unit of a variable."""
+        found = self.variable(name)
+        return otherwise if found is None else str(found.attrs.get("units", otherwise))
+
+    def long_name(self, name: str, otherwise: str = "") -> str:
+        """Return the words of a variable."""
+        found = self.variable(name)
+        return (
+            (otherwise or name.replace("_", " "))
+            if found is None
+            else str(found.attrs.get("long_name", otherwise or name.replace("_", " ")))
+        )
+
+    def labels(self, dim: str) -> tuple[str, ...]:
+        """Return the labels along a dimension, their numbers where it has none."""
+        if self.node is None or dim not in self.node.sizes:
+            return ()
+        if dim in self.node.coords:
+            return tuple(str(label) for label in self.node.coords[dim].values)
+        return tuple(str(number + 1) for number in range(self.node.sizes[dim]))
+
+    def dims(self, name: str) -> tuple[str, ...]:
+        """Return the dimensions of a variable."""
+        found = self.variable(name)
+        return () if found is None else tuple(str(dim) for dim in found.dims)
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """Values in display units with the name of the unit."""
+
+    values: Array
+    unit: str
+
+
+def scaled(values: Array, unit: str, like: float | None = None) -> Scaled:
+    """Return values in their display unit; ``like`` [stored unit] makes several arrays share one.
+
+    Parameters
+    ----------
+    values : ndarray
+    unit : str
+        Stored unit.
+    like : float, optional
+        Largest magnitude that chooses the unit.
+
+    Returns
+    -------
+    Scaled
+    """
+    shown = display_unit(unit, values if like is None else like)
+    return Scaled(np.asarray(values, dtype=float) * shown.factor, shown.name)
+
+
+def common_scale(unit: str, *arrays: Array | None) -> tuple[float, str]:
+    """Return factor and name of the display unit that suits all of ``arrays`` together."""
+    largest = max((largest_magnitude(array) for array in arrays if array is not None), default=0.0)
+    shown = display_unit(unit, largest)
+    return shown.factor, shown.name
+
+
+def walk(group: Group, path: str = "") -> Iterator[tuple[str, Group]]:
+    """Yield every group below with its path."""
+    for child in group.children():
+        below = f"{path}/{child.name}"
+        yield below, child
+        yield from walk(child, below)

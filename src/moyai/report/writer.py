@@ -1,0 +1,139 @@
+"""Write a result as a report: one HTML file, tables as CSV, a PDF on request."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from moyai.core.errors import InputError
+from moyai.core.results import Result
+from moyai.report.document import Document
+from moyai.report.encoding import slug, table_csv
+
+Composer = Callable[[Result], Document]
+
+
+def _composer(structure: str) -> Composer:
+    """Return the composer of a structure's pages; a plain listing of all groups where there is none."""
+    if structure == "breakwater":
+        from moyai.report.breakwater_page import compose
+
+        return compose
+    from moyai.report.general_page import compose as compose_general
+
+    return compose_general
+
+
+def compose_document(result: Result) -> Document:
+    """Turn a result into a document.
+
+    Parameters
+    ----------
+    result : Result
+
+    Returns
+    -------
+    Document
+    """
+    return _composer(str(result.tree.attrs.get("structure", "")))(result)
+
+
+def write_report(
+    result: Result, directory: str | os.PathLike[str], *, pdf: bool = False, name: str = "report"
+) -> list[Path]:
+    """Write the report of a result.
+
+    Every file is written under a partial name and renamed, so that a file under its final name is always complete.
+
+    Parameters
+    ----------
+    result : Result
+        Of any status; what is absent is left out.
+    directory : path
+        Made if it does not exist.
+    pdf : bool
+        Write ``<name>.pdf`` too.
+    name : str
+        Name of the files without ending; the tables go to ``<name>_tables``.
+
+    Returns
+    -------
+    list of Path
+        The files written: HTML first, then the PDF, then the tables.
+
+    Raises
+    ------
+    InputError
+        When the folder cannot be written or ``name`` is no file name.
+    """
+    if not name or name in {".", ".."} or re.search(r'[\\/:*?"<>|\x00-\x1f]', name):
+        raise InputError(f"{name!r} is no file name", path="name", remedy="leave out slashes and the like")
+    from moyai.report.html import render_html
+
+    folder = Path(directory)
+    document = compose_document(result)
+    written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
+    if pdf:
+        from moyai.report.pdf import render_pdf
+
+        written.append(write_whole(folder / f"{name}.pdf", render_pdf(document)))
+    used: set[str] = set()
+    for table in document.tables():
+        base, count = slug(table.key), 2
+        file_name = base
+        while file_name in used:
+            file_name, count = f"{base}-{count}", count + 1
+        used.add(file_name)
+        # the byte order mark makes spreadsheets read the file as UTF-8
+        written.append(
+            write_whole(folder / f"{name}_tables" / f"{file_name}.csv", table_csv(table).encode("utf-8-sig"))
+        )
+    return written
+
+
+def write_whole(path: Path, content: bytes) -> Path:
+    """Write a file under a partial name and rename it.
+
+    Parameters
+    ----------
+    path : Path
+        Final name.
+    content : bytes
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    InputError
+        When the folder cannot be written.
+    """
+    partial = ""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, partial = tempfile.mkstemp(prefix=path.name + ".", suffix=".partial", dir=path.parent)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+        os.chmod(partial, 0o666 & ~_umask())
+        os.replace(partial, path)
+    except OSError as error:
+        raise InputError(
+            f"cannot write {path}: {error.strerror or error}",
+            path="output",
+            remedy="choose a folder that can be written",
+        ) from error
+    finally:
+        if partial:
+            Path(partial).unlink(missing_ok=True)
+    return path
+
+
+def _umask() -> int:
+    """Return the process's file mode mask, which can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
