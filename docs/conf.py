@@ -1,0 +1,65 @@
+"""Sphinx configuration: `sphinx-build -W docs docs/_build/html` works offline, warnings are errors."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import pkgutil
+from typing import Any, ClassVar
+
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+project = "moyai"
+author = "The moyai authors"
+copyright = "The moyai authors, Apache-2.0"
+version = release = importlib.metadata.version("moyai")
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax"]
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+myst_heading_anchors = 3
+math_number_all = True
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = "moyai"
+nitpicky = False
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_default_options = {"members": True, "undoc-members": False, "show-inheritance": False}
+napoleon_numpy_docstring = True
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+# Docstrings are plain text for the reader of the code, with bars and stars of formulas, and not checked as markup;
+# the pages of the documentation are MyST and are checked
+suppress_warnings = ["docutils", "autodoc", "ref.footnote", "ref.python", "ref.ref", "ref.doc"]
+
+
+class PublicModules(SphinxDirective):
+    """Document every public module of a package: no page has to be edited when a module comes or goes."""
+
+    required_arguments = 1
+    has_content = False
+    option_spec: ClassVar[dict[str, Any]] = {}
+
+    def run(self) -> list[nodes.Node]:
+        """Return one automodule for each module."""
+        package = importlib.import_module(self.arguments[0])
+        names = [package.__name__]
+        names += [
+            f"{package.__name__}.{module.name}"
+            for module in pkgutil.iter_modules(package.__path__)
+            if not module.name.startswith("_") and not module.ispkg
+        ]
+        lines = []
+        for name in sorted(names):
+            lines += [f".. rubric:: {name}", "", f".. automodule:: {name}", "   :no-index:", ""]
+        container = nodes.container()
+        self.state.nested_parse(StringList(lines, source="modules"), 0, container)
+        return container.children
+
+
+def setup(app: Sphinx) -> None:
+    """Register the directive."""
+    app.add_directive("public-modules", PublicModules)

@@ -1,0 +1,85 @@
+"""Every equation named in code stands in docs/theory and back; every page is listed where readers look."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCE, DOCS = ROOT / "src" / "moyai", ROOT / "docs"
+
+_NAMED = re.compile(r"\[eq:([A-Za-z0-9_-]+)\]")
+_LABEL = re.compile(r"^\s*:label:\s*([A-Za-z0-9_-]+)\s*$", re.MULTILINE)
+
+
+def named_in_code():
+    places = {}
+    for path in sorted(SOURCE.rglob("*.py")):
+        for label in _NAMED.findall(path.read_text(encoding="utf-8")):
+            places.setdefault(label, path.relative_to(ROOT))
+    return places
+
+
+def labels_in_theory():
+    places = {}
+    repeated = []
+    for path in sorted((DOCS / "theory").glob("*.md")):
+        for label in _LABEL.findall(path.read_text(encoding="utf-8")):
+            if label in places:
+                repeated.append(label)
+            places[label] = path.relative_to(ROOT)
+    return places, repeated
+
+
+def test_equations_of_the_code_are_in_the_theory():
+    labels, _ = labels_in_theory()
+    missing = {label: str(place) for label, place in named_in_code().items() if label not in labels}
+    assert not missing, f"named in code, absent from docs/theory: {missing}"
+
+
+def test_equations_of_the_theory_are_in_the_code():
+    labels, _ = labels_in_theory()
+    code = named_in_code()
+    unused = {label: str(place) for label, place in labels.items() if label not in code}
+    assert not unused, f"labelled in docs/theory, named nowhere in the code: {unused}"
+
+
+def test_labels_are_unique_and_there_are_some():
+    labels, repeated = labels_in_theory()
+    assert not repeated
+    assert labels
+
+
+def listed(index):
+    """Names in the toctrees of a page."""
+    names = set()
+    inside = False
+    for line in index.read_text(encoding="utf-8").splitlines():
+        if line.strip().startswith("```"):
+            inside = "{toctree}" in line
+            continue
+        if inside and line.strip() and not line.strip().startswith(":"):
+            names.add(line.strip())
+    return names
+
+
+def test_every_page_is_listed_in_its_index():
+    missing = []
+    for folder in ("theory", "validation", "tutorial", "adr"):
+        pages = {path.stem for path in (DOCS / folder).glob("*.md")} - {"index"}
+        index = DOCS / folder / "index.md"
+        assert index.is_file(), f"no docs/{folder}/index.md"
+        names = listed(index)
+        if ":glob:" in index.read_text(encoding="utf-8") and "*" in names:
+            names = (names - {"*"}) | pages
+        missing += [f"docs/{folder}/{name}.md" for name in sorted(pages - names)]
+        gone = names - pages
+        assert not gone, f"docs/{folder}/index.md lists {sorted(gone)}, which do not exist"
+    assert not missing, f"not in the index of their folder: {missing}"
+
+
+def test_every_validation_page_has_a_table_of_evidence():
+    """A row says what was claimed, how it is shown, the figure, and who else says so."""
+    for path in sorted((DOCS / "validation").glob("*.md")):
+        if path.stem == "index":
+            continue
+        rows = [line for line in path.read_text(encoding="utf-8").splitlines() if line.lstrip().startswith("|")]
+        assert len(rows) >= 3, f"{path.name} has no table"
