@@ -135,6 +135,15 @@ class Edges:
             bulges.extend(np.tan(np.arctan(bulge) * np.diff(limits)))
         return Edges(as_points(starts), as_points(ends), np.array(bulges))
 
+    def right_of(self, x: float, tolerance: float) -> Edges:
+        """Return the edges to the right of the upright line at ``x``, cut where they cross it."""
+        quarter = 1j * (as_complex(self.start) - x), 1j * (as_complex(self.end) - x)
+        turned = Edges(as_points(quarter[0]), as_points(quarter[1]), self.bulge).cut_at_level(tolerance)
+        back = Edges(
+            as_points(x - 1j * as_complex(turned.start)), as_points(x - 1j * as_complex(turned.end)), turned.bulge
+        )
+        return back.taken(back.points(0.5)[:, 0, 0] > x)
+
 
 def _level_crossings(start: complex, end: complex, bulge: float) -> list[float]:
     """Arc-length fractions in (0, 1) at which an edge crosses z = 0.

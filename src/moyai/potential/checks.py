@@ -1,0 +1,209 @@
+"""Input checks, validity notices and identities of the radiation and diffraction solver."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.potential.edges import FloatArray
+from moyai.potential.heading import HeadingSolution
+from moyai.potential.sections import Section
+from moyai.sea.water import Water
+
+
+def check_frequencies(omega: ArrayLike) -> FloatArray:
+    """Return the frequencies as an array.
+
+    Raises
+    ------
+    InputError
+        When there is none, or one is not positive or not finite.
+    """
+    values = np.atleast_1d(np.asarray(omega, dtype=float))
+    if values.ndim != 1 or values.size == 0:
+        raise InputError("no frequency was given", path="omega", allowed="one or more, in rad/s")
+    if not np.isfinite(values).all() or (values <= 0.0).any():
+        bad = values[~(np.isfinite(values) & (values > 0.0))][0]
+        raise InputError(
+            f"omega contains {bad:g} rad/s",
+            path="omega",
+            allowed="finite and greater than 0",
+            remedy="the limits at zero and infinity are in the dataset under names of their own",
+        )
+    return values
+
+
+def check_headings(heading: ArrayLike) -> FloatArray:
+    """Return the headings [rad] as an array.
+
+    Raises
+    ------
+    InputError
+        When one is not finite or not between -90 and 90 degrees.
+    """
+    values = np.atleast_1d(np.asarray(heading, dtype=float))
+    if values.ndim != 1 or values.size == 0 or not np.isfinite(values).all():
+        raise InputError("heading is not a list of finite angles", path="heading", allowed="radians")
+    if (np.abs(values) > math.radians(89.5)).any():
+        worst = float(values[np.argmax(np.abs(values))])
+        raise InputError(
+            f"heading contains {math.degrees(worst):g} degrees",
+            path="heading",
+            allowed="-89.5 to 89.5 degrees from +x",
+            remedy="waves from the other side meet the mirrored section: turn x round",
+        )
+    return values
+
+
+def check_section(section: Section, water: Water) -> None:
+    """Refuse a section that touches the bed.
+
+    Raises
+    ------
+    InputError
+        When the section is as deep as the water or deeper.
+    """
+    clearance = water.depth + section.bottom
+    if clearance <= 1e-6 * -section.bottom:
+        raise InputError(
+            f"{section.name} reaches down to z = {section.bottom:g} m in water {water.depth:g} m deep",
+            path="section",
+            allowed=f"clearance above the bed greater than 0 (found {clearance:g} m)",
+            remedy="reduce the draught or take a higher water level",
+        )
+
+
+def gap_notices(section: Section, water: Water, omega: FloatArray, lid: float) -> tuple[Notice, ...]:
+    """Warn of the piston resonance in every gap between waterlines [eq:potential-gap-resonance].
+
+    The water in a gap of width w between sides of draught d swings like a piston with
+    omega^2 = g / (d + (w / pi) (3/2 + ln(H / 2w))), H being the whole breadth; good to some five percent.
+    """
+    notices = []
+    lines = section.waterlines
+    whole = section.bounds[1] - section.bounds[0]
+    for (_, left), (right, _) in itertools.pairwise(lines):
+        width = right - left
+        # The shallower of the two sides lets the water out
+        depths = []
+        for body_left, body_right in ((line[0], line[1]) for line in lines):
+            if math.isclose(body_right, left) or math.isclose(body_left, right):
+                depths.append(_side_depth(section, left if math.isclose(body_right, left) else right))
+        draught = min(depths) if depths else -section.bottom
+        length = draught + width / math.pi * (1.5 + math.log(max(whole / (2.0 * width), math.exp(-1.5))))
+        resonance = math.sqrt(water.gravity / length)
+        inside = bool(omega.min() <= resonance <= omega.max())
+        if inside and lid == 0.0:
+            notices.append(
+                Notice(
+                    code="gap-resonance",
+                    message=(
+                        f"The water in the gap of {width:.3g} m at x = {left:.3g} to {right:.3g} m resonates near "
+                        f"{resonance:.3g} rad/s (period {2.0 * math.pi / resonance:.3g} s) without damping"
+                    ),
+                    value=resonance,
+                    limit=float(omega.max()),
+                    remedy="give lid, the damping of the enclosed surface as a fraction (0.01 to 0.1 is usual)",
+                    source="Molin (2001), J. Fluid Mech. 430, 27-50, piston mode of a moonpool",
+                )
+            )
+    return tuple(notices)
+
+
+def _side_depth(section: Section, x: float) -> float:
+    """Depth of the first corner below the waterline point at x."""
+    for chain in section.chains:
+        if chain.closed:
+            continue
+        edges = chain.edges
+        if math.isclose(edges.start[0, 0], x):
+            return float(-edges.end[0, 1])
+        if math.isclose(edges.end[-1, 0], x):
+            return float(-edges.start[-1, 1])
+    return -section.bottom
+
+
+def identity_checks(
+    solutions: Sequence[HeadingSolution], water: Water, accuracy: float, tails: float
+) -> tuple[IdentityCheck, ...]:
+    """Return the identities of all headings with the largest violation found."""
+
+    def worst(values: list[float]) -> float:
+        return max(values) if values else 0.0
+
+    energy: list[float] = []
+    symmetry: list[float] = []
+    haskind: list[float] = []
+    damping: list[float] = []
+    for solution in solutions:
+        states = solution.states
+        flux = water.density * water.gravity * states.group_velocity * states.along / states.wave_number
+        out = np.abs(solution.reflection) ** 2 + np.abs(solution.transmission) ** 2 + solution.lid_loss
+        energy.append(float(np.abs(out - 1.0).max()))
+        far = np.einsum("wis,wjs->wij", solution.radiated_wave, solution.radiated_wave.conj()).real
+        far = flux[:, None, None] * far + solution.lid_damping
+        for coefficient, target in ((solution.added_mass, symmetry), (solution.radiation_damping, symmetry)):
+            scale = _pair_scale(coefficient)
+            target.append(float((np.abs(coefficient - np.swapaxes(coefficient, 1, 2)).max(axis=0) / scale).max()))
+        damping.append(
+            float(
+                (np.abs(solution.radiation_damping - far).max(axis=0) / _pair_scale(solution.radiation_damping)).max()
+            )
+        )
+        excitation = solution.excitation_force
+        expected = -2.0 * flux[:, None] * solution.radiated_wave[:, :, 0]
+        largest = np.abs(excitation).max(axis=0)
+        scale_x = np.where(largest > 1e-9 * _force_scale(solution), largest, np.inf)
+        haskind.append(float((np.abs(excitation - expected).max(axis=0) / scale_x).max()))
+    return (
+        IdentityCheck(
+            "energy of the fixed section",
+            worst(energy),
+            accuracy,
+            "|R|^2 + |T|^2 + loss in the lid = 1 [eq:potential-energy]",
+        ),
+        IdentityCheck(
+            "symmetry of added mass and damping",
+            worst(symmetry),
+            accuracy,
+            "A_ij = A_ji, B_ij = B_ji, over the largest sqrt(A_ii A_jj) of the band",
+        ),
+        IdentityCheck(
+            "Haskind relation",
+            worst(haskind),
+            accuracy,
+            "X_j = -2 rho g C_g cos(beta) r_j on the minus side, over the largest |X_j| [eq:potential-haskind]",
+        ),
+        IdentityCheck(
+            "damping from the far field",
+            worst(damping),
+            accuracy,
+            "B_ij = rho g C_g cos(beta) sum of r_i r_j* + loss in the lid, over the largest sqrt(B_ii B_jj)",
+        ),
+        IdentityCheck(
+            "resolution of the potentials",
+            tails,
+            accuracy,
+            "last two Legendre coefficients on a panel, weighted by its length, over the largest potential",
+        ),
+    )
+
+
+def _pair_scale(coefficient: FloatArray) -> FloatArray:
+    """Largest sqrt(C_ii C_jj) of the band; infinite where a mode moves no water."""
+    diagonal = np.abs(np.einsum("wii->wi", coefficient)).max(axis=0)
+    diagonal = np.where(diagonal > 0.0, diagonal, np.inf)
+    return np.asarray(np.sqrt(np.outer(diagonal, diagonal)))
+
+
+def _force_scale(solution: HeadingSolution) -> FloatArray:
+    """Scale of the force on each mode from what its own motion costs, to tell a zero excitation from a small one."""
+    states = solution.states
+    inertia = states.omega[:, None] ** 2 * np.abs(np.einsum("wii->wi", solution.added_mass))
+    return np.asarray(inertia.max(axis=0) + np.abs(solution.froude_krylov_force).max(axis=0))

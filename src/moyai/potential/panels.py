@@ -1,0 +1,160 @@
+"""Panels with their Gauss-Legendre nodes, on the wetted boundary and on the free surface."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.potential.edges import ComplexArray, FloatArray
+
+IntArray = NDArray[np.int64]
+
+BODY, GAP, RAY = 0, 1, 2
+
+#: Direction of the free-surface ray in the complex x-plane
+RAY_DIRECTION = cmath.exp(0.25j * math.pi)
+
+
+@dataclass(frozen=True, eq=False)
+class Rule:
+    """Gauss-Legendre rule of one panel with the matrices that go with it.
+
+    Parameters
+    ----------
+    nodes, weights : ndarray, shape (p,)
+        On [-1, 1].
+    projection : ndarray, shape (p, p)
+        Legendre coefficients (rows) from node values.
+    derivative : ndarray, shape (p, p)
+        d/dt at the nodes from node values.
+    first, last : ndarray, shape (p,)
+        Values at t = -1 and t = 1 from node values.
+    """
+
+    nodes: FloatArray
+    weights: FloatArray
+    projection: FloatArray
+    derivative: FloatArray
+    first: FloatArray
+    last: FloatArray
+
+
+@lru_cache(maxsize=16)
+def gauss_rule(order: int) -> Rule:
+    """Return the rule with ``order`` nodes."""
+    nodes, weights = np.polynomial.legendre.leggauss(order)
+    degree = np.arange(order)
+    projection = (2 * degree[:, None] + 1) / 2.0 * np.polynomial.legendre.legvander(nodes, order - 1).T * weights
+    slopes = np.polynomial.legendre.legval(nodes, np.polynomial.legendre.legder(np.eye(order))).T
+    return Rule(nodes, weights, projection, slopes @ projection, (-1.0) ** degree @ projection, projection.sum(axis=0))
+
+
+class Piece(NamedTuple):
+    """One panel: first point u, chord, sweep [rad], grading (-1 start, 0 none, 1 end), kind and outline number."""
+
+    start: complex
+    step: complex
+    sweep: float
+    grade: int
+    kind: int
+    body: int
+
+
+@dataclass(frozen=True, eq=False)
+class Panels:
+    """Panels and their nodes; the nodes of a panel follow each other, in the direction that has the fluid on its right.
+
+    Parameters
+    ----------
+    pieces : tuple of Piece
+        The panels.
+    order : int
+        Nodes per panel.
+    u, v : ndarray of complex, shape (nodes,)
+        x + i z and x - i z; conjugate where x is real.
+    du, dv : ndarray of complex
+        Their derivatives with respect to the parameter t of the panel.
+    element : ndarray of complex
+        dsigma/dt: the speed on bodies, dx/dt on the free surface.
+    weight : ndarray of complex
+        ``element`` times the Gauss weight: sums over it are integrals along the boundary.
+    kind, body : ndarray of int
+        Of each node.
+    """
+
+    pieces: tuple[Piece, ...]
+    order: int
+    u: ComplexArray
+    v: ComplexArray
+    du: ComplexArray
+    dv: ComplexArray
+    element: ComplexArray
+    weight: ComplexArray
+    kind: IntArray
+    body: IntArray
+
+    @property
+    def kernel_panels(self) -> tuple[NDArray, ...]:
+        """The panels as the compiled quadrature wants them."""
+        start = np.array([piece.start for piece in self.pieces], dtype=complex)
+        step = np.array([piece.step for piece in self.pieces], dtype=complex)
+        sweep = np.array([piece.sweep for piece in self.pieces], dtype=float)
+        grade = np.array([piece.grade for piece in self.pieces], dtype=np.int64)
+        kind = np.array([piece.kind for piece in self.pieces], dtype=np.int64)
+        on_body = kind == BODY
+        mirrored = np.where(on_body, start.conj(), start), np.where(on_body, step.conj(), step)
+        return start, step, *mirrored, sweep, grade, kind != RAY
+
+    @property
+    def kernel_nodes(self) -> tuple[ComplexArray, ...]:
+        """The nodes as the compiled quadrature wants them."""
+        return self.u, self.v, self.du, self.dv, self.element
+
+    @property
+    def normal(self) -> FloatArray:
+        """Unit normals (nodes, 2) into the fluid; only for bodies."""
+        out = -1j * self.du / np.abs(self.du)
+        return np.stack([out.real, out.imag], axis=1)
+
+    @property
+    def points(self) -> FloatArray:
+        """Real parts x, z (nodes, 2)."""
+        return np.stack([self.u.real, self.u.imag], axis=1)
+
+
+def make_panels(pieces: Sequence[Piece], order: int) -> Panels:
+    """Put ``order`` nodes on every piece."""
+    rule = gauss_rule(order)
+    start = np.array([piece.start for piece in pieces], dtype=complex)[:, None]
+    step = np.array([piece.step for piece in pieces], dtype=complex)[:, None]
+    half = 0.5 * np.array([piece.sweep for piece in pieces], dtype=float)[:, None]
+    grade = np.array([piece.grade for piece in pieces], dtype=np.int64)[:, None]
+    up, down = 0.5 * (1.0 + rule.nodes), 0.5 * (1.0 - rule.nodes)
+    fraction = np.where(grade == 0, up, np.where(grade < 0, up**3, 1.0 - down**3))
+    slope = np.where(grade == 0, 0.5, np.where(grade < 0, 1.5 * up**2, 1.5 * down**2))
+    # Position and slope of an arc, as in moyai.potential.edges
+    ratio = fraction * np.sinc(half * fraction / np.pi) / np.sinc(half / np.pi) * np.exp(1j * half * (fraction - 1.0))
+    change = np.exp(1j * half * (2.0 * fraction - 1.0)) / np.sinc(half / np.pi) * slope
+    u = (start + step * ratio).ravel()
+    du = (step * change).ravel()
+    kind = np.repeat(np.array([piece.kind for piece in pieces], dtype=np.int64), order)
+    element = np.where(kind == BODY, np.abs(du), du).astype(complex)
+    return Panels(
+        pieces=tuple(pieces),
+        order=order,
+        u=u,
+        v=np.where(kind == BODY, u.conj(), u),
+        du=du,
+        dv=np.where(kind == BODY, du.conj(), du),
+        element=element,
+        weight=np.tile(rule.weights, len(pieces)) * element,
+        kind=kind,
+        body=np.repeat(np.array([piece.body for piece in pieces], dtype=np.int64), order),
+    )

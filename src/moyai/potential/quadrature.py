@@ -1,0 +1,404 @@
+"""Compiled quadrature of the layer potentials over straight, circular and complex-scaled panels.
+
+A panel carries ``p`` Gauss-Legendre nodes in its own parameter t. The point at t is u = x + i z, and v = x - i z is
+kept beside it as an independent number: on a free surface that was turned into the complex x-plane the two are not
+conjugate any more, and ln r = (ln(u - U) + ln(v - V)) / 2 continues analytically [eq:potential-log-split].
+
+A panel may run cubically into one of its ends (``grade`` -1 or +1): the fractional power of the distance with which a
+potential leaves a corner becomes smooth in t. The point of the panel's own parameter at which u = U (three points with
+cubic grading) takes the singularity over, and Legendre polynomials against 1/(t0 - t) and ln(t0 - t) are Legendre
+functions of the second kind [eq:potential-legendre-q]; what remains is smooth and left to the Gauss rule.
+
+Everything is in one file so that the compiled cache never goes stale.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+IntArray = NDArray[np.int64]
+
+# Sum of the distances of t0 from both ends of [-1, 1] below which a target counts as near: Bernstein ellipse rho ~ 3.2
+_NEAR_ELLIPSE = 3.5
+_TURN = complex(-0.5, math.sqrt(0.75))
+
+
+@njit(cache=True, error_model="numpy")
+def _legendre_q(t0: complex, on_panel: bool, count: int, q: ComplexArray) -> None:
+    """Add Q_0 ... Q_count at ``t0`` to ``q``; on the cut the mean of both sides is taken."""
+    if on_panel:
+        x = t0.real
+        low = 0.5 * math.log((1.0 + x) / (1.0 - x)) + 0.0j
+    else:
+        low = 0.5 * np.log((t0 + 1.0) / (t0 - 1.0))
+    q[0] += low
+    ellipse = abs(t0 - 1.0) + abs(t0 + 1.0)
+    if on_panel or ellipse < 2.3:  # rho < 1.72: the forward recurrence loses at most rho^(2 count)
+        high = t0 * low - 1.0
+        q[1] += high
+        for n in range(1, count):
+            new = ((2 * n + 1) * t0 * high - n * low) / (n + 1)
+            q[n + 1] += new
+            low = high
+            high = new
+    else:
+        extra = 30 if ellipse < 4.0 else 14
+        ratios = np.empty(count + 1, np.complex128)
+        ratio = 0.0j
+        for n in range(count + extra, 0, -1):
+            ratio = n / ((2 * n + 1) * t0 - (n + 1) * ratio)
+            if n <= count:
+                ratios[n] = ratio
+        for n in range(1, count + 1):
+            low = low * ratios[n]
+            q[n] += low
+
+
+@njit(cache=True, error_model="numpy")
+def _preimage(target: complex, start: complex, step: complex, sweep: float, grade: int) -> complex:
+    """Return the fraction of the panel, counted from its graded end, at which the panel meets ``target``."""
+    if grade > 0:
+        linear = (target - (start + step)) / (-step)
+        turn = -sweep
+    else:
+        linear = (target - start) / step
+        turn = sweep
+    if turn == 0.0:
+        return linear
+    shifted = linear * (np.exp(1j * turn) - 1.0)
+    return -1j * np.log(1.0 + shifted) / turn
+
+
+@njit(cache=True, error_model="numpy")
+def _principal_root(fraction: complex, grade: int) -> complex:
+    """Return the parameter t0 that belongs to a fraction of the panel (principal root where it is graded)."""
+    if grade == 0:
+        return 2.0 * fraction - 1.0
+    root = 2.0 * fraction ** (1.0 / 3.0) - 1.0
+    return root if grade < 0 else -root
+
+
+@njit(cache=True, error_model="numpy")
+def _smooth_log(y: complex) -> complex:
+    """ln((e^y - 1) / y), which has no singularity near the panel."""
+    if abs(y) < 0.3:
+        s = y * y
+        return 0.5 * y + s * (1.0 / 24.0 - s * (1.0 / 2880.0 - s * (1.0 / 181440.0 - s / 9676800.0)))
+    half = 0.5 * y
+    return half + np.log(np.sinh(half) / half)
+
+
+@njit(cache=True, error_model="numpy")
+def _smooth_pole(y: complex) -> complex:
+    """1 / (1 - e^-y) - 1 / y, which has no singularity near the panel."""
+    if abs(y) < 0.3:
+        s = y * y
+        return 0.5 + y * (1.0 / 12.0 - s * (1.0 / 720.0 - s * (1.0 / 30240.0 - s / 1209600.0)))
+    return 1.0 / (1.0 - np.exp(-y)) - 1.0 / y
+
+
+@njit(cache=True, error_model="numpy")
+def _leg(
+    fraction: complex,
+    sweep: float,
+    grade: int,
+    own: int,
+    t: FloatArray,
+    weights: FloatArray,
+    projection: FloatArray,
+    log_out: ComplexArray,
+    pole_out: ComplexArray,
+) -> None:
+    """Weights of the integrals of f ln((u - U) / (u_end - U)) dt and f du / (u - U) along one of the two legs.
+
+    ``own`` is the number of the node at which the target lies, or -1. Both outputs are overwritten.
+    """
+    p = t.shape[0]
+    q = np.zeros(p + 1, np.complex128)
+    on_panel = own >= 0
+    t0 = complex(t[own], 0.0) if on_panel else _principal_root(fraction, grade)
+    _legendre_q(t0, on_panel, p, q)
+    if grade != 0:
+        root = 0.5 * (1.0 + t0) if grade < 0 else 0.5 * (1.0 - t0)
+        for turn in (_TURN, _TURN.conjugate()):
+            other = 2.0 * root * turn - 1.0
+            _legendre_q(other if grade < 0 else -other, False, p, q)
+    for k in range(p):
+        log_sum = projection[0, k] * 2.0 * (q[1] + q[0])
+        pole_sum = projection[0, k] * q[0]
+        for n in range(1, p):
+            log_sum += projection[n, k] * (2.0 / (2 * n + 1)) * (q[n + 1] - q[n - 1])
+            pole_sum += projection[n, k] * q[n]
+        log_out[k] = log_sum
+        pole_out[k] = -2.0 * pole_sum
+    if sweep != 0.0:
+        along = _fraction_of(t0, grade)  # from the start of the panel
+        end = _smooth_log(1j * sweep * (1.0 - along))
+        for k in range(p):
+            y = 1j * sweep * (_fraction_of(complex(t[k], 0.0), grade) - along)
+            log_out[k] += weights[k] * (_smooth_log(y) - end)
+            pole_out[k] += weights[k] * 1j * sweep * _fraction_slope(t[k], grade) * _smooth_pole(y)
+
+
+@njit(cache=True, error_model="numpy")
+def _fraction_of(t: complex, grade: int) -> complex:
+    """Fraction of the panel, from its start, at the parameter t."""
+    if grade == 0:
+        return 0.5 * (1.0 + t)
+    if grade < 0:
+        return (0.5 * (1.0 + t)) ** 3
+    return 1.0 - (0.5 * (1.0 - t)) ** 3
+
+
+@njit(cache=True, error_model="numpy")
+def _fraction_slope(t: float, grade: int) -> float:
+    if grade == 0:
+        return 0.5
+    if grade < 0:
+        return 1.5 * (0.5 * (1.0 + t)) ** 2
+    return 1.5 * (0.5 * (1.0 - t)) ** 2
+
+
+@njit(cache=True, error_model="numpy")
+def _near(
+    target_u: complex,
+    target_v: complex,
+    both_real: bool,
+    own: int,
+    j: int,
+    panels: tuple,
+    t: FloatArray,
+    weights: FloatArray,
+    projection: FloatArray,
+    log_weights: ComplexArray,
+    pole_weights: ComplexArray,
+    work: ComplexArray,
+) -> bool:
+    """Weights of f ln r dt and f (normal derivative of ln r) dsigma over panel j; True when the panel is near.
+
+    ``panels`` = (start_u, step_u, start_v, step_v, sweep, grade, real).
+    """
+    start_u, step_u, start_v, step_v, sweep, grade, real = panels
+    p = t.shape[0]
+    g = grade[j]
+    fraction_u = 0.0j
+    fraction_v = 0.0j
+    if own < 0:
+        fraction_u = _preimage(target_u, start_u[j], step_u[j], sweep[j], g)
+        size_u = abs(fraction_u)
+        is_near = size_u < 12.0
+        if is_near:
+            t_u = _principal_root(fraction_u, g)
+            is_near = abs(t_u - 1.0) + abs(t_u + 1.0) < _NEAR_ELLIPSE
+        if not both_real:
+            # A real panel's second leg is the mirror image of its first
+            fraction_v = (
+                np.conj(_preimage(np.conj(target_v), start_u[j], step_u[j], sweep[j], g))
+                if real[j]
+                else _preimage(target_v, start_v[j], step_v[j], sweep[j], g)
+            )
+            if not is_near and abs(fraction_v) < 12.0:
+                t_v = _principal_root(fraction_v, g)
+                is_near = abs(t_v - 1.0) + abs(t_v + 1.0) < _NEAR_ELLIPSE
+        if not is_near:
+            return False
+    log_u, pole_u, log_v, pole_v = work[0], work[1], work[2], work[3]
+    _leg(fraction_u, sweep[j], g, own, t, weights, projection, log_u, pole_u)
+    end_u = start_u[j] + step_u[j]
+    if both_real:
+        end_log = math.log(abs(end_u - target_u))
+        for k in range(p):
+            log_weights[k] = log_u[k].real + weights[k] * end_log
+            pole_weights[k] = pole_u[k].imag
+    else:
+        _leg(np.conj(fraction_v), sweep[j], g, own, t, weights, projection, log_v, pole_v)
+        end_v = start_v[j] + step_v[j]
+        end_log_c = 0.5 * np.log((end_u - target_u) * (end_v - target_v))
+        for k in range(p):
+            log_weights[k] = 0.5 * (log_u[k] + np.conj(log_v[k])) + weights[k] * end_log_c
+            pole_weights[k] = -0.5j * (pole_u[k] - np.conj(pole_v[k]))
+    return True
+
+
+@njit(cache=True, error_model="numpy")
+def add_rankine(
+    targets: tuple,
+    own: IntArray,
+    panels: tuple,
+    nodes: tuple,
+    rule: tuple,
+    single: ComplexArray,
+    double: ComplexArray,
+) -> None:
+    """Add the influence of every node on every target, kernel ln r, to ``single`` and ``double`` (targets, nodes).
+
+    Parameters
+    ----------
+    targets : (u, v, real)
+        Complex x + i z and x - i z of the targets and whether they are real points.
+    own : ndarray of int
+        For each target the number of the node that it is, or -1 (also for mirror images).
+    panels : tuple
+        start_u, step_u, start_v, step_v, sweep, grade, real: one entry for each panel.
+    nodes : tuple
+        u, v, du/dt, dv/dt, element (dsigma/dt; complex where x is), panel by panel.
+    rule : (t, weights, projection)
+        Gauss-Legendre rule and the matrix (degree, node) from node values to Legendre coefficients.
+    """
+    target_u, target_v, target_real = targets
+    u, v, du, dv, element = nodes
+    t, weights, projection = rule
+    panel_real = panels[6]
+    p = t.shape[0]
+    log_weights = np.empty(p, np.complex128)
+    pole_weights = np.empty(p, np.complex128)
+    work = np.empty((4, p), np.complex128)
+    for i in range(target_u.shape[0]):
+        cu = target_u[i]
+        cv = target_v[i]
+        for j in range(panel_real.shape[0]):
+            both_real = target_real[i] and panel_real[j]
+            first = j * p
+            node = own[i] - first if first <= own[i] < first + p else -1
+            if _near(cu, cv, both_real, node, j, panels, t, weights, projection, log_weights, pole_weights, work):
+                for k in range(p):
+                    single[i, first + k] += log_weights[k] * element[first + k]
+                    double[i, first + k] += pole_weights[k]
+            elif both_real:
+                for k in range(p):
+                    n = first + k
+                    x = u[n].real - cu.real
+                    z = u[n].imag - cu.imag
+                    r2 = x * x + z * z
+                    single[i, n] += 0.5 * weights[k] * element[n].real * math.log(r2)
+                    double[i, n] += weights[k] * (du[n].imag * x - du[n].real * z) / r2
+            else:
+                for k in range(p):
+                    n = first + k
+                    a = u[n] - cu
+                    b = v[n] - cv
+                    r2 = a * b
+                    single[i, n] += 0.5 * weights[k] * element[n] * np.log(r2)
+                    double[i, n] += -0.5j * weights[k] * (du[n] * b - dv[n] * a) / r2
+
+
+_EULER = 0.5772156649015329
+# Trapezoidal rule of K_n(z) = int exp(-z cosh t) cosh(nt) dt; for |arg z| <= pi/4 and 2 < |z| < 16 its error is below
+# exp(-pi^2 / (2 step)) and exp(-sqrt 2 (pi / step)^2 / |z|)
+_BESSEL_STEP = 0.16
+_BESSEL_LARGE = 16.0
+_COSH = np.cosh(_BESSEL_STEP * np.arange(1, 40))
+
+
+@njit(cache=True, error_model="numpy")
+def _bessel_k(z: complex) -> tuple:
+    """Modified Bessel functions K_0 and K_1 for |arg z| <= pi/4 [eq:potential-bessel]."""
+    if abs(z) < 2.0:
+        y = 0.25 * z * z
+        i0, i0_slope, w, w_slope = _bessel_parts(y)
+        log = np.log(0.5 * z)
+        # d/dz = (z/2) d/dy
+        return w - log * i0, i0 / z - 0.5 * z * (w_slope - log * i0_slope)
+    decay = np.exp(-z)
+    if abs(z) > _BESSEL_LARGE:
+        # Asymptotic series; its smallest term is exp(-2 |z|)
+        scale = decay * np.sqrt(0.5 * math.pi / z)
+        k0 = 1.0 + 0.0j
+        k1 = 1.0 + 0.0j
+        term0 = 1.0 + 0.0j
+        term1 = 1.0 + 0.0j
+        for m in range(1, 16):
+            odd = (2 * m - 1) ** 2
+            term0 *= -odd / (8.0 * m * z)
+            term1 *= (4 - odd) / (8.0 * m * z)
+            k0 += term0
+            k1 += term1
+        return scale * k0, scale * k1
+    k0 = 0.5 + 0.0j
+    k1 = 0.5 + 0.0j
+    for c in _COSH:
+        power = z * (c - 1.0)
+        if power.real > 30.0:
+            break
+        term = np.exp(-power)
+        k0 += term
+        k1 += term * c
+    return _BESSEL_STEP * decay * k0, _BESSEL_STEP * decay * k1
+
+
+@njit(cache=True, error_model="numpy")
+def _bessel_parts(y: complex) -> tuple:
+    """I_0 and the smooth part W of K_0 = W - ln(z/2) I_0 as functions of y = z^2/4, with their derivatives in y."""
+    digamma = -_EULER
+    term = 1.0 + 0.0j
+    i0 = term
+    w = digamma * term
+    i0_slope = 0.0j
+    w_slope = 0.0j
+    for m in range(1, 60):
+        slope = term / m  # m y^(m-1) / m!^2
+        term = slope * y / m
+        digamma += 1.0 / m
+        i0 += term
+        w += digamma * term
+        i0_slope += slope
+        w_slope += digamma * slope
+        if abs(slope) * digamma < 1e-17 * abs(i0):
+            break
+    return i0, i0_slope, w, w_slope
+
+
+@njit(cache=True, error_model="numpy")
+def add_helmholtz(
+    targets: tuple,
+    own: IntArray,
+    panels: tuple,
+    nodes: tuple,
+    rule: tuple,
+    kappa: float,
+    single: ComplexArray,
+    double: ComplexArray,
+) -> None:
+    """Add influences as :func:`add_rankine` does, kernel -K_0(kappa r) [eq:potential-oblique-kernel].
+
+    On near panels -K_0 = I_0 (ln r + ln kappa/2) - W, where I_0 and W are entire functions of r^2 and join the density.
+    """
+    target_u, target_v, target_real = targets
+    u, v, du, dv, element = nodes
+    t, weights, projection = rule
+    panel_real = panels[6]
+    p = t.shape[0]
+    log_weights = np.empty(p, np.complex128)
+    pole_weights = np.empty(p, np.complex128)
+    work = np.empty((4, p), np.complex128)
+    constant = math.log(0.5 * kappa)
+    quarter = 0.25 * kappa * kappa
+    for i in range(target_u.shape[0]):
+        cu = target_u[i]
+        cv = target_v[i]
+        for j in range(panel_real.shape[0]):
+            first = j * p
+            both_real = target_real[i] and panel_real[j]
+            node = own[i] - first if first <= own[i] < first + p else -1
+            near = _near(cu, cv, both_real, node, j, panels, t, weights, projection, log_weights, pole_weights, work)
+            for k in range(p):
+                n = first + k
+                a = u[n] - cu
+                b = v[n] - cv
+                turning = -1j * (b * du[n] - a * dv[n])  # normal derivative of r^2 times dsigma/dt
+                if near:
+                    i0, i0_slope, w, w_slope = _bessel_parts(quarter * a * b)
+                    single[i, n] += element[n] * (log_weights[k] * i0 + weights[k] * (constant * i0 - w))
+                    steep = (log_weights[k] + weights[k] * constant) * i0_slope - weights[k] * w_slope
+                    double[i, n] += pole_weights[k] * i0 + quarter * steep * turning
+                else:
+                    r = np.sqrt(a * b)
+                    k0, k1 = _bessel_k(kappa * r)
+                    single[i, n] -= weights[k] * element[n] * k0
+                    double[i, n] += 0.5 * weights[k] * kappa * k1 / r * turning

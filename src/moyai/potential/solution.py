@@ -1,0 +1,131 @@
+"""The result of a radiation and diffraction solve, and its dataset in Capytaine's names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.results import DIRECTION_CONVENTION, TIME_CONVENTION, Status
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.potential.heading import HeadingSolution
+from moyai.potential.modes import Modes
+from moyai.potential.panels import Panels
+from moyai.potential.sections import Section
+from moyai.sea.water import Water
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True, eq=False)
+class RadiationDiffraction:
+    """Coefficients, potentials and identities of one section; everything per metre of structure.
+
+    Parameters
+    ----------
+    section, water, modes, heading, lid
+        The problem that was solved (heading in radians).
+    normal : HeadingSolution
+        Waves along +x; its radiation coefficients hold for motion that is uniform along the structure.
+    oblique : tuple of HeadingSolution
+        One for every other |heading|; its modes vary as exp(i k sin(beta) y).
+    body, surface : Panels
+        Nodes of the whole wetted boundary and free surface, on which the potentials of ``normal`` are given.
+    infinite_frequency_added_mass, zero_frequency_added_mass : ndarray, shape (radiating, influenced)
+        Limits; NaN where there is none (zero frequency in infinite depth, modes that displace volume).
+    unknowns : int
+        Number of nodes.
+    status, message, checks, notices
+        Whether the identities were met, and their figures.
+    """
+
+    section: Section
+    water: Water
+    modes: Modes
+    heading: FloatArray
+    lid: float
+    normal: HeadingSolution
+    oblique: tuple[HeadingSolution, ...]
+    body: Panels
+    surface: Panels
+    infinite_frequency_added_mass: FloatArray
+    zero_frequency_added_mass: FloatArray
+    unknowns: int
+    status: Status
+    message: str
+    checks: tuple[IdentityCheck, ...]
+    notices: tuple[Notice, ...] = ()
+
+    @property
+    def omega(self) -> FloatArray:
+        """Frequencies that were solved [rad/s]."""
+        return self.normal.states.omega
+
+    @property
+    def added_mass(self) -> FloatArray:
+        """Added mass (omega, radiating, influenced) of motion uniform along the structure."""
+        return self.normal.added_mass
+
+    @property
+    def radiation_damping(self) -> FloatArray:
+        """Radiation damping (omega, radiating, influenced) of motion uniform along the structure."""
+        return self.normal.radiation_damping
+
+    @property
+    def radiated_wave(self) -> ComplexArray:
+        """Wave amplitude (omega, radiating, side) per unit velocity on the minus and plus side."""
+        return self.normal.radiated_wave
+
+    def at_heading(self, heading: float) -> HeadingSolution:
+        """Return the solution at one of the headings [rad] that were solved.
+
+        Raises
+        ------
+        KeyError
+            When the heading was not solved.
+        """
+        for solution in (self.normal, *self.oblique):
+            if abs(abs(heading) - solution.heading) < 1e-12:
+                return solution
+        raise KeyError(f"heading {heading:g} rad was not solved")
+
+    @property
+    def excitation_force(self) -> ComplexArray:
+        """Excitation (omega, heading, mode) per unit wave amplitude."""
+        return self._over_headings("excitation_force")
+
+    @property
+    def reflection_coefficient(self) -> ComplexArray:
+        """R (omega, heading) of the section held fixed, phase at x = 0."""
+        return self._over_headings("reflection")
+
+    @property
+    def transmission_coefficient(self) -> ComplexArray:
+        """T (omega, heading) of the section held fixed, phase at x = 0."""
+        return self._over_headings("transmission")
+
+    def _over_headings(self, name: str) -> Any:
+        """Stack a quantity of the headings that were finished along a second axis; NaN for the others."""
+        first = getattr(self.normal, name)
+        out = np.full((first.shape[0], len(self.heading), *first.shape[1:]), np.nan, dtype=first.dtype)
+        for index, heading in enumerate(self.heading):
+            for solution in (self.normal, *self.oblique):
+                if abs(abs(heading) - solution.heading) < 1e-12:
+                    values = getattr(solution, name)
+                    out[: len(values), index] = values
+        return out
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Everything labelled, in Capytaine's names where they exist; see :mod:`moyai.potential.dataset`."""
+        from moyai.potential.dataset import build_dataset
+
+        return build_dataset(self)
+
+    @property
+    def conventions(self) -> dict[str, str]:
+        """Attributes that every dataset carries."""
+        return {"time_convention": TIME_CONVENTION, "direction_convention": DIRECTION_CONVENTION}

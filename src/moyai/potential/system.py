@@ -1,0 +1,131 @@
+"""Green's identity on body and free surface as a matrix, with the body eliminated once for all frequencies.
+
+With n into the fluid on the body and z up on the free surface, every target on either obeys
+pi phi + D phi + S q_F - S q_B = 0, where D and S integrate the normal derivative of ln r and ln r with its image in the
+bed [eq:potential-green]. The frequency enters through q_F = K phi only.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.potential.mesh import Layout
+from moyai.potential.panels import GAP, RAY, gauss_rule
+from moyai.potential.quadrature import add_helmholtz, add_rankine
+
+# Stacks of matrices are cut so that one takes about this many bytes
+_STACK_BYTES = 6.0e7
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """The problem of one symmetry with the body eliminated [eq:potential-reduced].
+
+    phi_F solves (surface + K surface_rate) phi_F = flux q_B; then
+    phi_B = body_flux q_B - (body + K body_rate) phi_F.
+
+    Parameters
+    ----------
+    sign : int
+        1 symmetric, -1 antisymmetric, 0 the whole section.
+    """
+
+    sign: int
+    body: ComplexArray
+    body_rate: ComplexArray
+    body_flux: FloatArray
+    surface: ComplexArray
+    surface_rate: ComplexArray
+    flux: ComplexArray
+
+    def solve(
+        self, deep_wave_number: FloatArray, flux: ComplexArray, source: ComplexArray | None = None
+    ) -> tuple[ComplexArray, ComplexArray]:
+        """Return phi on the body (waves, n, problems) and on the free surface.
+
+        Parameters
+        ----------
+        deep_wave_number : ndarray, shape (waves,)
+            K = omega^2 / g [1/m].
+        flux : ndarray, shape (waves or 1, n, problems)
+            Normal derivative q_B on the body.
+        source : ndarray, shape (waves, n, problems), optional
+            What the free surface gives in addition to K phi, over 1 + i lid.
+        """
+        k = deep_wave_number[:, None, None]
+        right = self.flux @ flux
+        if source is not None:
+            right = right - self.surface_rate @ source
+        surface = np.linalg.solve(self.surface + k * self.surface_rate, right)
+        rate = k * surface if source is None else k * surface + source
+        return np.asarray(self.body_flux @ flux - self.body @ surface - self.body_rate @ rate), np.asarray(surface)
+
+    @property
+    def chunk(self) -> int:
+        """How many frequencies to solve at once."""
+        return max(1, int(_STACK_BYTES / (16.0 * (len(self.surface) ** 2 + 1))))
+
+
+def influence(
+    layout: Layout, depth: float, crest_wave_number: float = 0.0
+) -> list[tuple[int, ComplexArray, ComplexArray]]:
+    """Return (sign, S, D) of each symmetry, bed image included; kernel ln r, or -K0(kappa r) for oblique waves."""
+    panels = layout.panels
+    rule = gauss_rule(panels.order)
+    tables = panels.kernel_panels, panels.kernel_nodes, (rule.nodes, rule.weights, rule.projection)
+    count = len(panels.u)
+    real = panels.kind != RAY
+    nobody = np.full(count, -1)
+
+    def pair(u: ComplexArray, v: ComplexArray, own: np.ndarray) -> tuple[ComplexArray, ComplexArray]:
+        single, double = np.zeros((2, count, count), dtype=complex)
+        images = [(u, v, own)]
+        if math.isfinite(depth):
+            images.append((v - 2j * depth, u + 2j * depth, nobody))
+        for image_u, image_v, image_own in images:
+            if crest_wave_number > 0.0:
+                add_helmholtz((image_u, image_v, real), image_own, *tables, crest_wave_number, single, double)
+            else:
+                add_rankine((image_u, image_v, real), image_own, *tables, single, double)
+        return single, double
+
+    single, double = pair(panels.u, panels.v, np.arange(count))
+    if layout.axis is None:
+        return [(0, single, double)]
+    other_single, other_double = pair(2.0 * layout.axis - panels.v, 2.0 * layout.axis - panels.u, nobody)
+    return [(sign, single + sign * other_single, double + sign * other_double) for sign in (1, -1)]
+
+
+def reduce_blocks(layout: Layout, depth: float, lid: float, crest_wave_number: float = 0.0) -> list[Block]:
+    """Assemble the problem and eliminate the body; ``lid`` damps the enclosed free surface [eq:potential-lid]."""
+    body = slice(0, layout.body_count)
+    surface = slice(layout.body_count, None)
+    absorbing = np.where(layout.panels.kind[surface] == GAP, 1.0 + 1j * lid, 1.0)
+    count = len(absorbing)
+    blocks = []
+    for sign, single, double in influence(layout, depth, crest_wave_number):
+        double.flat[:: len(double) + 1] += math.pi
+        single[:, surface] *= absorbing
+        # On the body all is real: the elimination needs real arithmetic only
+        columns = np.concatenate([double[body, surface], single[body, surface]], axis=1)
+        right = np.concatenate([columns.real, columns.imag, single[body, body].real], axis=1)
+        left = np.linalg.solve(double[body, body].real, right)
+        eliminated = left[:, : 2 * count] + 1j * left[:, 2 * count : 4 * count]
+        from_flux = left[:, 4 * count :]
+        below = double[surface, body]
+        blocks.append(
+            Block(
+                sign=sign,
+                body=eliminated[:, :count],
+                body_rate=eliminated[:, count:],
+                body_flux=from_flux,
+                surface=double[surface, surface] - below @ eliminated[:, :count],
+                surface_rate=single[surface, surface] - below @ eliminated[:, count:],
+                flux=single[surface, body] - below @ from_flux,
+            )
+        )
+    return blocks
