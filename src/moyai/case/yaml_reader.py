@@ -209,7 +209,7 @@ class _Builder:
         if depth > _MAXIMUM_DEPTH:
             self._stop(f"blocks are nested more than {_MAXIMUM_DEPTH} deep", event)
         if isinstance(event, yaml.AliasEvent):
-            known = self.anchors.get(event.anchor)
+            known = self.anchors.get(str(event.anchor))
             if known is None:
                 self._stop(f"'*{event.anchor}' refers to an anchor that is not defined above", event)
             elif not known.complete:

@@ -1,0 +1,27 @@
+"""From a case to the problem that its structure's package solves: the only place where degrees become radians."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from moyai.case.reader import Case
+
+_BUILDERS = {"breakwater": "moyai.case.build_breakwater"}
+
+
+def build(case: Case) -> Any:
+    """Return the problem of a case, for instance a :class:`moyai.breakwater.model.BreakwaterProblem`.
+
+    Parameters
+    ----------
+    case : Case
+        From :func:`moyai.case.reader.load_case`.
+
+    Raises
+    ------
+    InputError
+        When a file that the case names has changed or become unreadable since it was checked.
+    """
+    module = import_module(_BUILDERS[case.kind])
+    return module.build_problem(case.model, case.folder, case_text=case.text, case_hash=case.case_hash)

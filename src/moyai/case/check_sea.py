@@ -1,0 +1,130 @@
+"""Checks of site, waves, wind and current, the same for every structure."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from moyai.case.findings import Findings, duplicates
+from moyai.case.schema_environment import PowerLaw, RegularWaves, SpectrumFile, SpeedTable, Tma, sea_names
+from moyai.case.yaml_reader import KeyPath
+
+
+def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
+    """Check water levels, headings, sea states and current against each other."""
+    _check_levels(model.site, findings)
+    _check_bearings(model, findings)
+    for index in duplicates(sea_names(model.waves)):
+        name = sea_names(model.waves)[index]
+        findings.fault(wave_path(findings, index, "name"), f"two sea states are called '{name}'", remedy="rename one")
+    for index, state in enumerate(model.waves):
+        if isinstance(state, Tma) and math.isinf(model.site.water_depth):
+            findings.fault(
+                wave_path(findings, index, "kind"),
+                "a TMA spectrum needs a finite water depth",
+                remedy="use jonswap, which it tends to",
+            )
+        if isinstance(state, SpectrumFile):
+            check_file(wave_path(findings, index, "file"), state.file, folder, findings)
+    _check_current(model, findings)
+
+
+def wave_path(findings: Findings, index: int, *keys: str) -> KeyPath:
+    """Return the path of a sea state's key, whether the file has a list or a single block."""
+    single = ("waves", 0) not in findings.document.values
+    return ("waves", *keys) if single else ("waves", index, *keys)
+
+
+def check_file(path: KeyPath, name: str, folder: Path, findings: Findings, *, folder_allowed: bool = False) -> bool:
+    """Check that a named file is there; return whether it is."""
+    target = folder / name
+    try:
+        if target.is_dir() and not folder_allowed:
+            findings.fault(path, f"'{name}' is a folder", remedy="name the file in it")
+        elif not target.exists():
+            findings.fault(path, f"there is no file '{name}' in {folder}", remedy="paths count from the case file")
+        else:
+            return True
+    except (OSError, ValueError) as error:
+        findings.fault(path, f"'{name}' cannot be opened: {error}")
+    return False
+
+
+def _check_levels(site: Any, findings: Findings) -> None:
+    for name, level in site.water_levels.items():
+        if site.water_depth + level <= 0.0:
+            findings.fault(
+                ("site", "water_levels", name),
+                f"the water level {level:g} m leaves no water over the bed",
+                allowed=f"above {-site.water_depth:g} m",
+            )
+    values = list(site.water_levels.items())
+    for index in duplicates([f"{level!r}" for _, level in values]):
+        name, level = values[index]
+        findings.warn(("site", "water_levels", name), f"another water level stands at {level:g} m as well")
+
+
+def _check_bearings(model: Any, findings: Findings) -> None:
+    if model.site.x_axis_bearing_deg is not None:
+        return
+    entries: list[tuple[KeyPath, Any]] = [
+        (wave_path(findings, index), state) for index, state in enumerate(model.waves)
+    ]
+    entries += [((name,), getattr(model, name)) for name in ("wind", "current") if getattr(model, name) is not None]
+    for path, entry in entries:
+        for key in ("from_bearing_deg", "to_bearing_deg"):
+            if getattr(entry, key, None) is not None:
+                findings.fault(
+                    (*path, key),
+                    f"'{key}' needs 'site.x_axis_bearing_deg'",
+                    remedy="give the bearing that +x points to, or use 'heading_deg'",
+                )
+
+
+def _check_current(model: Any, findings: Findings) -> None:
+    current = model.current
+    if current is None:
+        return
+    if isinstance(current.profile, PowerLaw) and math.isinf(model.site.water_depth):
+        findings.fault(
+            ("current", "profile"), "a power law needs a finite water depth", remedy="use 'uniform' or a table"
+        )
+    if isinstance(current.profile, SpeedTable):
+        lowest, highest = current.profile.table[0][0], current.profile.table[-1][0]
+        if highest > 0.0:
+            findings.fault(
+                ("current", "profile", "table", len(current.profile.table) - 1),
+                f"the height {highest:g} m is above still water",
+                allowed="at most 0 m",
+            )
+        if lowest < -model.site.water_depth * (1.0 + 1e-9):
+            findings.fault(
+                ("current", "profile", "table", 0),
+                f"the height {lowest:g} m is under the bed",
+                allowed=f"at least {-model.site.water_depth:g} m",
+            )
+
+
+def check_waves(model: Any, problem: Any, findings: Findings) -> None:
+    """Hold every sea state against breaking and the limits of its theory, at every water level."""
+    from moyai.sea.validity import check_spectrum, check_wave
+
+    environment = problem.environment
+    for index, (state, sea) in enumerate(zip(model.waves, environment.sea_states)):
+        said: set[str] = set()
+        for name, level in environment.water_levels:
+            water = environment.water_at(level)
+            if isinstance(state, RegularWaves):
+                pairs = [("height", check_wave(sea.height, period, water)) for period in sea.periods]
+            else:
+                key = "file" if isinstance(state, SpectrumFile) else "significant_height"
+                pairs = [(key, check_spectrum(sea.spectrum, water))]
+            for key, notices in pairs:
+                for notice in notices:
+                    record = findings.fault if notice.severity == "error" else findings.warn
+                    if notice.severity == "information" or notice.code in said:
+                        continue
+                    said.add(notice.code)
+                    where = f" (water level {name})" if len(environment.water_levels) > 1 else ""
+                    record(wave_path(findings, index, key), f"{notice.message}{where}", remedy=notice.remedy)

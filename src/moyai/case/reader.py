@@ -1,0 +1,194 @@
+"""Read a case file: all its faults at once, or a frozen case."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from moyai.case.faults import Translator, did_you_mean
+from moyai.case.schema import STRUCTURE_KINDS, root_schema
+from moyai.case.schema_types import Block, Notes
+from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.core.errors import CaseError, Fault
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case file that was read and found sound.
+
+    Parameters
+    ----------
+    model : Block
+        The content by the schema of its structure; SI units, headings in degrees.
+    document : Document
+        The file with the place of every key.
+    path : Path
+        The file.
+    warnings : tuple of Fault
+        What is allowed but odd, with its place.
+    case_hash : str
+        SHA-256 of the content and of the files that it names; comments, order of keys and choice of units do not
+        matter.
+    """
+
+    model: Any
+    document: Document
+    path: Path
+    warnings: tuple[Fault, ...]
+    case_hash: str
+
+    @property
+    def kind(self) -> str:
+        """Kind of the structure."""
+        return str(self.model.structure.kind)
+
+    @property
+    def title(self) -> str:
+        """Title of the case."""
+        return str(self.model.title)
+
+    @property
+    def text(self) -> str:
+        """The file as it was read."""
+        return self.document.text
+
+    @property
+    def folder(self) -> Path:
+        """Folder of the file, from which it names other files."""
+        return self.path.parent
+
+
+def load_case(path: str | os.PathLike[str]) -> Case:
+    """Read a case file.
+
+    Parameters
+    ----------
+    path : path-like
+        YAML file, UTF-8.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    CaseError
+        With every fault of the file at once, each with line and column.
+    """
+    return case_of(read_yaml(path), Path(path))
+
+
+def case_of(document: Document, path: Path) -> Case:
+    """Return the case of a document that was read already; see :func:`load_case`."""
+    from moyai.case.checks import check
+
+    empty = _empty_values(document.data, (), document)
+    root = _choose_root(document, empty)
+    model, faults, mended = _validate(document, root)
+    faults = [*empty, *(fault for fault in faults if fault.path not in {known.path for known in empty})]
+    if model is None and mended is None:
+        raise CaseError(_in_order(faults))
+    found = check(model if model is not None else mended, document, path.parent)
+    faults.extend(found.faults)
+    if faults or model is None:
+        raise CaseError(_in_order(faults))
+    return Case(model, document, path, tuple(_in_order(found.warnings)), case_hash(model, path.parent))
+
+
+def _in_order(faults: list[Fault]) -> list[Fault]:
+    return sorted(dict.fromkeys(faults), key=lambda fault: (fault.line, fault.column))
+
+
+def _empty_values(data: Any, path: KeyPath, document: Document) -> list[Fault]:
+    """Return a fault for every key without a value: nothing in a case file means 'nothing' on purpose."""
+    if data is None and path:
+        return [document.fault(path, "there is no value", remedy="give one, or remove the key", of_key=True)]
+    faults = []
+    if isinstance(data, (dict, list)):
+        for key, value in data.items() if isinstance(data, dict) else enumerate(data):
+            faults.extend(_empty_values(value, (*path, key), document))
+    return faults
+
+
+def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
+    """Return the schema that ``structure.kind`` asks for, or raise what stands in the way."""
+    data = document.data
+    if not isinstance(data, dict):
+        raise CaseError([document.fault((), "a case file is a block of keys", remedy="'moyai new' prints a template")])
+    known = ", ".join(STRUCTURE_KINDS)
+    structure = data.get("structure")
+    if "structure" not in data:
+        written = ", ".join(list(map(str, data))[:8])
+        remedy = did_you_mean("structure", data) or f"the file has the keys {written}"
+        found = document.fault((), "the key 'structure' is missing", remedy=remedy)
+    elif not isinstance(structure, dict):
+        found = document.fault(("structure",), "expected a block of keys with 'kind'", allowed=known)
+    elif "kind" not in structure:
+        found = document.fault(("structure", "kind"), "the key 'kind' is missing", allowed=known)
+    elif structure["kind"] not in STRUCTURE_KINDS:
+        written = str(structure["kind"])
+        remedy = did_you_mean(written, STRUCTURE_KINDS)
+        found = document.fault(
+            ("structure", "kind"), f"'{written}' is not a known structure", allowed=known, remedy=remedy
+        )
+    else:
+        return root_schema(str(structure["kind"]))
+    raise CaseError(_in_order([*(fault for fault in faults if fault.path != found.path), found]))
+
+
+def _validate(document: Document, root: type[Block]) -> tuple[Any, list[Fault], Any]:
+    """Return the model (or ``None``), the faults, and a model of mended data on which checks can still run."""
+    notes = Notes()
+    error: ValidationError | None = None
+    model: Any = None
+    try:
+        model = root.model_validate(document.data, context=notes)
+    except ValidationError as found:
+        error = found
+    translator = Translator(document, notes, root)
+    faults = translator.translate(error)
+    if not faults:
+        return model, [], None
+    data = translator.mended()
+    if data is None:
+        return None, faults, None
+    try:
+        return None, faults, root.model_validate(data, context=Notes())
+    except ValidationError:
+        return None, faults, None
+
+
+def case_hash(model: Block, folder: Path) -> str:
+    """Return the SHA-256 of a case's content and of the files it names."""
+    content = model.model_dump(mode="json", by_alias=True)
+    text = json.dumps(content, sort_keys=True, ensure_ascii=False, default=str)
+    digest = hashlib.sha256(text.encode("utf-8"))
+    for name in sorted(named_files(content)):
+        target = folder / name
+        members = sorted(target.rglob("*")) if target.is_dir() else [target]
+        for member in members:
+            if member.is_file():
+                digest.update(member.name.encode("utf-8", "surrogateescape"))
+                digest.update(member.read_bytes())
+    return digest.hexdigest()
+
+
+def named_files(content: Any) -> set[str]:
+    """Return every file that a case names, under the keys ``file`` and ``path``."""
+    found: set[str] = set()
+    if isinstance(content, dict):
+        for key, value in content.items():
+            if key in ("file", "path") and isinstance(value, str):
+                found.add(value)
+            else:
+                found |= named_files(value)
+    elif isinstance(content, (list, tuple)):
+        for value in content:
+            found |= named_files(value)
+    return found
