@@ -1,0 +1,251 @@
+"""Run a floating breakwater: every water level, every sea state, the analyses that the case names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.breakwater.assembly import FloatingUnit, assemble
+from moyai.breakwater.checks import check_problem, check_unit, drift_check
+from moyai.breakwater.frequency_analysis import (
+    FrequencyModel,
+    irregular_sea,
+    make_model,
+    operators,
+    regular_sea,
+)
+from moyai.breakwater.hydrodynamics import (
+    CoefficientsOf,
+    UnitHydrodynamics,
+    headings_of,
+    operator_frequencies,
+    solve_unit,
+    spectrum_band,
+)
+from moyai.breakwater.loads import steady_force
+from moyai.breakwater.model import BreakwaterProblem, RegularSea
+from moyai.breakwater.screening import check_screening
+from moyai.breakwater.sensitivity import sensitivity_datasets
+from moyai.breakwater.statics_analysis import mooring_dataset, statics_dataset
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result, Status, make_provenance
+from moyai.core.validity import IdentityCheck, Notice
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass
+class _Collected:
+    """What a run has so far; kept whole at every moment so that an interrupt loses only the step in hand."""
+
+    groups: dict[str, xr.Dataset] = field(default_factory=dict)
+    checks: list[IdentityCheck] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+    unsettled: list[str] = field(default_factory=list)
+    interrupted: bool = False
+
+
+def run(
+    problem: BreakwaterProblem, progress: Progress = silent, *, coefficients: CoefficientsOf | None = None
+) -> Result:
+    """Run all analyses of a breakwater case.
+
+    Parameters
+    ----------
+    problem : BreakwaterProblem
+    progress : Progress
+        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+    coefficients : callable or None
+        Planar coefficients of the whole unit from a 3-D program in place of the section.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the case is impossible: the body sinks, reaches the bed, a line cannot reach.
+    """
+    collected = _Collected()
+    collected.notices.extend(check_problem(problem))
+    steps = _steps(problem, collected, coefficients, progress)
+    try:
+        for _ in steps:
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = True
+    return _result(problem, collected)
+
+
+def _steps(
+    problem: BreakwaterProblem, collected: _Collected, coefficients: CoefficientsOf | None, progress: Progress
+) -> Iterator[None]:
+    analyses = problem.settings.analyses
+    levels = problem.environment.water_levels
+    # Every level is assembled before any long work starts, so that an impossible one is told at once
+    units = [assemble(problem, name, level) for name, level in levels]
+    for index, unit in enumerate(units):
+        progress("water levels", index, len(units))
+        yield from _level_steps(problem, unit, collected, coefficients, progress, analyses)
+    progress("water levels", len(units), len(units))
+
+
+def _level_steps(
+    problem: BreakwaterProblem,
+    unit: FloatingUnit,
+    collected: _Collected,
+    coefficients: CoefficientsOf | None,
+    progress: Progress,
+    analyses: tuple[str, ...],
+) -> Iterator[None]:
+    root = f"/{unit.name}"
+    collected.groups[root] = _level_header(unit)
+    collected.notices.extend((*unit.notices, *check_unit(unit)))
+    steady = steady_force(unit, problem.environment)
+    dynamic = "frequency" in analyses or "time" in analyses
+    hydro: UnitHydrodynamics | None = None
+    if dynamic or "statics" in analyses:
+        hydro = solve_unit(unit, problem, coefficients=coefficients, progress=progress)
+        collected.groups[f"{root}/hydrodynamics"] = hydro.per_metre
+        collected.checks.extend(replace(check, name=f"{unit.name}: {check.name}") for check in hydro.checks)
+        collected.notices.extend(hydro.notices)
+        yield
+    if "statics" in analyses or dynamic:
+        data, notices = statics_dataset(unit, hydro, steady)
+        collected.groups[f"{root}/statics"] = data
+        collected.notices.extend(notices)
+        yield
+    if "mooring" in analyses and unit.lines:
+        offsets = problem.settings.restoring_offsets
+        collected.groups[f"{root}/mooring"] = mooring_dataset(unit, None if offsets is None else np.asarray(offsets))
+        yield
+    if not dynamic or hydro is None:
+        return
+    model = make_model(unit, hydro, steady, problem.settings.drift)
+    yield from _frequency_steps(problem, model, collected, root, progress)
+    if "time" in analyses:
+        yield from _time_steps(problem, model, collected, root, progress)
+
+
+def _frequency_steps(
+    problem: BreakwaterProblem, model: FrequencyModel, collected: _Collected, root: str, progress: Progress
+) -> Iterator[None]:
+    unit, hydro = model.unit, model.hydro
+    main = float(headings_of(problem)[0]) if not problem.environment.sea_states else float(
+        problem.environment.sea_states[0].heading
+    )
+    found = operators(model, operator_frequencies(unit, problem), main)
+    collected.groups[f"{root}/rao"] = found.dataset
+    collected.checks.extend(found.checks)
+    collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
+    collected.checks.extend(drift_check(model, main))
+    yield
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, RegularSea):
+            answer = regular_sea(model, sea, progress)
+        else:
+            answer = irregular_sea(model, sea, spectrum_band(sea), progress)
+        collected.groups[f"{root}/frequency/{sea.name}"] = answer.dataset
+        collected.checks.extend(answer.checks)
+        collected.notices.extend(answer.notices)
+        if answer.dataset.attrs["status"] != "converged":
+            collected.unsettled.append(f"{unit.name}/frequency/{sea.name}")
+        yield
+    groups, notices = sensitivity_datasets(problem, unit, hydro, model)
+    collected.notices.extend(notices)
+    collected.groups.update({f"{root}/sensitivity/{name}": data for name, data in groups.items()})
+    yield
+
+
+def _time_steps(
+    problem: BreakwaterProblem, model: FrequencyModel, collected: _Collected, root: str, progress: Progress
+) -> Iterator[None]:
+    from moyai.breakwater import time_analysis
+    from moyai.breakwater.memory_model import unit_memory
+
+    unit = model.unit
+    memory = unit_memory(model, progress)
+    collected.checks.extend(memory.checks)
+    collected.notices.extend(memory.notices)
+    collected.groups[f"{root}/memory"] = memory.dataset
+    yield
+    for sea in problem.environment.sea_states:
+        frequency = collected.groups[f"{root}/frequency/{sea.name}"]
+        if isinstance(sea, RegularSea):
+            answer = time_analysis.regular_sea(model, memory, sea, frequency, problem.settings.time, progress)
+        else:
+            answer = time_analysis.irregular_sea(model, memory, sea, frequency, problem.settings.time, progress)
+        collected.groups[f"{root}/time/{sea.name}"] = answer.dataset
+        for one in answer.runs:
+            collected.groups[f"{root}/time/{sea.name}/{one.name}"] = one.dataset(unit)
+        collected.notices.extend(answer.notices)
+        if answer.status == "interrupted":
+            raise KeyboardInterrupt
+        if answer.status != "converged":
+            collected.unsettled.append(f"{unit.name}/time/{sea.name}")
+        yield
+
+
+def _level_header(unit: FloatingUnit) -> xr.Dataset:
+    import xarray as xr
+
+    return xr.Dataset(attrs={"water_level": unit.level, "water_depth": unit.water.depth})
+
+
+def _result(problem: BreakwaterProblem, collected: _Collected) -> Result:
+    """Close the run: status, message, provenance."""
+    import xarray as xr
+
+    failed = [check.name for check in collected.checks if not check.passed]
+    outside = [notice for notice in collected.notices if notice.severity == "error"]
+    status: Status = "converged"
+    message = "all identities hold and all iterations converged"
+    if outside:
+        status, message = "outside_validity", outside[0].message
+    if collected.unsettled or failed:
+        status = "not_converged"
+        message = "; ".join([f"not settled: {name}" for name in collected.unsettled] + [f"identity fails: {name}" for name in failed])
+    if collected.interrupted:
+        status, message = "interrupted", "stopped by the user; groups that were finished are here"
+    root = xr.Dataset(
+        attrs={
+            "structure": "breakwater",
+            "title": problem.title,
+            "case_hash": problem.case_hash,
+            "case_text": problem.case_text,
+        }
+    )
+    groups: dict[str, xr.Dataset] = {"/": root, **collected.groups}
+    if problem.measured is not None:
+        columns = problem.measured.columns
+        groups["/measured"] = xr.Dataset(
+            {name: ("point", np.asarray(values)) for name, values in columns.items()},
+            attrs={"file": problem.measured.file},
+        )
+    seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
+    return Result(
+        tree=xr.DataTree.from_dict(groups),
+        status=status,
+        message=message,
+        checks=tuple(collected.checks),
+        notices=_unique(collected.notices),
+        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="breakwater", seeds=seeds),
+    )
+
+
+def _unique(notices: list[Notice]) -> tuple[Notice, ...]:
+    """Keep the first of equal messages, grave ones first."""
+    rank = {"error": 0, "warning": 1, "information": 2}
+    seen: dict[str, Notice] = {}
+    for notice in notices:
+        seen.setdefault(notice.message, notice)
+    return tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3)))
+
+
+__all__ = ["run"]

@@ -1,0 +1,110 @@
+"""Checks of a breakwater beyond those of the rooms below: what the case asks against what the theory covers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from moyai.breakwater.assembly import FloatingUnit
+from moyai.breakwater.frequency_analysis import FrequencyModel
+from moyai.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.frequency import solve_motions
+from moyai.mooring.checks import check_line_system
+
+SHORT_CREST_ANGLE = math.radians(45.0)
+NEAR_FIELD_TOLERANCE = 0.02  # of the largest drift coefficient; corners limit the near field
+
+
+def check_problem(problem: BreakwaterProblem) -> tuple[Notice, ...]:
+    """Say what the two-dimensional model of a unit leaves out, and how far the waves are from its theory."""
+    notices = [
+        Notice(
+            "end-effects",
+            "waves round the ends of the unit and loads in connectors between units are not covered by the section",
+            severity="information",
+            remedy="give coefficients of a 3-D program for a short unit",
+        )
+    ]
+    for sea in problem.environment.sea_states:
+        if abs(sea.heading) > SHORT_CREST_ANGLE:
+            notices.append(
+                Notice(
+                    "oblique-heading",
+                    f"{sea.name}: waves meet the unit at {math.degrees(sea.heading):.0f} degrees, where its length and "
+                    "ends matter more than its section",
+                    value=math.degrees(abs(sea.heading)),
+                    limit=math.degrees(SHORT_CREST_ANGLE),
+                )
+            )
+        if sea.heading != 0.0 and "time" in problem.settings.analyses:
+            notices.append(
+                Notice(
+                    "oblique-time-domain",
+                    f"{sea.name}: in the time domain the wave load is that of the oblique wave on the section, the memory "
+                    "that of a motion equal all along the unit",
+                    severity="information",
+                )
+            )
+    return tuple(notices)
+
+
+def check_unit(unit: FloatingUnit) -> tuple[Notice, ...]:
+    """Check lines at rest and the clearance under the keel."""
+    notices: list[Notice] = []
+    if unit.lines:
+        found = check_line_system(unit.mooring.planar.system, path="lines")
+        notices.extend(found)
+    clearance = unit.water.depth + unit.section.bottom
+    if clearance < 0.1 * -unit.section.bottom:
+        notices.append(
+            Notice(
+                "keel-clearance",
+                f"{unit.name}: {clearance:.3g} m of water under the keel; flow separation there is not covered",
+                value=clearance / -unit.section.bottom,
+                limit=0.1,
+            )
+        )
+    return tuple(notices)
+
+
+def check_waves(problem: BreakwaterProblem, unit: FloatingUnit) -> tuple[Notice, ...]:
+    """Hold every sea against breaking and the range of linear theory at the depth of a level."""
+    from moyai.sea.validity import check_spectrum, check_wave
+
+    notices: list[Notice] = []
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, RegularSea):
+            for period in sea.periods:
+                notices.extend(check_wave(sea.height, period, unit.water))
+        elif isinstance(sea, IrregularSea):
+            notices.extend(check_spectrum(sea.spectrum, unit.water))
+    return tuple(notices)
+
+
+def drift_check(model: FrequencyModel, heading: float) -> tuple[IdentityCheck, ...]:
+    """Compare the mean drift of the moving body by momentum with that by pressure on its surface.
+
+    Two routes that share nothing but the potentials; only for normal incidence and a solution of the section.
+    """
+    from moyai.potential.drift import mean_drift_far_field, mean_drift_near_field
+
+    solution = model.hydro.solution
+    if solution is None or heading != 0.0:
+        return ()
+    hydro = model.hydro.at(model.hydro.unit.omega, heading)
+    motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping).displacement[:, 0, :]
+    far = np.asarray(mean_drift_far_field(solution, motions, heading=heading))
+    near = np.asarray(mean_drift_near_field(solution, motions, heading=heading))
+    scale = float(np.max(np.abs(far)))
+    if scale == 0.0:
+        return ()
+    return (
+        IdentityCheck(
+            f"{model.unit.name}: mean drift by momentum and by pressure",
+            float(np.max(np.abs(far - near))) / scale,
+            NEAR_FIELD_TOLERANCE,
+            "far-field (Maruo) equals near-field drift of the moving section",
+        ),
+    )
