@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.report.encoding import encode_array, encode_quantised
+from moyai.report.encoding import QUANTA, encode_array, encode_quantised
 from moyai.report.formatting import display_unit
 
 Array = NDArray[np.float64]
@@ -99,12 +99,15 @@ def encode_track(values: Array, tolerance: float) -> dict[str, Any]:
     count = 1
     for count in range(1, vectors.shape[1] + 1):
         rest = rest - np.outer(coefficients[:, count - 1], vectors[:, count - 1])
-        if np.abs(rest).max() <= tolerance:
+        if np.abs(rest).max() <= 0.5 * tolerance:
             break
+    kept, basis = coefficients[:, :count], vectors[:, :count]
+    # half the tolerance is left for the rounding of the coefficients; roundings of several columns add as squares
+    rounding = 0.5 * np.sqrt(((np.ptp(kept, axis=0) / QUANTA[8] * np.abs(basis).max(axis=0)) ** 2).sum())
     return {
         "mean": encode_array(mean),
-        "basis": [encode_array(vectors[:, k]) for k in range(count)],
-        "coefficients": encode_quantised(coefficients[:, :count]),
+        "basis": [encode_array(column) for column in basis.T],
+        "coefficients": encode_quantised(kept, 8 if rounding <= 0.5 * tolerance else 16),
     }
 
 
@@ -192,7 +195,7 @@ def side_view(
     dict
     """
     height = min(bounds[3] - bounds[2] for bounds in extents.values())
-    tolerance = height / 1000.0
+    tolerance = height / 800.0  # half a pixel of a tall view
     shown_lines = []
     for line in lines:
         unit = display_unit("N", line.maximum)
@@ -224,7 +227,7 @@ def side_view(
         "lines": shown_lines,
         "surface": None
         if surface is None
-        else {"x": encode_array(surface.x), "elevation": encode_track(surface.elevation, tolerance)},
+        else {"x": encode_array(surface.x), "elevation": encode_track(surface.elevation, 2.5 * tolerance)},
         "bed": bed,
         "extents": {name: [float(bound) for bound in bounds] for name, bounds in extents.items()},
         "window": [float(window[0]), float(window[1])],

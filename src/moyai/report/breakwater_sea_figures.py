@@ -333,7 +333,7 @@ def tension_bars(level: Level) -> Figure | None:
         + ("" if len(panels) > 1 else " Breaking loads are not given in the case."),
         tuple(marks),
         categories=lines,
-        height=150 + 140 * len(panels),
+        height=110 + 125 * len(panels),
     )
 
 

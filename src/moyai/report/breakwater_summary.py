@@ -52,9 +52,7 @@ def summary_blocks(
         blocks.append(KeyFigures(tuple(items[:MOST_KEY_FIGURES])))
     else:
         blocks.append(Paragraph("The result holds no governing numbers."))
-    table = tables.governing_table(numbers, decides)
-    if table is not None:
-        blocks.append(table)
+    blocks += tables.governing_tables(numbers, decides)
     if decides is not None and decides.domain == "time" and any(entry.domain == "frequency" for entry in numbers):
         blocks.append(
             Paragraph(

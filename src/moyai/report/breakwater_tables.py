@@ -42,44 +42,59 @@ def useful_table(
     return Table(name, title, tuple(kept), note, emphasised, collapsed=collapsed)
 
 
-def governing_table(numbers: tuple[SeaNumbers, ...], governs: SeaNumbers | None) -> Table | None:
+def governing_tables(numbers: tuple[SeaNumbers, ...], governs: SeaNumbers | None) -> tuple[Table, ...]:
     """Governing numbers of every water level, sea state and domain, the decisive row in bold."""
     many_levels = len({entry.level for entry in numbers}) > 1
+
+    def column(label: str, values: list[float], unit: str = "", uniform: bool = True) -> Column:
+        return Column(label, values, unit, uniform=uniform)
 
     def motion(mode: str) -> list[float]:
         return [entry.motions.get(mode, math.nan) for entry in numbers]
 
-    columns = [
+    heads = [Column("Water level", [entry.level for entry in numbers])] if many_levels else []
+    heads += [
         Column("Sea state", [entry.sea for entry in numbers]),
         Column("Domain", [DOMAIN_WORDS[entry.domain].removesuffix(" domain") for entry in numbers]),
-        Column("Largest tension", [entry.tension for entry in numbers], "N"),
-        Column("Line", [entry.line for entry in numbers]),
-        Column("at T", [entry.tension_period for entry in numbers], "s"),
-        Column("Utilisation", [100.0 * entry.utilisation for entry in numbers], "%", digits=3),
-        Column("Anchor uplift", [entry.uplift for entry in numbers], "N"),
-        Column("Mean offset", [entry.mean_offset for entry in numbers], "m"),
-        Column("Largest offset", [entry.largest_offset for entry in numbers], "m"),
-        Column("Sway", motion("sway"), "m"),
-        Column("Heave", motion("heave"), "m"),
-        Column("Roll", motion("roll"), "rad"),
-        Column("K_T", [entry.transmission for entry in numbers]),
-        Column("at T", [entry.transmission_period for entry in numbers], "s"),
-        Column("K_R", [entry.reflection for entry in numbers]),
-        Column("Mean drift force", [entry.drift for entry in numbers], "N"),
-        Column("Waves over deck", [100.0 * entry.overtopping for entry in numbers], "%"),
     ]
-    if many_levels:
-        columns.insert(0, Column("Water level", [entry.level for entry in numbers]))
-    return useful_table(
-        "governing-numbers",
-        "Governing numbers by sea state",
-        columns,
-        always=3 if many_levels else 2,
-        note="Utilisation: tension over breaking load. Sway, heave and roll: amplitude in regular waves, significant "
-        "double amplitude in irregular seas. "
-        "Regular waves: largest over the periods. Tension of one line at its fairlead.",
-        emphasised=tuple(row for row, entry in enumerate(numbers) if entry is governs),
+    emphasised = tuple(row for row, entry in enumerate(numbers) if entry is governs)
+    loads = useful_table(
+        "governing-tensions-and-offsets",
+        "Tensions and offsets by sea state",
+        [
+            *heads,
+            column("Largest tension", [entry.tension for entry in numbers], "N", uniform=False),
+            Column("Line", [entry.line for entry in numbers]),
+            column("at T", [entry.tension_period for entry in numbers], "s"),
+            column("Utilisation", [100.0 * entry.utilisation for entry in numbers], "%", uniform=False),
+            column("Uplift at anchor", [entry.uplift for entry in numbers], "N", uniform=False),
+            column("Mean drift force", [entry.drift for entry in numbers], "N", uniform=False),
+            column("Mean offset", [entry.mean_offset for entry in numbers], "m"),
+            column("Largest offset", [entry.largest_offset for entry in numbers], "m"),
+        ],
+        always=len(heads),
+        note="Tension of one line at its fairlead; utilisation: tension over breaking load. Regular waves: largest "
+        "over the periods.",
+        emphasised=emphasised,
     )
+    waves = useful_table(
+        "governing-motions-and-waves",
+        "Motions and waves by sea state",
+        [
+            *heads,
+            column("Sway", motion("sway"), "m"),
+            column("Heave", motion("heave"), "m"),
+            column("Roll", motion("roll"), "rad"),
+            column("Transmission K_T", [entry.transmission for entry in numbers]),
+            column("at T", [entry.transmission_period for entry in numbers], "s"),
+            column("Reflection K_R", [entry.reflection for entry in numbers]),
+            column("Waves over deck", [100.0 * entry.overtopping for entry in numbers], "%", uniform=False),
+        ],
+        always=len(heads),
+        note="Motions: amplitude in regular waves, significant double amplitude in irregular seas. Transmission: "
+        "largest over the periods with the reflection there, energy-weighted in irregular seas.",
+    )
+    return tuple(table for table in (loads, waves) if table is not None)
 
 
 _STATICS = (

@@ -164,8 +164,7 @@ def time_series(level: Level, sea: Sea, record: Record, bins: int) -> Figure:
         (Abscissa("time", "time", "s"),),
         tuple(panels),
         tuple(series),
-        "Opened on the window about the governing maximum; wave: incident, at x = 0. The strip below holds the whole "
-        "record: drag its frame or edges, double-click for all."
+        "The window about the governing maximum; wave: incident, at x = 0."
         + (
             ""
             if complete
@@ -174,6 +173,7 @@ def time_series(level: Level, sea: Sea, record: Record, bins: int) -> Figure:
         tuple(marks),
         window=(start, end),
         slider=True,
+        hint="The strip below holds the whole record: drag its frame or edges, double-click for all.",
         height=110 + 92 * len(panels),
     )
 
@@ -371,7 +371,7 @@ def _surface(
     if record.elevation is None or not record.period > 0.0:
         return None
     left, right = min(b[0] for b in extents.values()), max(b[1] for b in extents.values())
-    x = np.linspace(left, right, 181)
+    x = np.linspace(left, right, 141)
     rao = level.group.child("rao")
     omega, wavelength = rao.real("omega", "omega"), rao.real("wavelength", "omega")
     if omega is None or wavelength is None:

@@ -120,6 +120,8 @@ class Figure:
     series : tuple of Series
     caption : str
         What the figure shows and the conditions it holds for.
+    hint : str
+        How to use it on the screen; not on paper.
     marks : tuple of Mark
     window : tuple of float or None
         Part of the first abscissa shown at first.
@@ -142,6 +144,7 @@ class Figure:
     slider: bool = False
     categories: tuple[str, ...] = ()
     height: int = 340
+    hint: str = ""
 
 
 @dataclass(frozen=True)

@@ -373,10 +373,10 @@ def _motion_signs(sketch: Sketch, box: tuple[float, float, float, float], top: f
     sketch.arrow((x, y), (x, y - 44.0), "axis")
     sketch._parts.append(f'<text class="axis-text" x="{x + 50:.1f}" y="{y + 4:.1f}" font-size="12">sway +</text>')
     sketch._parts.append(f'<text class="axis-text" x="{x - 14:.1f}" y="{y - 50:.1f}" font-size="12">heave +</text>')
-    centre = sketch.x0 + (x + 104.0 - sketch.left) / sketch.scale, sketch.z1 - (y - 10.0 - sketch.top) / sketch.scale
+    centre = sketch.x0 + (x + 122.0 - sketch.left) / sketch.scale, sketch.z1 - (y - 10.0 - sketch.top) / sketch.scale
     sketch.turn(centre[0], centre[1], 18.0, "axis")
     sketch._parts.append(
-        f'<text class="axis-text" x="{x + 104:.1f}" y="{y - 34:.1f}" text-anchor="middle" font-size="12">roll +</text>'
+        f'<text class="axis-text" x="{x + 122:.1f}" y="{y - 34:.1f}" text-anchor="middle" font-size="12">roll +</text>'
     )
 
 

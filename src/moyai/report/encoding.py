@@ -9,7 +9,7 @@ import json
 import math
 import re
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.report.document import Cell, Column, Figure, Series, Table
 from moyai.report.formatting import DisplayUnit, axis_label, display_unit, plain_number
 
+QUANTA = {8: 254, 16: 65000}  # steps over the range of a column
 SHORT_ARRAY = 48  # up to this length numbers are written out, beyond it as packed single precision
 
 
@@ -54,25 +55,27 @@ def encode_array(values: ArrayLike) -> list[float | None] | dict[str, str]:
     return {"f4": base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")}
 
 
-def encode_quantised(values: NDArray[np.float64]) -> dict[str, Any]:
-    """Encode a matrix as 16-bit integers per column, with offset and step of each column.
+def encode_quantised(values: NDArray[np.float64], bits: Literal[8, 16] = 16) -> dict[str, Any]:
+    """Encode a matrix as small integers per column, with offset and step of each column.
 
     Parameters
     ----------
     values : ndarray, shape (frames, columns)
         Finite numbers.
+    bits : {8, 16}
 
     Returns
     -------
     dict
-        ``{"i2": base64 row by row, "columns": n, "offset": [...], "step": [...]}``; the error is half a step.
+        ``{"i1" or "i2": base64 row by row, "columns": n, "offset": [...], "step": [...]}``; the error is half a step.
     """
     low, high = values.min(axis=0), values.max(axis=0)
     offset = 0.5 * (low + high)
-    step = np.maximum(high - low, 1e-300) / 65000.0
-    integers = np.clip(np.rint((values - offset) / step), -32500, 32500).astype("<i2")
+    most = QUANTA[bits] // 2
+    step = np.maximum(high - low, 1e-300) / QUANTA[bits]
+    integers = np.clip(np.rint((values - offset) / step), -most, most).astype("<i2" if bits == 16 else "i1")
     return {
-        "i2": base64.b64encode(integers.tobytes()).decode("ascii"),
+        "i2" if bits == 16 else "i1": base64.b64encode(integers.tobytes()).decode("ascii"),
         "columns": int(values.shape[1]),
         "offset": [float(f"{value:.9g}") for value in offset],
         "step": [float(f"{value:.9g}") for value in step],

@@ -151,7 +151,7 @@ def column_texts(column: Column) -> list[str]:
         if value is None:
             return DASH
         if isinstance(value, str):
-            return value or DASH
+            return value
         if isinstance(value, bool):
             return "yes" if value else "no"
         number = float(value) * factor
@@ -220,6 +220,7 @@ class _Page:
 
     def _figure(self, figure: Figure) -> str:
         name = self._unique(figure.key)
+        hint = f'<p class="caption hint">{escape(figure.hint)}</p>' if figure.hint else ""
         self.figures[name] = {**figure_specification(figure), "key": name}
         switch = ""
         if len(figure.abscissae) > 1:
@@ -235,7 +236,7 @@ class _Page:
             else ""
         )
         return f"""<figure class="figure" id="{name}" data-figure="{name}">
-<figcaption><h3>{words(figure.title)}</h3>{_caption(figure.caption)}</figcaption>
+<figcaption><h3>{words(figure.title)}</h3>{_caption(figure.caption)}{hint}</figcaption>
 <div class="plot" style="height:{figure.height}px" role="img" aria-label="{escape(figure.title)}"></div>{overview}
 <div class="tools">{switch}<span class="spring"></span>
 <button type="button" data-do="csv" title="Download the data of this figure">CSV</button>

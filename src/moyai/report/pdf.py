@@ -34,7 +34,7 @@ from moyai.report.html import (
     notice_text,
 )
 
-TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "DejaVu Sans")
+TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
 JAPANESE_FONTS = (
     "Noto Sans CJK JP",
     "Noto Sans JP",

@@ -3,14 +3,14 @@
 const MOYAI = { figures: new Map(), players: [], painters: {} };
 MOYAI.data = JSON.parse(document.getElementById("report-data").textContent);
 
-// Arrays come as lists (null: not known), as packed single precision, or as 16-bit integers with a scale per column.
+// Arrays come as lists (null: not known), as packed single precision, or as integers of 8 or 16 bits with a scale per column.
 MOYAI.bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 MOYAI.array = (coded) => {
   if (Array.isArray(coded)) return coded.map((v) => (v === null ? NaN : v));
   return new Float32Array(MOYAI.bytes(coded.f4).buffer);
 };
 MOYAI.quantised = (coded) => {
-  const integers = new Int16Array(MOYAI.bytes(coded.i2).buffer);
+  const integers = coded.i1 ? new Int8Array(MOYAI.bytes(coded.i1).buffer) : new Int16Array(MOYAI.bytes(coded.i2).buffer);
   const out = new Float64Array(integers.length);
   for (let i = 0; i < integers.length; i++) {
     const c = i % coded.columns;
