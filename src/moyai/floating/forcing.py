@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.floating.arrays import ComplexArray, FloatArray, finite, positive
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.sea.components import WaveComponents
 
 
 class Forcing(Protocol):
@@ -177,6 +179,57 @@ class IrregularForcing:
                 )
         for name in ("omega", "amplitude", "excitation", "steady"):
             finite(getattr(self, name), name)
+
+    @classmethod
+    def of_sea(
+        cls,
+        sea: WaveComponents,
+        hydrodynamics: Hydrodynamics,
+        *,
+        drift_per_amplitude_squared: ArrayLike | None = None,
+        steady: ArrayLike | None = None,
+        drift_law: Literal["newman", "newman_product", "ramped", "none"] = "newman",
+        ramp: float = 0.0,
+    ) -> IrregularForcing:
+        """Return the forcing of a sea on a body.
+
+        Parameters
+        ----------
+        sea : WaveComponents
+            Realisation; components without energy are left out.
+        hydrodynamics : Hydrodynamics
+            Coefficients of the whole unit.
+        drift_per_amplitude_squared : array_like (n,) or (n, m) or None
+            Mean drift over amplitude squared at the frequencies of the coefficients, along the first mode or all modes
+            [N/m2]; from :func:`moyai.floating.far_field.drift_force_per_amplitude_squared`.
+        steady : array_like (m,) or None
+            Wind and current [N, N, N m].
+        drift_law, ramp
+            As for the class.
+        """
+        size = hydrodynamics.size
+        amplitude = sea.complex_amplitude
+        keep = np.abs(amplitude) > 0.0
+        if not np.any(keep):
+            raise InputError("the sea holds no energy", path="sea")
+        omega, amplitude = sea.omega[keep], amplitude[keep]
+        single = len(hydrodynamics.heading) == 1
+        drift = None
+        if drift_per_amplitude_squared is not None:
+            given = np.asarray(finite(np.asarray(drift_per_amplitude_squared, dtype=float), "drift"))
+            columns = np.zeros((len(hydrodynamics.omega), size))
+            columns[:, : 1 if given.ndim == 1 else size] = given.reshape(len(given), -1)
+            inside = np.clip(omega, hydrodynamics.omega[0], hydrodynamics.omega[-1])
+            drift = np.column_stack([np.interp(inside, hydrodynamics.omega, column) for column in columns.T])
+        return cls(
+            omega=omega,
+            amplitude=amplitude,
+            excitation=hydrodynamics.excitation_at(omega, None if single else sea.heading[keep]),
+            drift=drift,
+            steady=np.zeros(size) if steady is None else np.asarray(steady, dtype=float),
+            drift_law=drift_law,
+            ramp=ramp,
+        )
 
     @property
     def shortest_period(self) -> float:

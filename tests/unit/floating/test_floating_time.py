@@ -254,7 +254,7 @@ def test_time_step_says_what_decides() -> None:
     fast = RegularForcing(50.0, 1.0, np.zeros(3, complex), np.zeros(3), np.zeros(3))
     step, notice = choose_time_step(model, fast)
     assert "wave period" in notice.message
-    assert np.isclose(2 * np.pi / 50.0 / step, 40.0)
+    assert np.isclose(2 * np.pi / 50.0 / step, 24.0)
 
 
 def test_quadratic_damping_in_time_takes_the_equal_work_of_its_linear_equivalent() -> None:
