@@ -193,7 +193,7 @@ class WrappedNormal(Spreading):
 
     def _turns(self) -> Array:
         reach = math.ceil((9.0 * self.standard_deviation + math.pi) / (2.0 * math.pi))
-        return 2.0 * math.pi * np.arange(-reach, reach + 1)
+        return np.asarray(2.0 * math.pi * np.arange(-reach, reach + 1), dtype=np.float64)
 
     def density(self, offset: ArrayLike, omega: ArrayLike) -> Array:
         """Return G [1/rad]; the frequency does not matter."""

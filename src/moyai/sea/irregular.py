@@ -16,7 +16,7 @@ from moyai.core.errors import InputError
 from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
 from moyai.sea.directional import Spreading, wrapped
-from moyai.sea.spectra import Spectrum
+from moyai.sea.spectrum import Spectrum
 from moyai.sea.synthesis import choose_band, equal_energy_bins, fourier_bins, uniform_numbers
 from moyai.sea.water import Water
 

@@ -18,7 +18,7 @@ Density = Callable[[Array], Array]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 #: Below this fraction of the peak frequency exp(-1.25 s^-4) is less than 1e-300.
-_LOWEST = 0.21
+LOWEST = 0.21
 
 
 def shape_edges(peaks: tuple[float, ...], lower: float, upper: float) -> Array:
@@ -26,10 +26,10 @@ def shape_edges(peaks: tuple[float, ...], lower: float, upper: float) -> Array:
 
     Every peak is an edge, since the width of the JONSWAP peak changes there.
     """
-    edges = [np.array([0.0, 1.0 / (_LOWEST * min(peaks))])]
+    edges = [np.array([0.0, 1.0 / (LOWEST * min(peaks))])]
     for peak in peaks:
         edges.append(np.linspace(0.0, 1.0, 25) / peak)
-        edges.append(1.0 / (peak * np.linspace(1.0, _LOWEST, 25)))
+        edges.append(1.0 / (peak * np.linspace(1.0, LOWEST, 25)))
     whole = np.unique(np.concatenate(edges))
     low, high = (0.0 if math.isinf(upper) else 1.0 / upper), (math.inf if lower <= 0.0 else 1.0 / lower)
     inner = whole[(whole > low) & (whole < high)]
@@ -88,7 +88,7 @@ def cumulative_table(omega: Array, density: Array, wanted: Array) -> Array:
 
 
 def invert_cumulative(cumulative: Density, density: Density, target: Array, lower: float, upper: float) -> Array:
-    """Solve cumulative(omega) = target inside a bracket by Newton's method guarded by bisection, all targets at once."""
+    """Solve cumulative(omega) = target by Newton's method guarded by bisection, all targets at once."""
     low, high = np.full(target.shape, lower), np.full(target.shape, upper)
     omega = np.sqrt(low * high) if lower > 0.0 else 0.5 * (low + high)
     for _ in range(200):

@@ -72,7 +72,8 @@ def zero_crossing_kernel(values: Array, times: Array, parabolic: bool, out: Arra
         before, now = values[i - 1], values[i]
         if open_cycle:
             value = before
-            if parabolic and 1 <= i - 1:
+            # a cycle is open only after two samples, so values[i - 2] exists
+            if parabolic:
                 left, right = values[i - 2], now
                 if (before >= left and before > right) or (before <= left and before < right):
                     bend = left - 2.0 * before + right

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
-from moyai.sea.spectra import Spectrum
+from moyai.sea.spectrum import Spectrum
 
 Array = NDArray[np.float64]
 Stream = Literal["phase", "amplitude", "heading", "frequency"]
@@ -88,7 +88,7 @@ def fourier_bins(
     edges[0], edges[-1] = low, high
     energy = np.diff(spectrum.energy_below(edges))
     keep = energy > 0.0
-    return number[keep] * step, energy[keep], step
+    return np.asarray(number[keep] * step, dtype=np.float64), energy[keep], step
 
 
 def equal_energy_bins(spectrum: Spectrum, low: float, high: float, count: int, seed: int) -> tuple[Array, Array]:

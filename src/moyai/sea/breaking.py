@@ -1,0 +1,111 @@
+"""Limiting heights of regular waves."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from moyai.core.errors import InputError
+from moyai.sea import dispersion
+from moyai.sea.water import Water
+
+
+@dataclass(frozen=True)
+class BreakingLimit:
+    """The smallest of the limiting heights that apply.
+
+    Parameters
+    ----------
+    height : float
+        Limiting height [m].
+    criterion : str
+        Name and form of the criterion that governs.
+    source : str
+        Where it comes from.
+    """
+
+    height: float
+    criterion: str
+    source: str
+
+
+def miche_height(wavelength: float, water_depth: float) -> float:
+    """Return Miche's limiting height 0.142 L tanh kh [m], 0.142 L in deep water [eq:sea-miche]."""
+    return 0.142 * wavelength * math.tanh(2.0 * math.pi * water_depth / wavelength)
+
+
+def mccowan_height(water_depth: float) -> float:
+    """Return McCowan's limiting height of a solitary wave 0.78 h [m], infinite in infinite depth [eq:sea-mccowan]."""
+    return 0.78 * water_depth
+
+
+def highest_steady_wave(wavelength: float, water_depth: float) -> float:
+    """Return the height of the highest steady wave of a given length [m] [eq:sea-highest].
+
+    Fenton's (1990) fit to the computations of Williams (1981): 0.141 L in deep water, 0.833 h for long waves.
+    """
+    if math.isinf(water_depth):
+        return 0.141063 * wavelength
+    ratio = wavelength / water_depth
+    above = ratio * (0.141063 + ratio * (0.0095721 + ratio * 0.0077829))
+    below = 1.0 + ratio * (0.0788340 + ratio * (0.0317567 + ratio * 0.0093407))
+    return water_depth * above / below
+
+
+def linear_wavelength(period: float, water: Water, current_along_wave: float = 0.0) -> float:
+    """Return the wavelength [m] of linear theory for a period [s] in the fixed frame."""
+    if not (math.isfinite(period) and period > 0.0):
+        raise InputError(f"wave period is {period:g} s", path="period", allowed="greater than 0 s")
+    omega = 2.0 * math.pi / period
+    k = dispersion.wave_number_in_current(omega, water.depth, water.gravity, current_along_wave)
+    return 2.0 * math.pi / float(k)
+
+
+def breaking_limit(period: float, water: Water, current_along_wave: float = 0.0) -> BreakingLimit:
+    """Return the limiting height of a regular wave: Miche's or McCowan's, whichever is lower.
+
+    Parameters
+    ----------
+    period : float
+        [s], in the fixed frame.
+    water : Water
+        Depth and gravity.
+    current_along_wave : float
+        Uniform current along the heading [m/s].
+    """
+    length = linear_wavelength(period, water, current_along_wave)
+    miche, mccowan = miche_height(length, water.depth), mccowan_height(water.depth)
+    if mccowan < miche:
+        return BreakingLimit(mccowan, "McCowan 0.78 h", "McCowan (1894)")
+    if 2.0 * math.pi * water.depth / length > math.pi:
+        return BreakingLimit(miche, "deep-water limit 0.142 L", "Michell (1893)")
+    return BreakingLimit(miche, "Miche 0.142 L tanh kh", "Miche (1944)")
+
+
+def require_below_breaking(height: float, period: float, water: Water, current_along_wave: float = 0.0) -> None:
+    """Raise when a regular wave is higher than breaking allows.
+
+    Parameters
+    ----------
+    height, period : float
+        Wave height [m] and period [s].
+    water : Water
+        Depth and gravity.
+    current_along_wave : float
+        Uniform current along the heading [m/s].
+
+    Raises
+    ------
+    InputError
+        With the number, the limit and the criterion.
+    """
+    limit = breaking_limit(period, water, current_along_wave)
+    if not (math.isfinite(height) and height >= 0.0):
+        raise InputError(f"wave height is {height:g} m", path="height", allowed="at least 0 m")
+    if height > limit.height:
+        raise InputError(
+            f"a wave of height {height:.4g} m and period {period:.4g} s breaks ({limit.criterion})",
+            path="height",
+            allowed=f"at most {limit.height:.4g} m",
+            remedy="lower the wave, lengthen the period, or check the water depth",
+        )
