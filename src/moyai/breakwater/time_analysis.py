@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from moyai.floating.far_field import drift_force_per_amplitude_squared, far_fiel
 from moyai.floating.forcing import Forcing, IrregularForcing, RegularForcing
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.floating.harmonics import Harmonics, fit_harmonics
-from moyai.floating.line_table import LineTable, TabulatedMooring, tabulate_line
+from moyai.floating.lines import PlanarMooring
 from moyai.floating.modes import natural_modes
 from moyai.floating.time import CumminsModel, Simulation, simulate
 from moyai.sea.irregular import synthesise
@@ -85,46 +85,14 @@ class TimeResult:
     status: str = "converged"
 
 
-def tabulated_lines(unit: FloatingUnit, reach: Array) -> TabulatedMooring | None:
-    """Tabulate the lines of the unit for motions up to ``reach`` [m, m, rad] about rest.
+def compiled_lines(unit: FloatingUnit, reach: Array) -> PlanarMooring | None:
+    """Prepare the lines of the unit for the time domain.
 
-    Identical lines share a table; the error of each table against the exact solver is kept in it.
+    Tables serve within motions of ``reach`` [m, m, rad] about rest, the exact solver beyond.
     """
     if not unit.lines:
         return None
-    tables: list[LineTable] = []
-    depth = unit.water.depth + unit.centre[1]
-    anchors = np.array([line.anchor for line in unit.lines])
-    fairleads = np.array([line.fairlead for line in unit.lines])
-    for index, line in enumerate(unit.lines):
-        arm = float(np.hypot(fairleads[index, 0], fairleads[index, 2]))
-        radius = float(np.hypot(reach[0], reach[1])) + arm * float(reach[2])
-        span = fairleads[index] - anchors[index]
-        chord, angle = float(np.linalg.norm(span)), math.atan2(span[2], math.hypot(span[0], span[1]))
-        swing = math.asin(min(radius / chord, 1.0))
-        low, high = max(angle - swing, -0.5 * math.pi), min(angle + swing, 0.5 * math.pi)
-        rest = line.solve(fairleads[index][None], depth).tension_fairlead[0]
-
-        def pull(across: Array, up: Array, line=line, anchor=anchors[index]) -> tuple[Array, Array]:  # type: ignore[no-untyped-def]
-            points = anchor + np.stack([across, np.zeros_like(across), up], axis=1)
-            state = line.solve(points, depth)
-            return -state.force[:, 0] / line.count, -state.force[:, 2] / line.count
-
-        tables.append(
-            tabulate_line(
-                pull,
-                chord_range=(max(chord - radius, 1e-3 * chord), chord + radius),
-                angle_range=(low, high),
-                reference_tension=float(rest),
-            )
-        )
-    return TabulatedMooring(
-        tables=tuple(tables),
-        table_of_line=tuple(range(len(tables))),
-        fairlead=fairleads,
-        anchor=anchors,
-        count=np.array([float(line.count) for line in unit.lines]),
-    )
+    return PlanarMooring.of(unit.mooring.planar.system, rest=(0.0, 0.0, 0.0), centre=(0.0, 0.0), motion_range=reach)
 
 
 def _linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -> Array:
@@ -152,26 +120,14 @@ def _settling_time(model: FrequencyModel, cummins: CumminsModel, hydro: Hydrodyn
 
 
 def _run(
-    model: FrequencyModel,
-    cummins: CumminsModel,
-    forcing: Forcing,
-    expected: Array,
-    **options: object,
+    model: FrequencyModel, cummins: CumminsModel, forcing: Forcing, expected: Array, **options: Any
 ) -> Simulation:
-    """Simulate, and again with wider line tables when the motion left them."""
-    unit, reach = model.unit, np.maximum(2.0 * expected, 1e-3 * unit.breakwater.hull.beam * np.array([1.0, 1.0, 0.1]))
-    simulation: Simulation | None = None
-    for _ in range(4):
-        lines = tabulated_lines(unit, reach)
-        simulation = simulate(replace(cummins, mooring=lines), forcing, expected_motion=expected, **options)  # type: ignore[arg-type]
-        moved = np.max(np.abs(simulation.position), axis=0)
-        arm = 0.5 * unit.breakwater.hull.beam
-        allowed, used = np.hypot(reach[0], reach[1]) + arm * reach[2], np.hypot(moved[0], moved[1]) + arm * moved[2]
-        if lines is None or used <= allowed or simulation.status != "converged":
-            break
-        reach = 1.5 * np.maximum(moved, reach)
-    assert simulation is not None
-    return simulation
+    """Simulate with line tables for twice the expected motion (at least a thousandth of the beam, or of a radian)."""
+    unit = model.unit
+    reach = np.maximum(2.0 * np.nan_to_num(expected), 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
+    return simulate(
+        replace(cummins, mooring=compiled_lines(unit, reach)), forcing, expected_motion=np.nan_to_num(expected), **options
+    )
 
 
 def regular_sea(
@@ -285,7 +241,7 @@ def _summary(
 ) -> dict[str, Array]:
     """First harmonics, extremes, and R and T with the motions of the time domain in the operators of the frequency domain."""
     blank = np.full(3, np.nan)
-    kinds = run.line_pull.shape[1]
+    kinds = run.tension.shape[1]
     out = {
         "motion_amplitude": blank, "mean_offset": blank, "maximum_motion": blank,
         "maximum_tension": np.full(kinds, np.nan), "minimum_tension": np.full(kinds, np.nan),

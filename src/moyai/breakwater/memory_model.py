@@ -1,0 +1,190 @@
+"""The memory of the water for the time domain of a unit: wide band of coefficients, memory functions, states."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.breakwater.assembly import FloatingUnit
+from moyai.breakwater.frequency_analysis import FrequencyModel
+from moyai.breakwater.model import MODES
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.memory import ConvolutionMemory, Memory
+from moyai.floating.realisation import realise_memory
+from moyai.floating.time import CumminsModel
+from moyai.potential.damping_tail import TailTheory, wall_sided_tails
+from moyai.potential.memory import MemoryFunctions, memory_functions, steady_damping
+from moyai.potential.modes import rigid_modes
+from moyai.potential.sections import Section
+from moyai.potential.solver import solve
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+BAND_TOP = 16.0  # K d of the highest frequency: waves that reach a sixteenth of the draught down
+BAND_COUNT = 110
+KERNEL_LENGTH = 50.0  # length of the kernels over sqrt(B/g), by which they have died away to about 1e-4
+KERNEL_STEPS = 1200
+STATE_TOLERANCE = 1e-3
+
+
+@dataclass(frozen=True)
+class UnitMemory:
+    """Memory of the unit and the coefficients that it was made of.
+
+    Parameters
+    ----------
+    beam_sea : Hydrodynamics
+        Of the whole unit over the wide band, normal incidence.
+    functions : MemoryFunctions
+        Per unit.
+    memory : StateSpaceMemory or ConvolutionMemory
+        What the integrator takes.
+    checks : tuple of IdentityCheck
+    notices : tuple of Notice
+    """
+
+    beam_sea: Hydrodynamics
+    functions: MemoryFunctions
+    memory: Memory
+    checks: tuple[IdentityCheck, ...]
+    notices: tuple[Notice, ...]
+
+    def model(self, model: FrequencyModel, linear_damping: Array) -> CumminsModel:
+        """Return the unit in time without its nonlinear lines."""
+        return CumminsModel(
+            inertia=model.unit.inertia + self.functions.infinite_frequency_added_mass,
+            stiffness=model.unit.statics.stiffness,
+            linear_damping=linear_damping,
+            memory=self.memory,
+            quadratic=model.quadratic,
+        )
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The kernels and the band of coefficients, labelled."""
+        import xarray as xr
+
+        pair = ("influenced_dof", "radiating_dof")
+        functions = self.functions
+        return xr.Dataset(
+            {
+                "velocity_kernel": (("time", *pair), functions.velocity_kernel, {"units": "N/m", "long_name": "memory K(t) on velocity, of the unit"}),
+                "acceleration_kernel": (("time", *pair), functions.acceleration_kernel, {"units": "N s/m", "long_name": "memory lambda(t) on acceleration, of the unit"}),
+                "added_mass": (("omega", *pair), self.beam_sea.added_mass, {"units": "kg", "long_name": "added mass of the unit"}),
+                "radiation_damping": (("omega", *pair), self.beam_sea.radiation_damping, {"units": "kg/s", "long_name": "radiation damping of the unit"}),
+                "infinite_frequency_added_mass": (pair, functions.infinite_frequency_added_mass, {"units": "kg", "long_name": "added mass at infinite frequency, of the unit"}),
+                "steady_dashpot": (pair, functions.steady_dashpot, {"units": "kg/s", "long_name": "radiation damping at zero frequency, of the unit"}),
+            },
+            coords={
+                "time": ("time", functions.time, {"units": "s", "long_name": "time"}),
+                "omega": ("omega", self.beam_sea.omega, {"units": "rad/s", "long_name": "angular frequency"}),
+                "influenced_dof": list(MODES),
+                "radiating_dof": list(MODES),
+            },
+        )  # fmt: skip
+
+
+def band(unit: FloatingUnit) -> Array:
+    """Return the frequencies [rad/s] that the memory is made of: from long waves to a sixteenth of the draught."""
+    gravity, draught = unit.water.gravity, -unit.section.bottom
+    high = math.sqrt(gravity * BAND_TOP / draught)
+    share = np.linspace(0.0, 1.0, BAND_COUNT + 1)[1:]
+    # Denser towards long waves, where the damping of sway starts steeply
+    return np.asarray(high * share * (0.35 + 0.65 * share), dtype=float)
+
+
+def unit_memory(model: FrequencyModel, progress: Progress = silent, *, convolution: bool = False) -> UnitMemory:
+    """Compute the memory of a unit.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    progress : Progress
+    convolution : bool
+        Give the convolution instead of states (for comparison; its cost grows with the length of the memory).
+    """
+    unit = model.unit
+    breakwater = unit.breakwater
+    if model.hydro.solution is None:
+        beam, checks = _given_band(model), ()
+    else:
+        solution = solve(
+            unit.section,
+            unit.water,
+            band(unit),
+            modes=rigid_modes(unit.centre),
+            lid=breakwater.gap_damping_lid or None,
+            progress=progress,
+        )
+        beam = Hydrodynamics.from_dataset(solution.dataset).scaled_to(breakwater.length)
+        checks = tuple(solution.checks)
+    functions = _functions(unit, beam)
+    where = f"{unit.name}: memory, "
+    checks = tuple(replace(check, name=where + check.name) for check in (*checks, *functions.checks))
+    if convolution:
+        memory: Memory = ConvolutionMemory(functions.time, functions.velocity_kernel, np.zeros((3, 3))).truncated(
+            float(functions.time[-1]), functions.steady_dashpot
+        )
+        return UnitMemory(beam, functions, memory, checks, ())
+    realised = realise_memory(functions.time, functions.velocity_kernel, tolerance=STATE_TOLERANCE)
+    checks += tuple(replace(check, name=where + check.name) for check in realised.checks)
+    notices = (
+        Notice(
+            "memory-states",
+            f"{unit.name}: the memory of the water is carried by {realised.states} states, kernel within {realised.error:.1e} of "
+            "its start",
+            value=realised.error,
+            limit=STATE_TOLERANCE,
+            severity="information",
+        ),
+        *realised.notices,
+    )
+    return UnitMemory(beam, functions, realised.memory, checks, notices)
+
+
+def _given_band(model: FrequencyModel) -> Hydrodynamics:
+    """Return the band of a 3-D program's coefficients: all that it holds."""
+    return model.hydro.by_heading[0]
+
+
+def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> MemoryFunctions:
+    length = KERNEL_LENGTH * math.sqrt(unit.breakwater.hull.beam / unit.water.gravity)
+    infinite = beam.infinite_frequency_added_mass
+    if infinite is None:
+        infinite = beam.added_mass[-1]
+    planar = beam.has_far_field
+    finite = planar and math.isfinite(unit.water.depth)
+    return memory_functions(
+        beam.omega,
+        beam.radiation_damping,
+        infinite,
+        np.linspace(0.0, length, KERNEL_STEPS + 1),
+        start="even" if finite else "zero",
+        steady_damping=unit.breakwater.length * steady_damping(volume_rates(unit.section, unit.centre), unit.water) if finite else None,
+        tail_theory=_tails(unit) if planar else (),
+        added_mass=beam.added_mass,
+    )
+
+
+def volume_rates(section: Section, centre: tuple[float, float]) -> Array:
+    """Return the volume pushed out per metre by unit velocity of sway, heave and roll: water plane and its lever."""
+    breadth = section.waterplane_breadth
+    return np.array([0.0, breadth, -(section.waterplane_first_moment - breadth * centre[0])])
+
+
+def _tails(unit: FloatingUnit) -> tuple[TailTheory, ...]:
+    """Return the exact tails of a wall-sided section, of the whole unit (kept only where they meet the damping)."""
+    length = unit.breakwater.length
+    return tuple(
+        replace(tail, coefficients=tuple(length * item for item in tail.coefficients))
+        for tail in wall_sided_tails(unit.water, unit.centre[1])
+    )
