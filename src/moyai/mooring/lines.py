@@ -177,16 +177,17 @@ def _force_and_stiffness(
     # a line whose ends stand on one vertical has no direction; its sideways stiffness is the same all round
     direction = np.where(reach[:, None] > 0.0, span[:, :2] / safe[:, None], [1.0, 0.0])
     across = np.where(reach > 1e-12 * np.hypot(reach, span[:, 2]), h / safe, k[:, 0, 0])
-    force = -np.concatenate([h[:, None] * direction, v[:, None]], axis=1)
     c, s = direction[:, 0], direction[:, 1]
     out = np.empty((len(h), 3, 3))
-    out[:, 0, 0] = k[:, 0, 0] * c * c + across * s * s
-    out[:, 0, 1] = out[:, 1, 0] = (k[:, 0, 0] - across) * c * s
-    out[:, 1, 1] = k[:, 0, 0] * s * s + across * c * c
-    out[:, 0, 2], out[:, 1, 2] = k[:, 0, 1] * c, k[:, 0, 1] * s
-    out[:, 2, 0], out[:, 2, 1] = k[:, 1, 0] * c, k[:, 1, 0] * s
-    out[:, 2, 2] = k[:, 1, 1]
-    return count * force, count * out
+    with np.errstate(invalid="ignore"):  # an inextensible line that cannot reach gives inf and NaN, told by its regime
+        force = -np.concatenate([h[:, None] * direction, v[:, None]], axis=1)
+        out[:, 0, 0] = k[:, 0, 0] * c * c + across * s * s
+        out[:, 0, 1] = out[:, 1, 0] = (k[:, 0, 0] - across) * c * s
+        out[:, 1, 1] = k[:, 0, 0] * s * s + across * c * c
+        out[:, 0, 2], out[:, 1, 2] = k[:, 0, 1] * c, k[:, 0, 1] * s
+        out[:, 2, 0], out[:, 2, 1] = k[:, 1, 0] * c, k[:, 1, 0] * s
+        out[:, 2, 2] = k[:, 1, 1]
+        return count * force, count * out
 
 
 @dataclass(frozen=True)

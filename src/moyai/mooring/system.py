@@ -287,12 +287,12 @@ def newton_with_line_search(
             return position, float(np.max(np.abs(value), initial=0.0)), iteration
         matrix = jacobian(position)[np.ix_(free, free)] * weight[:, None]
         columns = np.linalg.norm(matrix, axis=0)
-        columns = np.where(columns > 0.0, columns, max(float(columns.max()), 1e-300))
-        scaled = matrix / columns
+        safe = np.where(columns > 0.0, columns, max(float(columns.max()), 1e-300))
+        scaled = matrix / safe
         accepted = False
-        for _ in range(40):
+        for _ in range(12 if float(columns.max()) > 0.0 else 0):
             system = np.vstack([scaled, np.sqrt(damping) * np.eye(len(free))])
-            step = np.linalg.lstsq(system, np.concatenate([-value, np.zeros(len(free))]), rcond=1e-14)[0] / columns
+            step = np.linalg.lstsq(system, np.concatenate([-value, np.zeros(len(free))]), rcond=1e-14)[0] / safe
             for shrink in (1.0, 0.5, 0.2, 0.05):
                 trial = position.copy()
                 trial[free] += shrink * step
@@ -305,7 +305,12 @@ def newton_with_line_search(
                 break
             damping = max(10.0 * damping, 1e-8)
         if not accepted:
-            break
+            held = _push_until_held(imbalance, position, free, weight, norm)
+            if held is None:
+                break
+            trial, trial_value = held
+            trial_norm = float(np.linalg.norm(trial_value))
+            damping = 0.0
         position, value, norm = trial, trial_value, trial_norm
         damping = 0.0 if damping < 1e-7 else 0.1 * damping
     worst = float(np.max(np.abs(value)))
@@ -316,6 +321,47 @@ def newton_with_line_search(
         path="load",
         remedy="check that the lines and hydrostatics can carry the load, or start nearer",
     )
+
+
+def _push_until_held(
+    imbalance: Callable[[FloatArray], FloatArray],
+    position: FloatArray,
+    free: list[int],
+    weight: FloatArray,
+    norm: float,
+) -> tuple[FloatArray, FloatArray] | None:
+    """Move the body with the imbalance, through slack lines that feel nothing, until something pulls back.
+
+    Returns a position of smaller imbalance and that imbalance (scaled), or None when nothing ever holds the body.
+    """
+    scaled = imbalance(position)[free] * weight
+    way = scaled * weight / float(np.max(weight))
+
+    def at(length: float) -> tuple[FloatArray, FloatArray]:
+        trial = position.copy()
+        trial[free] += length * way
+        return trial, imbalance(trial)[free] * weight
+
+    free_run, length = 0.0, 1e-3 / max(float(np.max(np.abs(way))), 1e-300)
+    for _ in range(60):
+        trial, value = at(length)
+        if float(np.linalg.norm(value)) < norm * (1.0 - 1e-9):
+            return trial, value
+        if float(value @ scaled) < 0.0:  # gone too far: something pulls back harder than the load
+            break
+        free_run, length = length, 1.5 * length
+    else:
+        return None
+    for _ in range(80):
+        middle = 0.5 * (free_run + length)
+        trial, value = at(middle)
+        if float(np.linalg.norm(value)) < norm * (1.0 - 1e-9):
+            return trial, value
+        if float(value @ scaled) < 0.0:
+            length = middle
+        else:
+            free_run = middle
+    return None
 
 
 def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> FloatArray:

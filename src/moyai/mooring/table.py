@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
 from moyai.mooring import planar_kernel as pk
@@ -21,6 +21,7 @@ from moyai.mooring.system import LineSystem
 
 _BINS = 512
 _MOST_XI, _MOST_Z = 600, 120
+_MOST_SEGMENTED = 200, 48
 _ROUNDS = 24
 
 
@@ -79,7 +80,7 @@ def _lift_off_distance(line: Line, depth: float, z: FloatArray) -> FloatArray | 
         return None
     low, high = np.zeros_like(z), np.full_like(z, 2.0 * line.length)
 
-    def lifted(x: FloatArray) -> FloatArray:
+    def lifted(x: FloatArray) -> NDArray[np.bool_]:
         out, _ = line.solve_plane(np.ascontiguousarray(x), z, depth)
         return out[:, 10] > 0.0
 
@@ -210,6 +211,7 @@ def tabulate_line(
     else:
         xi = np.linspace(*horizontal_range, 9)
     grid = _grid(line, water_depth, xi, z, aligned)
+    most_xi, most_z = (_MOST_XI, _MOST_Z) if line.is_uniform else _MOST_SEGMENTED
     for _ in range(_ROUNDS):
         xi_mid = 0.5 * (grid.xi[1:] + grid.xi[:-1])
         z_mid = 0.5 * (grid.z[1:] + grid.z[:-1])
@@ -225,7 +227,7 @@ def tabulate_line(
         split_xi = across[:, ::2].max(axis=1) > 0.4 * tolerance
         if not (split_z.any() or split_xi.any()):
             split_xi = across.max(axis=1) > 0.7 * tolerance
-        room_xi, room_z = len(grid.xi) < _MOST_XI, len(grid.z) < _MOST_Z
+        room_xi, room_z = len(grid.xi) < most_xi, len(grid.z) < most_z
         if not ((split_z.any() and room_z) or (split_xi.any() and room_xi)):
             break
         new_xi = np.sort(np.concatenate([grid.xi, xi_mid[split_xi]])) if room_xi else grid.xi
@@ -300,7 +302,8 @@ def compile_lines(
     motion_range : three pairs, optional
         Lowest and highest sway [m], heave [m], roll [rad] for which tables are made; beyond it the exact solver serves.
     tolerance : float, optional
-        Wanted accuracy of the tables over the tension. Without range and tolerance every line is solved exactly.
+        Wanted accuracy of the tables over the tension. Without range and tolerance every line is solved exactly, and so
+        is a line whose table misses the tolerance twofold (a clump that lifts off the bed).
 
     Raises
     ------
@@ -335,6 +338,8 @@ def compile_lines(
         if motion_range is not None and tolerance is not None:
             window = _window(line, motion_range, system.water_depth)
             table = tabulate_line(line, system.water_depth, *window, tolerance)
+            if table.measured_error > 2.0 * tolerance:
+                continue  # a clump that lifts off bends the force sharply: no smooth table follows that
             tables[-1] = table
             index[i, : pk.ROWS] = table.index
             index[i, pk.TABLE] = sum(map(len, nodes))
