@@ -248,7 +248,10 @@ def drift(level: Level) -> Figure | None:
     """Mean drift force over frequency."""
     group = level.group.child("rao")
     axes, values = wave_axes(level, group, "omega")
-    coefficient, force = group.real("drift_coefficient", "omega"), group.real("mean_drift_force", "omega")
+    coefficient = group.real("drift_coefficient", "omega")
+    names = ("mean_drift_force_per_amplitude_squared", "mean_drift_force")
+    name = next((entry for entry in names if group.real(entry, "omega") is not None), names[0])
+    force = group.real(name, "omega")
     if not axes or (coefficient is None and force is None):
         return None
     panels, series = [], []
@@ -257,18 +260,18 @@ def drift(level: Level) -> Figure | None:
         panels.append(Panel("drift coefficient F*", "", from_zero=True))
         series.append(Series("drift coefficient F*", x, y, 0, 0))
     if force is not None:
-        unit = group.unit("mean_drift_force", "N/m2")
+        unit = group.unit(name, "N/m2")
         factor, shown = common_scale(unit, force)
         x, y = within(values, force * factor)
-        panels.append(Panel("mean drift force", shown, from_zero=True))
-        series.append(Series("mean drift force", x, y, len(panels) - 1, 1))
+        panels.append(Panel("force per amplitude²", shown, from_zero=True))
+        series.append(Series("force per amplitude²", x, y, len(panels) - 1, 1))
     return Figure(
         key(level, "drift"),
         "Mean drift force",
         axes,
         tuple(panels),
         tuple(series),
-        "F* = K_R² + loss/2, the mean force over ρg(H/2)²·C_g/C.",
+        "F* = K_R² + loss/2, the mean force over ρg(H/2)²·C_g/C; force on the whole unit per squared wave amplitude.",
         window=window_of_interest(level, values),
         height=120 + 150 * len(panels),
     )

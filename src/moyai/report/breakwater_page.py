@@ -15,6 +15,7 @@ from moyai.report.breakwater_reading import (
     Sea,
     SeaNumbers,
     all_numbers,
+    attribute_number,
     decisive,
     governing_tension,
     water_levels,
@@ -272,9 +273,12 @@ def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Call
 
 
 def _run_words(record: Record) -> str:
-    name = record.run.name.replace("_", " ")
-    status = str(record.run.attributes.get("status", "converged"))
-    return name if status in {"converged", ""} else f"{name} ({status.replace('_', ' ')})"
+    period, attributes = attribute_number(record.run, "period"), record.run.attributes
+    words = f"T = {period:.4g} s" if period > 0.0 else record.run.name.replace("_", " ")
+    if "seed" in attributes and "seed" not in words:
+        words += f", seed {attributes['seed']}"
+    status = str(attributes.get("status", "converged"))
+    return words if status in {"converged", ""} else f"{words} ({status.replace('_', ' ')})"
 
 
 def _sensitivity(level: Level) -> Sequence[Block | None]:

@@ -74,6 +74,11 @@ class Sea:
         return tuple(run for run in self.time.children() if run.real("position", "time", "dof") is not None)
 
 
+def attribute_number(group: Group, name: str) -> float:
+    """Return a number among the attributes of a group, NaN where it is absent or no number."""
+    return _number(group.attributes.get(name))
+
+
 def _number(value: object) -> float:
     try:
         return float(value)  # type: ignore[arg-type]
@@ -221,6 +226,10 @@ def _largest_tension(level: Level, sea: Sea, domain: str, periods: Array | None)
 def _largest_offset(sea: Sea, group: Group, domain: str) -> float:
     """Return the largest sway from rest: that of the records in time, mean + amplitude in the frequency domain."""
     if domain == "time":
+        for name in ("maximum_excursion", *(("maximum_motion",) if sea.regular else ())):
+            largest = _largest(group, (name,), dof="sway")
+            if math.isfinite(largest):
+                return largest
         found = [run.real("position", "time", dof="sway") for run in sea.runs()]
         extremes = [float(np.nanmax(np.abs(record))) for record in found if record is not None and record.size]
         if extremes:

@@ -18,7 +18,7 @@ from moyai.report.animation import (
     side_view,
 )
 from moyai.report.breakwater_figures import key
-from moyai.report.breakwater_reading import MODES, Level, Sea
+from moyai.report.breakwater_reading import MODES, Level, Sea, attribute_number
 from moyai.report.decimate import focus_indices, mean_crossing_period, window_around
 from moyai.report.document import Abscissa, Animation, Block, Column, Figure, Mark, Panel, Series, Table
 from moyai.report.drawing import snapshot, with_colours
@@ -49,6 +49,8 @@ class Record:
         Incident wave at x = 0 [m].
     period : float
         Wave period of the run or mean crossing period [s].
+    begin : int
+        First sample that counts in statistics.
     at : int
         Sample of the governing maximum.
     governing_line : int
@@ -62,6 +64,7 @@ class Record:
     lines: tuple[str, ...]
     elevation: Array | None
     period: float
+    begin: int
     at: int
     governing_line: int
 
@@ -83,21 +86,31 @@ def read_record(level: Level, run: Group) -> Record | None:
         return None
     time, pose, tension = time[good], pose[good], tension[good]
     elevation = None if elevation is None else elevation[good]
-    try:
-        period = float(run.attributes.get("period", math.nan))
-    except (TypeError, ValueError):
-        period = math.nan
+    period = attribute_number(run, "period")
     if not period > 0.0:
         period = mean_crossing_period(time, pose[:, 0] if elevation is None else elevation)
-    line, at = -1, int(np.argmax(np.abs(pose[:, 0])))
-    if tension.shape[1] and np.isfinite(tension).any():
-        statics = level.group.child("statics")
-        loads = statics.real("breaking_load", "line")
-        peaks = np.nanmax(np.where(np.isfinite(tension), tension, -np.inf), axis=0)
+    begin = _analysis_begin(run, time, period)
+    line, at = -1, begin + int(np.argmax(np.abs(pose[begin:, 0])))
+    settled = tension[begin:]
+    if settled.shape[1] and np.isfinite(settled).any():
+        loads = level.group.child("statics").real("breaking_load", "line")
+        peaks = np.max(np.where(np.isfinite(settled), settled, -np.inf), axis=0)
         ranked = peaks / loads if loads is not None and loads.size == peaks.size and np.isfinite(loads).all() else peaks
         line = int(np.argmax(ranked))
-        at = int(np.nanargmax(tension[:, line]))
-    return Record(run, time, pose, tension, run.labels("line"), elevation, period, at, line)
+        at = begin + int(np.nanargmax(settled[:, line]))
+    return Record(run, time, pose, tension, run.labels("line"), elevation, period, begin, at, line)
+
+
+def _analysis_begin(run: Group, time: Array, period: float) -> int:
+    """Return the first sample that counts: as the run tells it, else the last ten periods or what follows the ramp."""
+    begin = attribute_number(run, "analysis_start")
+    if not math.isfinite(begin):
+        begin = attribute_number(run, "ramp")
+        if attribute_number(run, "period") > 0.0:
+            begin = max(begin if math.isfinite(begin) else -math.inf, float(time[-1]) - 10.0 * period)
+    if not begin < time[-1]:  # an interrupted run may end within its ramp
+        return 0
+    return int(np.searchsorted(time, begin))
 
 
 def window_of(record: Record) -> tuple[float, float]:
@@ -179,12 +192,8 @@ def time_series(level: Level, sea: Sea, record: Record, bins: int) -> Figure:
 
 
 def statistics(level: Level, sea: Sea, record: Record) -> Table:
-    """Return mean, deviation and extremes of each channel, after the ramp where the run tells its length."""
-    try:
-        begin = float(record.run.attributes.get("analysis_start", record.run.attributes.get("ramp", math.nan)))
-    except (TypeError, ValueError):
-        begin = math.nan
-    from_here = record.time >= begin if begin < record.time[-1] else np.ones(record.time.size, dtype=bool)
+    """Return mean, deviation and extremes of each channel, without the start of the run."""
+    from_here = slice(record.begin, None)
     time = record.time[from_here]
     channels: list[tuple[str, str, Array]] = []
     if record.elevation is not None:

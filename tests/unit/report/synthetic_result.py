@@ -138,7 +138,7 @@ def rao(depth: float) -> xr.Dataset:
             "transmission_coefficient": variable(("omega",), transmission, "1", "transmission"),
             "dissipation": variable(("omega",), loss, "1", "dissipation"),
             "drift_coefficient": variable(("omega",), np.abs(reflection) ** 2 + loss / 2, "1", "drift coefficient"),
-            "mean_drift_force": variable(("omega",), 5e3 * np.abs(reflection) ** 2, "N/m2", "mean drift force"),
+            "mean_drift_force_per_amplitude_squared": variable(("omega",), 5e3 * np.abs(reflection) ** 2, "N/m2", "mean drift force"),
             "transmission_macagno": variable(("omega",), 1 / np.sqrt(1 + (3 * k) ** 2), "1", "Macagno"),
             "transmission_wiegel": variable(("omega",), np.exp(-3.0 * k), "1", "Wiegel"),
         },
