@@ -1,0 +1,157 @@
+"""How radiation damping falls at high frequency, decided coefficient by coefficient and reported."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.potential.oscillatory import power_tail
+from moyai.sea.water import Water
+
+FloatArray = NDArray[np.float64]
+TailKind = Literal["zero", "negligible", "theory", "series", "power"]
+
+#: Share of the largest damping below which a coefficient at the last frequency needs no tail
+_NEGLIGIBLE = 1e-7
+#: Share of the given damping within which a theoretical tail or a fitted series has to lie
+_TRUST = 0.05
+_STEEPEST = 24.0
+
+
+@dataclass(frozen=True)
+class Tail:
+    """Damping beyond the last frequency: sum of coefficient (start/omega)^exponent, [eq:memory-tail-series].
+
+    Parameters
+    ----------
+    kind : {"zero", "negligible", "theory", "series", "power"}
+        ``theory``: the exact leading terms with two matched corrections; ``series``: omega^-3 and omega^-5 matched;
+        ``power``: one fitted exponent; ``negligible``: one steep power of no consequence; ``zero``: no damping at all.
+    start : float
+        Last frequency given [rad/s].
+    exponents, coefficients : tuple of float
+        Terms; coefficients are those at ``start``.
+    reason : str
+        Why this kind was taken.
+    """
+
+    kind: TailKind
+    start: float
+    exponents: tuple[float, ...]
+    coefficients: tuple[float, ...]
+    reason: str
+
+    def damping(self, omega: ArrayLike) -> FloatArray:
+        """Return the damping at frequencies beyond ``start``."""
+        ratio = self.start / np.asarray(omega, dtype=float)
+        out = np.zeros(ratio.shape)
+        for exponent, coefficient in zip(self.exponents, self.coefficients, strict=True):
+            out += coefficient * ratio**exponent
+        return out
+
+    def cosine(self, time: FloatArray) -> FloatArray:
+        """Return the integral of damping times cos(omega t) beyond ``start``."""
+        out = np.zeros(len(time))
+        for exponent, coefficient in zip(self.exponents, self.coefficients, strict=True):
+            out += coefficient * self.start * power_tail(exponent, self.start * time).real
+        return out
+
+    def sine_over_frequency(self, time: FloatArray) -> FloatArray:
+        """Return the integral of damping times sin(omega t)/omega beyond ``start``."""
+        out = np.zeros(len(time))
+        for exponent, coefficient in zip(self.exponents, self.coefficients, strict=True):
+            out += coefficient * power_tail(exponent + 1.0, self.start * time).imag
+        return out
+
+
+@dataclass(frozen=True)
+class TailTheory:
+    """Leading high-frequency terms that are known exactly, for matrix entry (i, j): coefficient omega^-exponent."""
+
+    entry: tuple[int, int]
+    exponents: tuple[float, ...]
+    coefficients: tuple[float, ...]
+
+
+def wall_sided_tails(water: Water, centre_height: float) -> tuple[TailTheory, ...]:
+    """Return the exact leading damping of sway and roll of a section with two vertical walls at the waterline.
+
+    A short wave is reflected by the wall as by a cliff, its pressure doubled; with the Haskind relation the damping of
+    sway, sway-roll and roll follows, [eq:memory-wall-tail]. It holds where the waves are short against the height of
+    the vertical part of the walls. Sway of a thin plate obeys the same law.
+
+    Parameters
+    ----------
+    water : Water
+        Density and gravity (the depth does not matter for short waves).
+    centre_height : float
+        z of the centre of roll [m], negative below still water.
+
+    Returns
+    -------
+    tuple of TailTheory
+        For modes in the order sway, heave, roll, per metre.
+    """
+    rho, g, z = water.density, water.gravity, centre_height
+    # Moment of exp(K z)(z - centre) over the wall: -(centre/K + 1/K^2)
+    sway = TailTheory((0, 0), (3.0,), (4.0 * rho * g**2,))
+    cross = (3.0, 5.0), (-4.0 * rho * g**2 * z, -4.0 * rho * g**3)
+    roll = (3.0, 5.0, 7.0), (4.0 * rho * g**2 * z**2, 8.0 * rho * g**3 * z, 4.0 * rho * g**4)
+    return sway, TailTheory((0, 2), *cross), TailTheory((2, 0), *cross), TailTheory((2, 2), *roll)
+
+
+def choose_tail(
+    omega: FloatArray, damping: FloatArray, slope: float, largest: float, theory: TailTheory | None
+) -> Tail:
+    """Decide the tail of one coefficient.
+
+    Parameters
+    ----------
+    omega, damping : ndarray (n,)
+        The coefficient at the given frequencies.
+    slope : float
+        Its derivative at the last frequency.
+    largest : float
+        Largest damping of the pair of modes, the measure of what is negligible.
+    theory : TailTheory, optional
+        Exact leading terms; taken when they agree with the last values.
+    """
+    start, value = float(omega[-1]), float(damping[-1])
+    if not np.any(damping) or largest == 0.0:
+        return Tail("zero", start, (), (), "the damping vanishes at every frequency")
+    upper = omega >= 0.85 * start
+    if theory is not None:
+        parts = np.array([c * omega**-e for e, c in zip(theory.exponents, theory.coefficients, strict=True)])
+        # The terms of roll nearly cancel at some frequency: the sum of their magnitudes is the fair measure
+        error = float(np.max(np.abs(parts.sum(axis=0) - damping)[upper]) / np.max(np.abs(parts).sum(axis=0)[upper]))
+        if error < _TRUST:
+            terms = [c * start**-e for e, c in zip(theory.exponents, theory.coefficients, strict=True)]
+            next_exponent = max(theory.exponents) + 4.0
+            rest = value - sum(terms)
+            rest_slope = slope * start + sum(e * c for e, c in zip(theory.exponents, terms, strict=True))
+            pair = _matched_pair(rest, rest_slope, next_exponent)
+            reason = f"exact leading terms, within {error:.1e} of the last values"
+            exponents = (*theory.exponents, next_exponent, next_exponent + 2.0)
+            return Tail("theory", start, exponents, (*terms, *pair), reason)
+    if abs(value) < _NEGLIGIBLE * largest:
+        return Tail("negligible", start, (8.0,), (value,), f"{abs(value) / largest:.1e} of the largest at the end")
+    pair = _matched_pair(value, slope * start, 3.0)
+    guess = pair[0] * (start / omega) ** 3 + pair[1] * (start / omega) ** 5
+    error = float(np.max(np.abs(guess - damping)[upper]) / np.max(np.abs(damping[upper])))
+    if error < _TRUST:
+        return Tail("series", start, (3.0, 5.0), pair, f"omega^-3, omega^-5 match the last values to {error:.1e}")
+    local = -slope * start / value if value else 0.0
+    if local < 3.0:
+        reason = f"no law fits (slope omega^{-local:.1f}): omega^-3, omega^-5 matched in value and slope"
+        return Tail("series", start, (3.0, 5.0), pair, reason)
+    exponent = min(local, _STEEPEST)
+    return Tail("power", start, (exponent,), (value,), f"slope of the last values: omega^-{local:.1f}")
+
+
+def _matched_pair(value: float, slope: float, exponent: float) -> tuple[float, float]:
+    """Coefficients of u^-p and u^-(p + 2) at u = 1 that give a value and a slope."""
+    second = -(slope + exponent * value) / 2.0
+    return value - second, second
