@@ -102,13 +102,18 @@ class Translator:
                 self._unknown_key(path)
         meant = {(*path[:-1], name) for path, name in self.renamed.items()}
         for item, path in zip(items, paths):
-            if item["type"] == "missing" and path in meant:
+            if (item["type"] == "missing" and path in meant) or self._explained(item, path):
                 continue
             if item["type"] != "extra_forbidden":
                 self.faults.append(self._fault(item, path))
                 self._note_repair(item["type"], path)
         self._faults_between_keys(meant)
         return sorted(dict.fromkeys(self.faults), key=lambda fault: (fault.line, fault.column))
+
+    def _explained(self, item: Mapping[str, Any], path: KeyPath) -> bool:
+        """Whether a list counts as too short only because faulty entries, reported apart, were left out."""
+        value = value_at(self.document.data, path)
+        return item["type"] == "too_short" and len(value or ()) >= item["ctx"]["min_length"]
 
     def _faults_between_keys(self, meant: set[KeyPath]) -> None:
         places = {id(block): path for path, block in _blocks(self.document.data, ())}
@@ -143,7 +148,7 @@ class Translator:
                 remedy = f"'{key}' belongs under '{elsewhere[0]}'"
             else:
                 remedy = ""
-        listed = ", ".join(allowed) if len(allowed) <= 14 and not found else ""
+        listed = ", ".join(allowed) if len(allowed) <= 25 and not found else ""
         self.faults.append(
             self.document.fault(path, f"unknown key '{key}'", allowed=listed, remedy=remedy, of_key=True)
         )
@@ -154,7 +159,8 @@ class Translator:
         model = self.notes.models.get(id(block))
         name = path[-1] if path else None
         field = next((f for key, f in model.model_fields.items() if name in (key, f.alias)), None) if model else None
-        if kind == "missing" or field is None or field.is_required():
+        grouped = model is not None and any(name in group for group in (*model.exactly_one, *model.at_least_one))
+        if kind == "missing" or field is None or field.is_required() or grouped:
             self.mendable = False
         else:
             self.dropped.append(path)
@@ -192,7 +198,8 @@ class Translator:
         if kind == "union_tag_not_found":
             key = context["discriminator"].strip("'")
             if isinstance(value, dict):
-                return fault((*path, key), f"the key '{key}' is missing", of_key=True)
+                options = ", ".join(self._choices(path, key))
+                return fault((*path, key), f"the key '{key}' is missing", allowed=options, of_key=True)
             return fault(path, f"expected a block of keys; got {_shown(value)}")
         if kind == "literal_error":
             choices = [choice.strip(" '") for choice in context["expected"].replace(" or ", ",").split(",")]
@@ -220,6 +227,23 @@ class Translator:
         message = f"the {what} is empty" if not count else f"the {what} has {count} entries"
         bound = "at least" if kind == "too_short" else "at most"
         return self.document.fault(path, message, allowed=f"{bound} {limit} entr{'y' if limit == 1 else 'ies'}")
+
+    def _choices(self, path: KeyPath, key: str) -> list[str]:
+        """Return what ``key`` may be in the block at ``path``, whose form it chooses."""
+        names = [name for name in path if isinstance(name, str)]
+        parent = (
+            self.notes.models.get(id(value_at(self.document.data, path[: path.index(names[-1])]))) if names else None
+        )
+        field = (
+            next((f for name, f in parent.model_fields.items() if names[-1] in (name, f.alias)), None)
+            if parent
+            else None
+        )
+        found: list[str] = []
+        for model in _models_in(field.annotation) if field else ():
+            if key in model.model_fields:
+                found.extend(str(choice) for choice in typing.get_args(model.model_fields[key].annotation))
+        return found
 
     def _missing(self, path: KeyPath) -> Fault:
         name = path[-1]

@@ -11,7 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from moyai.case.faults import Translator, did_you_mean
+from moyai.case.faults import Translator, did_you_mean, nearest
 from moyai.case.schema import STRUCTURE_KINDS, root_schema
 from moyai.case.schema_types import Block, Notes
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
@@ -92,7 +92,7 @@ def case_of(document: Document, path: Path) -> Case:
     root = _choose_root(document, empty)
     model, faults, mended = _validate(document, root)
     faults = [*empty, *(fault for fault in faults if fault.path not in {known.path for known in empty})]
-    if model is None and mended is None:
+    if empty or (model is None and mended is None):
         raise CaseError(_in_order(faults))
     found = check(model if model is not None else mended, document, path.parent)
     faults.extend(found.faults)
@@ -124,9 +124,13 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
     known = ", ".join(STRUCTURE_KINDS)
     structure = data.get("structure")
     if "structure" not in data:
-        written = ", ".join(list(map(str, data))[:8])
-        remedy = did_you_mean("structure", data) or f"the file has the keys {written}"
-        found = document.fault((), "the key 'structure' is missing", remedy=remedy)
+        near = nearest("structure", data)
+        if near:
+            path: KeyPath = (near,)
+            found = document.fault(path, f"unknown key '{near}'", remedy="did you mean 'structure'?", of_key=True)
+        else:
+            written = ", ".join(list(data)[:8])
+            found = document.fault((), "the key 'structure' is missing", remedy=f"the file has the keys {written}")
     elif not isinstance(structure, dict):
         found = document.fault(("structure",), "expected a block of keys with 'kind'", allowed=known)
     elif "kind" not in structure:

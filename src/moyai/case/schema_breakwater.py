@@ -132,7 +132,7 @@ class BreakwaterStructure(Block):
     length: PositiveLength = Field(description="Length of the unit along its crest.")
     section: Section = Field(description="Shape of the section.")
     draught: PositiveLength | None = Field(
-        default=None, description="Draught at datum; with 'mass' as well the imbalance is reported."
+        default=None, description="Draught at the first water level; with 'mass' as well the imbalance is reported."
     )
     mass: Mass | None = Field(default=None, description="Mass of the unit without its lines.")
     centre_of_gravity_above_keel: Length = Field(description="Height of the centre of gravity above the keel.")

@@ -250,7 +250,8 @@ class Block(BaseModel):
                 names = " and ".join(f"'{key}'" for key in both)
                 faults.append((both[1], f"{names} exclude each other", f"keep one: {_either(group)}"))
         for group in (*cls.exactly_one, *cls.at_least_one):
-            if not any(key in given for key in group):
+            # A key without value is reported as such
+            if not any(key in data for key in group):
                 faults.append(("", f"{_either(group)} is missing", "give one of them"))
         return faults
 

@@ -1,0 +1,70 @@
+"""The numbers that follow from a case before anything is run: shown by ``moyai check``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from moyai.core.units import parse_unit
+
+if TYPE_CHECKING:
+    from moyai.case.reader import Case
+
+_DERIVED = {"breakwater": "moyai.case.derived_breakwater"}
+
+
+@dataclass(frozen=True)
+class Number:
+    """One derived number.
+
+    Parameters
+    ----------
+    group : str
+        What it belongs to: the unit, its lines, a sea state.
+    column : str
+        Water level that it holds at.
+    label : str
+    value : float
+        SI.
+    unit : str
+        Unit that it is shown in.
+    digits : int
+        Significant digits shown.
+    """
+
+    group: str
+    column: str
+    label: str
+    value: float
+    unit: str = ""
+    digits: int = 4
+
+    @property
+    def text(self) -> str:
+        """The value in its unit, as shown."""
+        shown = parse_unit(self.unit).from_si(self.value) if self.unit else self.value
+        text = f"{shown:.{self.digits}g}"
+        return f"{float(text):.0f}" if "e+" in text and abs(float(text)) < 1e7 else text
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return a JSON-ready record with the SI value."""
+        return {
+            "group": self.group,
+            "water_level": self.column,
+            "label": self.label,
+            "value_si": self.value,
+            "shown": f"{self.text} {self.unit}".strip(),
+        }
+
+
+def derived_numbers(case: Case) -> tuple[Number, ...]:
+    """Return the numbers that follow from a case.
+
+    Parameters
+    ----------
+    case : Case
+        From :func:`moyai.case.reader.load_case`.
+    """
+    numbers: tuple[Number, ...] = import_module(_DERIVED[case.kind]).derived_numbers(case)
+    return numbers

@@ -1,0 +1,148 @@
+"""What the commands share: streams that never fail on a character, JSON, faults, exit codes, progress bars."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import typer
+
+from moyai.core.errors import CaseError, ConvergenceError, Fault, InputError
+from moyai.core.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+OK, FAILED, BAD_INPUT = 0, 1, 2
+"""Exit codes: all well; it ran and something failed or did not converge; the input is bad."""
+
+
+class Debug:
+    """Whether faults of the program itself show their traceback (``--debug``)."""
+
+    on = False
+
+
+def prepare_streams() -> None:
+    """Let the streams replace what the console's encoding cannot show, instead of failing."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def print_json(content: Any) -> None:
+    """Print one JSON value on standard output; plain ASCII, and ``null`` where a number is not finite."""
+    sys.stdout.write(json.dumps(_finite(content), indent=2, allow_nan=False) + "\n")
+    sys.stdout.flush()
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, (str, int, bool)) or value is None:
+        return value
+    return str(value)
+
+
+def say(text: str = "") -> None:
+    """Print a line on standard output."""
+    sys.stdout.write(text + "\n")
+
+
+def tell(text: str) -> None:
+    """Print a line on standard error."""
+    sys.stderr.write(text + "\n")
+    sys.stderr.flush()
+
+
+def rich_console(*, to_error: bool = False) -> Console:
+    """Return a rich console that keeps to plain text where the output is not a terminal."""
+    from rich.console import Console
+
+    stream = sys.stderr if to_error else sys.stdout
+    width = None if stream.isatty() else 110
+    return Console(file=stream, highlight=False, width=width, safe_box=True)
+
+
+def fault_records(faults: Iterable[Fault]) -> list[dict[str, Any]]:
+    """Return faults as JSON-ready records."""
+    return [asdict(fault) for fault in faults]
+
+
+def stop(faults: Iterable[Fault], code: int, *, as_json: bool) -> NoReturn:
+    """Print faults where they belong and leave with ``code``."""
+    listed = list(faults)
+    if as_json:
+        print_json({"faults": fault_records(listed)})
+    else:
+        for fault in listed:
+            tell(str(fault))
+        if code == BAD_INPUT and len(listed) > 1:
+            tell(f"{len(listed)} faults")
+    raise typer.Exit(code)
+
+
+@contextmanager
+def guard(as_json: bool = False) -> Iterator[None]:
+    """Turn everything that can go wrong in a command into one clear message and an exit code."""
+    try:
+        yield
+    except CaseError as error:
+        stop(error.faults, BAD_INPUT, as_json=as_json)
+    except InputError as error:
+        stop([error.fault], BAD_INPUT, as_json=as_json)
+    except ConvergenceError as error:
+        stop([error.fault], FAILED, as_json=as_json)
+    except KeyboardInterrupt:
+        stop([Fault("interrupted before there was a result")], FAILED, as_json=as_json)
+    except BrokenPipeError:
+        # The reader of a pipe has left; keep Python from complaining when it flushes at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise typer.Exit(FAILED) from None
+    except (typer.Exit, typer.Abort):
+        raise
+    except Exception as error:
+        if Debug.on:
+            raise
+        message = f"internal error, {type(error).__name__}: {error}"
+        remedy = "this is a fault of moyai; run again with --debug and report what it prints"
+        stop([Fault(message, remedy=remedy)], FAILED, as_json=as_json)
+
+
+@contextmanager
+def progress_bars(quiet: bool) -> Iterator[Progress]:
+    """Give a listener that draws a bar with the time left for every work, on standard error.
+
+    Nothing is drawn when standard error is not a terminal.
+    """
+    if quiet or not sys.stderr.isatty():
+        yield silent
+        return
+    from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bars
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeRemainingColumn(),
+    )
+    with Bars(*columns, console=rich_console(to_error=True), transient=True) as bars:
+        tasks: dict[str, TaskID] = {}
+
+        def listen(what: str, done: float, total: float) -> None:
+            if what not in tasks:
+                tasks[what] = bars.add_task(what, total=total)
+            bars.update(tasks[what], completed=done, total=total, visible=done < total)
+
+        yield listen

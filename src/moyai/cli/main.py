@@ -1,0 +1,250 @@
+"""The ``moyai`` command. Thin: it reads arguments, calls one function, prints.
+
+Imports of the numerical packages stand inside the commands, so that ``moyai --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from moyai.cli.console import (
+    BAD_INPUT,
+    FAILED,
+    OK,
+    Debug,
+    fault_records,
+    guard,
+    prepare_streams,
+    print_json,
+    progress_bars,
+    rich_console,
+    say,
+    tell,
+)
+
+app = typer.Typer(
+    name="moyai",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="How moored floating and flexible coastal structures answer waves and currents.",
+)
+
+CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from moyai import __version__
+
+        say(f"moyai {__version__}")
+        raise typer.Exit(OK)
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an internal error.")] = False,
+) -> None:
+    Debug.on = Debug.on or debug
+
+
+@app.command()
+def new(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of structure: breakwater.", show_default=False)],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Print a commented case file to start from."""
+    with guard(as_json):
+        from moyai.case.templates import template
+
+        text = template(kind)
+        if output is not None:
+            _write_text(output, text, force)
+        if as_json:
+            print_json({"kind": kind, "file": None if output is None else str(output), "text": text})
+        elif output is None:
+            say(text.rstrip("\n"))
+        else:
+            tell(f"wrote {output}; next: moyai check {output}")
+
+
+@app.command()
+def check(file: CaseFile, as_json: AsJson = False) -> None:
+    """Report all faults of a case file at once, and the numbers that follow from it."""
+    with guard(as_json):
+        from moyai.case.derived import derived_numbers
+        from moyai.case.reader import load_case
+
+        case = load_case(file)
+        numbers = derived_numbers(case)
+        if as_json:
+            record = {
+                "valid": True,
+                "file": str(file),
+                "title": case.title,
+                "structure": case.kind,
+                "case_hash": case.case_hash,
+                "faults": [],
+                "warnings": fault_records(case.warnings),
+                "derived": [number.as_dict() for number in numbers],
+            }
+            print_json(record)
+            return
+        from moyai.cli.tables import print_derived
+
+        for warning in case.warnings:
+            tell(f"warning: {warning}")
+        print_derived(rich_console(), case.title, numbers)
+        count = len(case.warnings)
+        say(f"{file}: no faults" + (f", {count} warning{'s' if count > 1 else ''}" if count else ""))
+
+
+@app.command()
+def schema(
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Print the JSON Schema of case files, for completion and checks in an editor."""
+    with guard(as_json):
+        import json
+
+        from moyai.case.schema import json_schema
+
+        text = json.dumps(json_schema(), indent=2)
+        if output is None:
+            say(text)
+        else:
+            _write_text(output, text + "\n", force=True)
+            tell(f"wrote {output}")
+
+
+@app.command()
+def run(
+    file: CaseFile,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
+    ] = None,
+    as_json: AsJson = False,
+    report: Annotated[bool, typer.Option(help="Write the report and its tables beside results.nc.")] = True,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Run a case: results.nc, report.html and tables as CSV."""
+    with guard(as_json):
+        from moyai.case.reader import load_case
+        from moyai.cli.runner import prepare_output
+        from moyai.cli.runner import run as run_case
+
+        # Whoever ends the program politely gets the partial result as with Ctrl-C
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+        started = time.perf_counter()
+        case = load_case(file)
+        folder = prepare_output(output if output is not None else Path("out") / file.stem)
+        if not as_json and not quiet:
+            for warning in case.warnings:
+                tell(f"warning: {warning}")
+        with progress_bars(quiet) as progress:
+            result = run_case(case, progress)
+        files = [result.write(folder / "results.nc")]
+        if report:
+            from moyai.report.writer import write_report
+
+            with progress_bars(quiet) as progress:
+                progress("report", 0, 1)
+                files += write_report(result, folder, pdf=pdf)
+        seconds = time.perf_counter() - started
+        from moyai.cli.tables import key_figures, print_summary
+
+        if as_json:
+            print_json(_run_record(case, result, files, seconds, key_figures(result)))
+        elif not quiet:
+            print_summary(rich_console(), result, files, seconds)
+        elif result.status != "converged":
+            tell(f"{result.status}: {result.message}")
+        failed = any(not identity.passed for identity in result.checks)
+        raise typer.Exit(OK if result.status == "converged" and not failed else FAILED)
+
+
+def _run_record(case: Any, result: Any, files: list[Path], seconds: float, figures: list[Any]) -> dict[str, Any]:
+    return {
+        "status": result.status,
+        "message": result.message,
+        "title": case.title,
+        "structure": case.kind,
+        "case_hash": case.case_hash,
+        "files": [str(path) for path in files],
+        "seconds": round(seconds, 3),
+        "key_figures": [{"label": item.label, "text": item.text, "detail": item.detail} for item in figures],
+        "checks": [identity.as_dict() for identity in result.checks],
+        "notices": [notice.as_dict() for notice in result.notices],
+        "faults": [],
+    }
+
+
+@app.command()
+def validate(
+    as_json: AsJson = False,
+    only: Annotated[
+        list[str] | None, typer.Option("--only", metavar="TOPIC", help="Topic to validate; may be repeated.")
+    ] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Compute every published or exact case again: value, reference, error, tolerance."""
+    with guard(as_json):
+        from moyai.cli.validation import choose, compute
+
+        with progress_bars(quiet) as progress:
+            outcomes = compute(choose(only or ()), progress)
+        passed = all(outcome.passed for outcome in outcomes)
+        if as_json:
+            print_json({"cases": [outcome.as_dict() for outcome in outcomes]})
+        else:
+            from moyai.cli.tables import print_outcomes
+
+            print_outcomes(rich_console(), outcomes, quiet=quiet)
+        raise typer.Exit(OK if passed else FAILED)
+
+
+def _write_text(path: Path, text: str, force: bool) -> None:
+    from moyai.cli.files import write_text
+
+    write_text(path, text, replace=force)
+
+
+def main() -> None:
+    """Entry point of the ``moyai`` command."""
+    prepare_streams()
+    arguments = sys.argv[1:]
+    if "--debug" in arguments:
+        # Accepted at any place, since it is wanted after the fact
+        Debug.on = True
+        arguments = [argument for argument in arguments if argument != "--debug"]
+    try:
+        app(args=arguments, prog_name="moyai")
+    except KeyboardInterrupt:
+        tell("interrupted")
+        sys.exit(FAILED)
+
+
+__all__ = ["BAD_INPUT", "app", "main"]
+
+if __name__ == "__main__":
+    main()

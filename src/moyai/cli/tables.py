@@ -1,0 +1,121 @@
+"""What the commands print for people: derived numbers, the summary of a run, validation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from moyai.case.derived import Number
+    from moyai.cli.validation import Outcome
+    from moyai.core.results import Result
+
+
+def _table(*columns: tuple[str, str]) -> Table:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE, pad_edge=False)
+    for title, justify in columns:
+        table.add_column(title, justify=justify, overflow="fold")  # type: ignore[arg-type]
+    return table
+
+
+def print_derived(console: Console, title: str, numbers: Sequence[Number]) -> None:
+    """Print the numbers that follow from a case, by group."""
+    console.print(title, style="bold", markup=False)
+    for group in dict.fromkeys(number.group for number in numbers):
+        members = [number for number in numbers if number.group == group]
+        levels = tuple(dict.fromkeys(number.column for number in members))
+        table = _table((group, "left"), *((level, "right") for level in levels), ("", "left"))
+        for label, unit in dict.fromkeys((number.label, number.unit) for number in members):
+            texts = {number.column: number.text for number in members if (number.label, number.unit) == (label, unit)}
+            table.add_row(label, *(texts.get(level, "") for level in levels), unit)
+        console.print(table)
+
+
+def key_figures(result: Result) -> list[Any]:
+    """Return the governing numbers as the report's first page shows them."""
+    from moyai.report.document import KeyFigures
+    from moyai.report.writer import compose_document
+
+    try:
+        document = compose_document(result)
+    except Exception:
+        # An interrupted result may hold too little for a summary; its files are written all the same
+        if result.status != "interrupted":
+            raise
+        return []
+    blocks = [block for section in document.sections for block in section.blocks]
+    return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
+
+
+def print_summary(console: Console, result: Result, files: Sequence[Path], seconds: float) -> None:
+    """Print what a run gave: governing numbers, notices, failed checks, files."""
+    figures = key_figures(result)
+    if figures:
+        table = _table(("", "left"), ("", "right"), ("", "left"))
+        for item in figures:
+            table.add_row(item.label, item.text, item.detail)
+        console.print(table)
+    for notice in result.notices:
+        if notice.severity != "information":
+            console.print(f"{notice.severity}: {notice.message}", markup=False, soft_wrap=True)
+    failed = [check for check in result.checks if not check.passed]
+    for check in failed:
+        console.print(f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}", markup=False)
+    console.print(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed")
+    status = f"{result.status}: {result.message}" if result.message else result.status
+    console.print(f"{status} ({seconds:.1f} s)", markup=False, soft_wrap=True)
+    shown = [path for path in files if path.suffix != ".csv"]
+    tables = len(files) - len(shown)
+    for path in shown:
+        console.print(f"  {path}", markup=False, soft_wrap=True)
+    if tables:
+        console.print(f"  {files[-1].parent} ({tables} tables)", markup=False, soft_wrap=True)
+
+
+def print_outcomes(console: Console, outcomes: Sequence[Outcome], *, quiet: bool) -> None:
+    """Print the cases of ``moyai validate``; only the failed ones when ``quiet``."""
+    table = _table(
+        ("case", "left"),
+        ("value", "right"),
+        ("reference", "right"),
+        ("error", "right"),
+        ("allowed", "right"),
+        ("", "left"),
+    )
+    for outcome in outcomes:
+        if quiet and outcome.passed:
+            continue
+        case = outcome.case
+        table.add_row(
+            case.name,
+            _number(outcome.value),
+            _number(case.reference),
+            _error(outcome.error, case.relative),
+            _error(case.tolerance, case.relative),
+            "ok" if outcome.passed else "FAILED",
+        )
+    if table.row_count:
+        console.print(table)
+    for outcome in outcomes:
+        if outcome.failure:
+            console.print(f"{outcome.case.name}: {outcome.failure}", markup=False, soft_wrap=True)
+    good = sum(outcome.passed for outcome in outcomes)
+    console.print(f"{good} of {len(outcomes)} cases passed")
+
+
+def _number(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.6g}"
+
+
+def _error(value: float, relative: bool) -> str:
+    if not math.isfinite(value):
+        return "-"
+    return f"{100.0 * value:.2g} %" if relative else f"{value:.2g}"

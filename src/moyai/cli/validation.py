@@ -1,0 +1,105 @@
+"""Compute published and exact cases again and hold them against their references."""
+
+from __future__ import annotations
+
+import math
+import pkgutil
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from moyai.core.validation import ValidationCase
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One case computed again.
+
+    Parameters
+    ----------
+    topic : str
+        Module that holds the case.
+    case : ValidationCase
+    value : float
+        What came out (NaN when it failed).
+    failure : str
+        Why there is no value, else empty.
+    """
+
+    topic: str
+    case: ValidationCase
+    value: float
+    failure: str = ""
+
+    @property
+    def error(self) -> float:
+        """Error against the reference."""
+        return self.case.error(self.value)
+
+    @property
+    def passed(self) -> bool:
+        """Whether the error is within the tolerance."""
+        return bool(self.error <= self.case.tolerance)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the record that ``moyai validate --json`` prints."""
+        return {
+            "name": self.case.name,
+            "source": self.case.source,
+            "value": self.value,
+            "reference": self.case.reference,
+            "error": self.error,
+            "tolerance": self.case.tolerance,
+            "passed": self.passed,
+        }
+
+
+def topics() -> tuple[str, ...]:
+    """Return the names of all modules of :mod:`moyai.validation`."""
+    import moyai.validation as package
+
+    names = [module.name for module in pkgutil.iter_modules(package.__path__) if not module.name.startswith("_")]
+    return tuple(sorted(names))
+
+
+def choose(wanted: Iterable[str]) -> list[tuple[str, ValidationCase]]:
+    """Return the cases of the wanted topics, all of them when none is named.
+
+    Raises
+    ------
+    InputError
+        For a topic that does not exist.
+    """
+    known = topics()
+    names = list(wanted)
+    for name in names:
+        if name not in known:
+            import difflib
+
+            near = difflib.get_close_matches(name, known, 1)
+            remedy = f"did you mean '{near[0]}'?" if near else ""
+            raise InputError(f"unknown topic '{name}'", path="--only", allowed=", ".join(known), remedy=remedy)
+    found: list[tuple[str, ValidationCase]] = []
+    for topic in names or known:
+        module = import_module(f"moyai.validation.{topic}")
+        found.extend((topic, case) for case in getattr(module, "CASES", ()))
+    return found
+
+
+def compute(chosen: list[tuple[str, ValidationCase]], progress: Progress = silent) -> list[Outcome]:
+    """Compute every case; one that raises has failed and the others go on."""
+    outcomes = []
+    for index, (topic, case) in enumerate(chosen):
+        progress("validation", index, len(chosen))
+        try:
+            outcomes.append(Outcome(topic, case, float(case.compute())))
+        except Exception as error:
+            # A broken case must not hide the others; its name and reason stand in the table
+            outcomes.append(Outcome(topic, case, math.nan, f"{type(error).__name__}: {error}"))
+    progress("validation", len(chosen), max(len(chosen), 1))
+    return outcomes
