@@ -163,7 +163,7 @@ class IrregularForcing:
     steady: FloatArray
     drift_law: Literal["newman", "newman_product", "ramped", "none"] = "newman"
     ramp: float = 0.0
-    energy_share: float = 0.999
+    energy_share: float = 0.99
 
     def __post_init__(self) -> None:
         positive(float(np.min(self.omega)), "omega")

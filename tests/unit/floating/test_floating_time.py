@@ -246,15 +246,23 @@ def test_save_interval_keeps_the_same_rows() -> None:
     assert np.allclose(every.time[::5], some.time)
 
 
-def test_time_step_says_what_decides() -> None:
-    model = _random_model(2)
+def test_time_step_says_what_decides_and_is_stable() -> None:
     slow = RegularForcing(0.01, 1.0, np.zeros(3, complex), np.zeros(3), np.zeros(3))
-    step, notice = choose_time_step(model, slow)
-    assert "natural period" in notice.message and notice.value == step
+    stiff = CumminsModel(np.eye(3), np.diag([900.0, 1.0, 1.0]), 0.1 * np.eye(3), StateSpaceMemory.none(3))
+    step, notice = choose_time_step(stiff, slow)
+    assert "natural period" in notice.message and step == pytest.approx(2 * np.pi / 30.0 / 24.0, rel=1e-3)
+    soft = CumminsModel(np.eye(3), 0.01 * np.eye(3), 20.0 * np.eye(3), StateSpaceMemory.none(3))
+    assert "damping" in choose_time_step(soft, slow)[1].message
+    rng = np.random.default_rng(4)
+    remembering = CumminsModel(np.eye(3), 1e-3 * np.eye(3), np.zeros((3, 3)), random_memory(rng))
+    assert "memory" in choose_time_step(remembering, slow)[1].message
+    for model in (stiff, soft, remembering):
+        run = simulate(model, CALM, duration=100.0, initial_position=[1.0, 1.0, 1.0])
+        assert run.status == "converged" and np.max(np.abs(run.position)) < 1.5
     fast = RegularForcing(50.0, 1.0, np.zeros(3, complex), np.zeros(3), np.zeros(3))
-    step, notice = choose_time_step(model, fast)
+    step, notice = choose_time_step(remembering, fast)
     assert "wave period" in notice.message
-    assert np.isclose(2 * np.pi / 50.0 / step, 24.0)
+    assert np.isclose(2 * np.pi / 50.0 / step, 40.0)
 
 
 def test_quadratic_damping_in_time_takes_the_equal_work_of_its_linear_equivalent() -> None:
