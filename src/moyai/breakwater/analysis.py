@@ -20,7 +20,6 @@ from moyai.breakwater.frequency_analysis import (
 from moyai.breakwater.hydrodynamics import (
     CoefficientsOf,
     UnitHydrodynamics,
-    headings_of,
     operator_frequencies,
     solve_unit,
     spectrum_band,
@@ -113,6 +112,8 @@ def _level_steps(
     if dynamic or "statics" in analyses:
         hydro = solve_unit(unit, problem, coefficients=coefficients, progress=progress)
         collected.groups[f"{root}/hydrodynamics"] = hydro.per_metre
+        if hydro.oblique_per_metre is not None:
+            collected.groups[f"{root}/hydrodynamics_oblique"] = hydro.oblique_per_metre
         collected.checks.extend(replace(check, name=f"{unit.name}: {check.name}") for check in hydro.checks)
         collected.notices.extend(hydro.notices)
         yield
@@ -137,16 +138,15 @@ def _frequency_steps(
     problem: BreakwaterProblem, model: FrequencyModel, collected: _Collected, root: str, progress: Progress
 ) -> Iterator[None]:
     unit, hydro = model.unit, model.hydro
-    main = float(headings_of(problem)[0]) if not problem.environment.sea_states else float(
-        problem.environment.sea_states[0].heading
-    )
+    seas = problem.environment.sea_states
+    main = float(seas[0].heading) if seas else 0.0
     found = operators(model, operator_frequencies(unit, problem), main)
     collected.groups[f"{root}/rao"] = found.dataset
     collected.checks.extend(found.checks)
     collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
     collected.checks.extend(drift_check(model, main))
     yield
-    for sea in problem.environment.sea_states:
+    for sea in seas:
         if isinstance(sea, RegularSea):
             answer = regular_sea(model, sea, progress)
         else:
@@ -170,7 +170,7 @@ def _time_steps(
     from moyai.breakwater.memory_model import unit_memory
 
     unit = model.unit
-    memory = unit_memory(model, progress)
+    memory = unit_memory(model, convolution=problem.settings.time.memory == "convolution")
     collected.checks.extend(memory.checks)
     collected.notices.extend(memory.notices)
     collected.groups[f"{root}/memory"] = memory.dataset

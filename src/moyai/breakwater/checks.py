@@ -93,7 +93,7 @@ def drift_check(model: FrequencyModel, heading: float) -> tuple[IdentityCheck, .
     solution = model.hydro.solution
     if solution is None or heading != 0.0:
         return ()
-    hydro = model.hydro.at(model.hydro.unit.omega, heading)
+    hydro = model.hydro.whole(heading)
     motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping).displacement[:, 0, :]
     far = np.asarray(mean_drift_far_field(solution, motions, heading=heading))
     near = np.asarray(mean_drift_near_field(solution, motions, heading=heading))

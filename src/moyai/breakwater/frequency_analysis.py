@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
-from moyai.breakwater.hydrodynamics import UnitHydrodynamics, heading_index, spread_headings, wavelengths
+from moyai.breakwater.hydrodynamics import UnitHydrodynamics, spread_headings, wavelengths
 from moyai.breakwater.model import MODES, IrregularSea, RegularSea
 from moyai.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
 from moyai.breakwater.variables import labelled
@@ -470,7 +470,6 @@ def _overtopping_share(
 __all__ = [
     "FrequencyModel",
     "FrequencyResult",
-    "heading_index",
     "irregular_sea",
     "make_model",
     "operators",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,6 +30,9 @@ CoefficientsOf = Callable[[FloatingUnit], "xr.Dataset"]
 SHORTEST_WAVE_OVER_BEAM = 1.0  # operators are drawn from L/B = 1, where a floating breakwater lets nothing pass,
 LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
 OPERATOR_FREQUENCIES = 60
+BAND_TOP = 16.0  # K d of the highest frequency: waves that reach a sixteenth of the draught down
+BAND_COUNT = 110
+OBLIQUE_FREQUENCIES = 48
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
 
@@ -41,9 +44,10 @@ class UnitHydrodynamics:
     ----------
     per_metre : xarray.Dataset
         In Capytaine's names, per metre of structure (or of the whole unit from a 3-D program, attribute ``length``).
+    oblique_per_metre : xarray.Dataset or None
+        The oblique headings of the case.
     unit : Hydrodynamics
-        Of the whole unit, over all frequencies and the headings of the sea states; radiation of a motion that is the
-        same all along the unit.
+        Of the whole unit in normal incidence, over the whole band.
     by_heading : tuple of Hydrodynamics
         The same, one heading each, with the radiation that belongs to that heading.
     solution : RadiationDiffraction or None
@@ -53,6 +57,7 @@ class UnitHydrodynamics:
     """
 
     per_metre: xr.Dataset
+    oblique_per_metre: xr.Dataset | None
     unit: Hydrodynamics
     by_heading: tuple[Hydrodynamics, ...]
     solution: RadiationDiffraction | None
@@ -64,12 +69,15 @@ class UnitHydrodynamics:
 
         In oblique waves the radiation is that of a long structure whose motion runs along it with the wave.
         """
-        return self.by_heading[heading_index(self.unit.heading, heading)].at(omega)
+        return self.by_heading[self._index(heading)].at(omega)
 
+    def whole(self, heading: float) -> Hydrodynamics:
+        """Return the coefficients of one heading at all frequencies that were computed for it."""
+        return self.by_heading[self._index(heading)]
 
-def heading_index(headings: Array, heading: float) -> int:
-    """Return the place of a heading [rad] among those computed."""
-    return int(np.argmin(np.abs(np.asarray(headings) - heading)))
+    def _index(self, heading: float) -> int:
+        known = np.array([float(item.heading[0]) for item in self.by_heading])
+        return int(np.argmin(np.abs(known - heading)))
 
 
 def operator_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
@@ -150,29 +158,58 @@ def solve_unit(
     if coefficients is not None:
         data = coefficients(unit)
         whole = Hydrodynamics.from_dataset(data, length=unit.breakwater.length)
-        return UnitHydrodynamics(data, whole, _headings_of(data, unit.breakwater.length), None, (), ())
-    omega = np.unique(np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)]))
-    # Two requests that differ by rounding only are one frequency
-    omega = omega[np.concatenate([[True], np.diff(omega) > 1e-9 * omega[-1]])]
-    solution = solve(
-        unit.section,
-        unit.water,
-        omega,
-        modes=rigid_modes(unit.centre),
-        heading=headings_of(problem),
-        lid=unit.breakwater.gap_damping_lid or None,
-        progress=progress,
+        return UnitHydrodynamics(data, None, whole, _headings_of(data, unit.breakwater.length), None, (), ())
+    wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
+    modes, lid, length = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None, unit.breakwater.length
+    # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
+    normal = solve(
+        unit.section, unit.water, distinct(np.concatenate([wanted, band(unit)])), modes=modes, lid=lid, progress=progress
     )
-    data = solution.dataset
-    length = unit.breakwater.length
+    headings = headings_of(problem)
+    oblique = headings[headings != 0.0]
+    by_heading = [item.scaled_to(length) for item in _headings_of(normal.dataset, 1.0)]
+    checks, notices, turned = list(normal.checks), list(normal.notices), None
+    if len(oblique):
+        # An oblique heading has matrices of its own at every frequency: only what the case asks for
+        chosen = oblique_frequencies(problem, wanted)
+        found = solve(unit.section, unit.water, chosen, modes=modes, heading=oblique, lid=lid, progress=progress)
+        turned = found.dataset
+        by_heading.extend(item.scaled_to(length) for item in _headings_of(turned, 1.0))
+        checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found.checks)
+        notices.extend(found.notices)
+    if normal.status == "interrupted":
+        raise KeyboardInterrupt
     return UnitHydrodynamics(
-        per_metre=data,
-        unit=Hydrodynamics.from_dataset(data).scaled_to(length),
-        by_heading=tuple(item.scaled_to(length) for item in _headings_of(data, 1.0)),
-        solution=solution,
-        checks=tuple(solution.checks),
-        notices=tuple(solution.notices),
+        per_metre=normal.dataset,
+        oblique_per_metre=turned,
+        unit=by_heading[0],
+        by_heading=tuple(sorted(by_heading, key=lambda item: float(item.heading[0]))),
+        solution=normal,
+        checks=tuple(checks),
+        notices=tuple(notices),
     )
+
+
+def oblique_frequencies(problem: BreakwaterProblem, wanted: Array) -> Array:
+    """Return frequencies [rad/s] of oblique headings: regular waves exactly, the rest of the band for splines."""
+    regular = [2.0 * math.pi / np.asarray(sea.periods) for sea in problem.environment.sea_states if isinstance(sea, RegularSea)]
+    even = np.linspace(float(wanted.min()), float(wanted.max()), OBLIQUE_FREQUENCIES)
+    return distinct(np.concatenate([*regular, even]))
+
+
+def distinct(omega: Array) -> Array:
+    """Return sorted frequencies; two that differ by rounding only are one."""
+    omega = np.unique(omega)
+    return np.asarray(omega[np.concatenate([[True], np.diff(omega) > 1e-9 * omega[-1]])], dtype=float)
+
+
+def band(unit: FloatingUnit) -> Array:
+    """Return the frequencies [rad/s] that the memory is made of: from long waves to a sixteenth of the draught."""
+    gravity, draught = unit.water.gravity, -unit.section.bottom
+    high = math.sqrt(gravity * BAND_TOP / draught)
+    share = np.linspace(0.0, 1.0, BAND_COUNT + 1)[1:]
+    # Denser towards long waves, where the damping of sway starts steeply
+    return np.asarray(high * share * (0.35 + 0.65 * share), dtype=float)
 
 
 def _headings_of(data: xr.Dataset, length: float) -> tuple[Hydrodynamics, ...]:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_analysis import FrequencyModel
 from moyai.breakwater.model import MODES
-from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.memory import ConvolutionMemory, Memory
@@ -20,17 +19,13 @@ from moyai.floating.realisation import realise_memory
 from moyai.floating.time import CumminsModel
 from moyai.potential.damping_tail import TailTheory, wall_sided_tails
 from moyai.potential.memory import MemoryFunctions, memory_functions, steady_damping
-from moyai.potential.modes import rigid_modes
 from moyai.potential.sections import Section
-from moyai.potential.solver import solve
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
-BAND_TOP = 16.0  # K d of the highest frequency: waves that reach a sixteenth of the draught down
-BAND_COUNT = 110
 KERNEL_LENGTH = 50.0  # length of the kernels over sqrt(B/g), by which they have died away to about 1e-4
 KERNEL_STEPS = 1200
 STATE_TOLERANCE = 1e-3
@@ -93,43 +88,20 @@ class UnitMemory:
         )  # fmt: skip
 
 
-def band(unit: FloatingUnit) -> Array:
-    """Return the frequencies [rad/s] that the memory is made of: from long waves to a sixteenth of the draught."""
-    gravity, draught = unit.water.gravity, -unit.section.bottom
-    high = math.sqrt(gravity * BAND_TOP / draught)
-    share = np.linspace(0.0, 1.0, BAND_COUNT + 1)[1:]
-    # Denser towards long waves, where the damping of sway starts steeply
-    return np.asarray(high * share * (0.35 + 0.65 * share), dtype=float)
-
-
-def unit_memory(model: FrequencyModel, progress: Progress = silent, *, convolution: bool = False) -> UnitMemory:
+def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemory:
     """Compute the memory of a unit.
 
     Parameters
     ----------
     model : FrequencyModel
-    progress : Progress
     convolution : bool
         Give the convolution instead of states (for comparison; its cost grows with the length of the memory).
     """
     unit = model.unit
-    breakwater = unit.breakwater
-    if model.hydro.solution is None:
-        beam, checks = _given_band(model), ()
-    else:
-        solution = solve(
-            unit.section,
-            unit.water,
-            band(unit),
-            modes=rigid_modes(unit.centre),
-            lid=breakwater.gap_damping_lid or None,
-            progress=progress,
-        )
-        beam = Hydrodynamics.from_dataset(solution.dataset).scaled_to(breakwater.length)
-        checks = tuple(solution.checks)
+    beam = model.hydro.unit
     functions = _functions(unit, beam)
     where = f"{unit.name}: memory, "
-    checks = tuple(replace(check, name=where + check.name) for check in (*checks, *functions.checks))
+    checks = tuple(replace(check, name=where + check.name) for check in functions.checks)
     if convolution:
         memory: Memory = ConvolutionMemory(functions.time, functions.velocity_kernel, np.zeros((3, 3))).truncated(
             float(functions.time[-1]), functions.steady_dashpot
@@ -149,11 +121,6 @@ def unit_memory(model: FrequencyModel, progress: Progress = silent, *, convoluti
         *realised.notices,
     )
     return UnitMemory(beam, functions, realised.memory, checks, notices)
-
-
-def _given_band(model: FrequencyModel) -> Hydrodynamics:
-    """Return the band of a 3-D program's coefficients: all that it holds."""
-    return model.hydro.by_heading[0]
 
 
 def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> MemoryFunctions:

@@ -329,12 +329,13 @@ def irregular_sea(
     )
     amplitude = components.complex_amplitude
     if sea.spreading is None:
-        excitation = model.hydro.at(model.hydro.unit.omega, sea.heading).excitation_at(components.omega)
+        excitation = model.hydro.whole(sea.heading).excitation_at(components.omega)
     else:
         # What travels outside of the computed sector meets the ends of the unit and is left out, as in frequency
-        low, high = float(model.hydro.unit.heading.min()), float(model.hydro.unit.heading.max())
+        joined = _excitation_of_headings(model)
+        low, high = float(joined.heading[0]), float(joined.heading[-1])
         amplitude = np.where((components.heading >= low) & (components.heading <= high), amplitude, 0.0)
-        excitation = model.hydro.unit.excitation_at(components.omega, np.clip(components.heading, low, high))
+        excitation = joined.excitation_at(components.omega, np.clip(components.heading, low, high))
     drift = _drift_of_components(model, components.omega, components.heading, sea)
     law = {"ramped": "ramped", "newman": "newman", "pulsating": "newman", "none": "none"}[settings.drift]
     if not model.with_drift or drift is None:
@@ -366,9 +367,22 @@ def irregular_sea(
     return TimeResult(labelled(data), (run,), tuple(notices), status)
 
 
+def _excitation_of_headings(model: FrequencyModel) -> Hydrodynamics:
+    """Put the wave loads of all headings side by side on the frequencies that all have."""
+    every = model.hydro.by_heading
+    low = max(float(item.omega[0]) for item in every)
+    high = min(float(item.omega[-1]) for item in every)
+    shortest = min(every, key=lambda item: len(item.omega))
+    omega = shortest.omega[(shortest.omega >= low) & (shortest.omega <= high)]
+    loads = np.concatenate([item.at(omega).excitation for item in every], axis=1)
+    first = every[0].at(omega)
+    heading = np.array([float(item.heading[0]) for item in every])
+    return replace(first, heading=heading, excitation=loads, reflection=None, transmission=None, radiated_wave=None)
+
+
 def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, sea: IrregularSea) -> Array | None:
     """Mean drift over amplitude squared at the wave components, from the linear motions about rest."""
-    hydro = model.hydro.at(model.hydro.unit.omega, sea.heading)
+    hydro = model.hydro.whole(sea.heading)
     if not hydro.has_far_field:
         return None
     motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
