@@ -14,6 +14,7 @@ from moyai.interop.aqwa import read_aqwa
 from moyai.interop.bemio import read_bemio
 from moyai.interop.capytaine import read_capytaine
 from moyai.interop.checks import check_coefficients, check_time_convention, haskind_damping_axisymmetric
+from moyai.interop.limits import complete_limits
 from moyai.interop.nemoh import read_nemoh
 from moyai.interop.planar import move_reference_point, neglected_coupling, to_planar
 from moyai.interop.wamit import read_wamit
@@ -204,3 +205,17 @@ def test_spar_of_hams_is_refused_without_a_decision(shared_data):
 
     with pytest.raises(InputError, match="HAMS"):
         read_wamit(shared_data / "bem" / "spar_hams" / "Buoy.1", density=1025.0)
+
+
+def test_infinite_frequency_from_the_damping(spheroid):
+    """WAMIT and AQWA hold the limit; their own damping gives it back, and that of the others agrees with it."""
+    exact = spheroid["wamit"]["infinite_frequency_added_mass"].values
+    for program, tolerance in (("wamit", 0.012), ("aqwa", 0.012), ("capytaine", 0.012), ("nemoh", 0.02)):
+        dataset = spheroid[program]
+        found = complete_limits(dataset.drop_vars("infinite_frequency_added_mass", errors="ignore"))
+        own = dataset.get("infinite_frequency_added_mass")
+        reference = exact if own is None else own.values
+        density = float(dataset["rho"]) / (1000.0 if own is None else float(dataset["rho"]))
+        for i in (0, 2, 4):
+            got = found["infinite_frequency_added_mass"].values[i, i]
+            assert got == pytest.approx(reference[i, i] * density, rel=tolerance), program

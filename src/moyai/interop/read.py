@@ -12,6 +12,7 @@ from moyai.core.errors import InputError
 from moyai.interop.aqwa import read_aqwa
 from moyai.interop.bemio import read_bemio
 from moyai.interop.capytaine import read_capytaine
+from moyai.interop.limits import FEWEST_FREQUENCIES, complete_limits
 from moyai.interop.nemoh import read_nemoh
 from moyai.interop.wamit import read_wamit
 
@@ -26,6 +27,9 @@ _READERS: dict[str, Callable[..., xr.Dataset]] = {
 
 def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any] | None = None) -> xr.Dataset:
     """Read hydrodynamic coefficients of a three-dimensional body.
+
+    Where the file has no infinite-frequency added mass it is found from the damping (:mod:`moyai.interop.limits`), if
+    the frequencies are enough.
 
     Parameters
     ----------
@@ -45,8 +49,9 @@ def read_coefficients(program: str, path: str | Path, options: Mapping[str, Any]
         raise InputError(f"unknown program {program!r}", path="program", allowed=", ".join(_READERS))
     reader = _READERS[program]
     try:
-        return reader(path, **dict(options or {}))
+        dataset = reader(path, **dict(options or {}))
     except TypeError as error:
         if f"{reader.__name__}()" not in str(error):
             raise
         raise InputError(str(error).replace(f"{reader.__name__}()", program), path="options") from error
+    return complete_limits(dataset) if dataset.sizes["omega"] >= FEWEST_FREQUENCIES else dataset
