@@ -59,7 +59,10 @@ class HeadingSolution:
     states : WaveStates
         The frequencies.
     added_mass, radiation_damping : ndarray, shape (omega, radiating, influenced)
-        [kg/m], [kg/m/s] for translations.
+        [kg/m], [kg/m/s] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a
+        share of itself however small it is.
+    pressure_damping : ndarray, shape (omega, radiating, influenced)
+        The same by integration of the pressure, exact to a share of the added mass only; for the check.
     froude_krylov_force, diffraction_force : ndarray of complex, shape (omega, mode)
         [N/m per m].
     radiated_wave : ndarray of complex, shape (omega, mode, 2)
@@ -80,6 +83,7 @@ class HeadingSolution:
     states: WaveStates
     added_mass: FloatArray
     radiation_damping: FloatArray
+    pressure_damping: FloatArray
     froude_krylov_force: ComplexArray
     diffraction_force: ComplexArray
     radiated_wave: ComplexArray
@@ -206,14 +210,19 @@ def solve_states(problem: Problem, blocks: Sequence[Block], states: WaveStates, 
         lid_damping = density * omega * np.einsum("wn,wni,wnj->wij", width, moved, moved.conj()).real
     amplitude = np.stack([scale[:, None] * side for side in sides], axis=-1)
 
+    radiated = 1j * omega / gravity * amplitude[:, :count]
+    flux_of_wave = density * gravity * states.group_velocity * states.along / states.wave_number
+    damping = np.einsum("wis,wjs->wij", radiated, radiated.conj()).real * flux_of_wave[:, None, None] + lid_damping
+
     return HeadingSolution(
         heading=heading,
         states=states,
         added_mass=force[:, :count].imag / omega,
-        radiation_damping=-force[:, :count].real,
+        radiation_damping=damping,
+        pressure_damping=-force[:, :count].real,
         froude_krylov_force=(-1j * states.omega * density * unit)[:, None] * incident,
         diffraction_force=unit[:, None] * force[:, count],
-        radiated_wave=1j * omega / gravity * amplitude[:, :count],
+        radiated_wave=radiated,
         reflection=amplitude[:, count, 0],
         transmission=1.0 + amplitude[:, count, 1],
         lid_loss=lid_loss,

@@ -123,4 +123,4 @@ def _log_sinh_rest(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:
     series = s * (1.0 / 6.0 - s * (1.0 / 180.0 - s * (1.0 / 2835.0 - s * (1.0 / 37800.0 - s / 467775.0))))
     slope = y * (1.0 / 3.0 - s * (1.0 / 45.0 - s * (2.0 / 945.0 - s * (1.0 / 4725.0 - s * (2.0 / 93555.0)))))
     rest = np.where(near, slope, change - 1.0 / safe)
-    return np.where(near, series.real, value - np.log(np.abs(safe))), np.asarray(rest, dtype=complex)
+    return np.where(near, series.real, value - np.log(np.abs(safe))), np.asarray(rest, dtype=np.complex128)

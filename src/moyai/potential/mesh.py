@@ -23,7 +23,7 @@ from moyai.potential.sections import Chain, Section
 _SHORTEST = 1e-9
 # Places along a panel at which the gap to other edges is looked at
 _SAMPLES = np.linspace(0.0, 1.0, 7)
-# In infinite depth the local disturbance dies out like 1/x^2 only: the rays are longer by this factor
+# In deep water the local disturbance dies out like 1/x^2 only: longer rays, by this factor
 _DEEP_REACH = 8.0
 # Largest length of a panel times the wave number along the crest
 _LARGEST_CREST = 4.0
@@ -159,6 +159,8 @@ class Surroundings:
             tags = np.concatenate([tags, tags - np.array([len(runs), 0])])
         self._first, self._chord, self._owner = a, b - a, tags
         self._runs = tuple(runs)
+        every = np.concatenate([a, b])
+        self.size = float(max(np.ptp(every.real), -every.imag.min()))
         self._axis = axis
 
     def clearance(self, points: ComplexArray, run: int = -1, edge: int = -1) -> FloatArray:
@@ -296,13 +298,24 @@ def _ray(
     size = min(resolution.corner * around.surface_scale(x), resolution.wave / band[1])
     pieces: list[Piece] = []
     s = 0.0
-    reach = resolution.reach / band[0] * (_DEEP_REACH if math.isinf(around.depth) else 1.0)
+    reach = _ray_length(around, band[0], resolution.reach)
     while s < reach:
         grade = -1 if graded and not pieces else 0
         pieces.append(Piece(x + s * RAY_DIRECTION, size * RAY_DIRECTION, 0.0, grade, RAY, -1))
         s += size
         size = min(resolution.growth * s, around.longest)
     return pieces
+
+
+def _ray_length(around: Surroundings, along: float, reach: float) -> float:
+    """Length [m] at which the wave has died out and the local disturbance as well.
+
+    The disturbance falls algebraically, first with the size of the bodies, then with the wave length, until the bed (or
+    the kernel of an oblique wave) cuts it off exponentially.
+    """
+    wave = reach / along
+    disturbance = max(_DEEP_REACH * wave, 5.0 * reach * around.size)
+    return max(wave, min(disturbance, 0.4 * reach * around.depth, around.longest * reach / _LARGEST_CREST))
 
 
 def _real_surface(
@@ -315,8 +328,10 @@ def _real_surface(
         size = (b - a) * length
         if size > min(around.longest, resolution.wave * around.wave_length_scale(0.0)):
             return False
-        inside = np.array([t for t in a + (b - a) * _SAMPLES if 0.0 < t < 1.0 or not graded[int(t)]])
-        return _wide_enough(size, around.clearance(np.asarray(low + length * inside, dtype=complex)))
+        if (a == 0.0 and graded[0]) or (b == 1.0 and graded[1]):
+            return True  # in the wedge between body and surface the grading does the work
+        x = low + length * (a + (b - a) * _SAMPLES)
+        return _wide_enough(size, around.clearance(x.astype(complex)))
 
     scales = around.surface_scale(low), around.surface_scale(high)
     return [
