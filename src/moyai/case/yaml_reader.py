@@ -185,7 +185,7 @@ class _Builder:
                 if root is not None:
                     self._stop("a second document begins here", event, "keep one case per file: remove the '---'")
                 root = self._record(self.loader.get_event(), 0)
-        if root is None or (root.kind == "scalar" and root.value is None and not root.children):
+        if root is None or (root.kind == "scalar" and root.value is None):
             raise CaseError(
                 [Fault("the file is empty", file=self.file, remedy="'moyai new breakwater' prints a template")]
             )

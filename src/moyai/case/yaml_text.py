@@ -7,8 +7,8 @@ from typing import Any
 
 from moyai.core.errors import CaseError, Fault
 
-# Everything that YAML 1.2 does not print; a NUL or a lone surrogate would also end libyaml's text early
-_ODD = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff")
+# What YAML 1.2 does not print, and the separators that YAML 1.1 took for line ends, which would shift every line number
+_ODD = re.compile("[^\t\n\r\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff")
 
 _PLAIN: tuple[tuple[str, str, str], ...] = (
     (
@@ -48,7 +48,7 @@ _PLAIN: tuple[tuple[str, str, str], ...] = (
 
 
 def decode(raw: bytes, file: str) -> str:
-    """Return the text of a UTF-8 file, with line ends made ``\\n``.
+    """Return the text of a UTF-8 file (or UTF-16 with its mark), with line ends made ``\\n``.
 
     Raises
     ------
@@ -56,7 +56,11 @@ def decode(raw: bytes, file: str) -> str:
         For any other encoding, with the line of the first byte that does not fit.
     """
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise CaseError([Fault("the file is UTF-16", file=file, allowed="UTF-8", remedy="save it again as UTF-8")])
+        # What '>' writes in older Windows shells; its mark leaves no doubt
+        try:
+            return raw.decode("utf-16").replace("\r\n", "\n").replace("\r", "\n")
+        except UnicodeDecodeError:
+            raise CaseError([Fault("the file is broken UTF-16", file=file, remedy="save it again as UTF-8")]) from None
     if raw.startswith(b"\xef\xbb\xbf"):
         raw = raw[3:]
     try:

@@ -72,8 +72,12 @@ class Unit:
         return Unit(self.symbol, self.factor**exponent, self.pi_power * exponent, self.dimension**exponent)
 
     def to_si(self, number: Fraction) -> float:
-        """Return ``number`` of this unit in SI, rounded once (twice where pi enters)."""
-        return float(number * self.factor) * math.pi**self.pi_power
+        """Return ``number`` of this unit in SI, rounded once (twice where pi enters); infinite beyond a double."""
+        try:
+            rational = float(number * self.factor)
+        except OverflowError:
+            return math.copysign(math.inf, number)
+        return rational * math.pi**self.pi_power
 
     def from_si(self, value: float) -> float:
         """Return the SI ``value`` counted in this unit."""
