@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 
 if TYPE_CHECKING:
-    from moyai.mooring.catenary import FloatArray
+    from moyai.mooring.catenary import FloatArray, IntArray
 
 # Regime codes, given back by every solver of this room.
 GROUNDED = 0  # part of the line on the bed, H > 0
@@ -341,13 +341,17 @@ def solve_single(
     if total == 0.0 or (e < _NO_WEIGHT and chord > 1.0):
         return _solve_weightless(x, z, chord, length, axial_stiffness, sign)
     scale = total / length
-    regime = SUSPENDED
-    if clearance >= 0.0 and sign > 0.0:
-        rise = z + clearance / length
-        drop = clearance / length
-        if rise < -1e-9:
-            regime = BELOW_BED
-        else:
+    rise = z + clearance / length
+    drop = clearance / length
+    bed = clearance >= 0.0 and sign > 0.0
+    solved = False
+    h, v, k11, k12, k22, residual, code = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, SUSPENDED
+    if bed and rise >= -1e-9:
+        if drop > 0.0:
+            # most lines from a raised anchor hang clear of the bed
+            h, v, k11, k12, k22, residual, code = _solve_clear(x, z, chord, e, start / total)
+            solved = not _sags_below(h, v, e, drop)
+        if not solved:
             rest = _solve_with_bed(x, max(rise, 1e-12), drop, e, friction, start / total)
             if rest[10] >= 0:
                 code = rest[10]
@@ -366,8 +370,9 @@ def solve_single(
                     rest[9],
                     code,
                 )
-    h, v, k11, k12, k22, residual, code = _solve_clear(x, z, chord, e, start / total)
-    if code == SUSPENDED and regime == BELOW_BED:
+    if not solved:
+        h, v, k11, k12, k22, residual, code = _solve_clear(x, z, chord, e, start / total)
+    if bed and rise < -1e-9 and code == SUSPENDED:
         code = BELOW_BED
     return (
         total * h,
@@ -459,10 +464,6 @@ def _solve_with_bed(
             if x >= (np.arctanh(tangent) + 0.5 * e) * cosine2 / tangent:
                 return nothing
             highest = 0.5 * cosine2 / tangent * (1.0 + 1e-12)
-    else:
-        # the pull that just lifts the last point off the bed
-        if not _reaches_bed(x, rise, drop, e):
-            return nothing
     eta, converged = _grounded_tension(gap, rise, drop, e, friction if drop == 0.0 else 0.0, highest, start)
     s, t, psi, d = _hanging_part(rise, e, eta)
     off = gap - s + eta * psi
@@ -494,10 +495,8 @@ def _solve_with_bed(
 
 
 @njit(cache=True, error_model="numpy")
-def _reaches_bed(x: float, rise: float, drop: float, e: float) -> bool:
-    """Whether the line that would hang clear of the bed, its anchor ``drop`` above it, sags into it."""
-    z = rise - drop
-    h, v, _, _, _, _, _ = _solve_clear(x, z, np.sqrt(x * x + z * z), e, 0.0)
+def _sags_below(h: float, v: float, e: float, drop: float) -> bool:
+    """Whether a line that hangs free with H/W = ``h``, mean V/W = ``v`` sags by more than ``drop`` below its anchor."""
     lower = v - 0.5
     upper = v + 0.5
     if not (lower < 0.0 and upper > 0.0):
@@ -516,7 +515,7 @@ def solve_batch(
     clearance: FloatArray,
     friction: FloatArray,
     out: FloatArray,
-    regime: FloatArray,
+    regime: IntArray,
 ) -> None:
     """Solve many lines; ``out`` is (n, 10) in the order of :func:`solve_single`, ``regime`` (n,)."""
     for i in range(horizontal.size):
@@ -526,3 +525,57 @@ def solve_batch(
         out[i, 0], out[i, 1], out[i, 2], out[i, 3], out[i, 4] = r[0], r[1], r[2], r[3], r[4]
         out[i, 5], out[i, 6], out[i, 7], out[i, 8], out[i, 9] = r[5], r[6], r[7], r[8], r[9]
         regime[i] = r[10]
+
+
+@njit(cache=True, error_model="numpy")
+def solve_line_batch(
+    horizontal: FloatArray,
+    vertical: FloatArray,
+    length: float,
+    axial_stiffness: float,
+    weight: float,
+    clearance: float,
+    friction: float,
+    out: FloatArray,
+    regime: IntArray,
+) -> None:
+    """Solve one line at many fairlead positions; ``out`` is (n, 11): :func:`solve_single`, then q.
+
+    q is the vertical tension at the anchor, or minus the reaction of the bed where the line rests on it.
+    """
+    for i in range(horizontal.size):
+        r = solve_single(horizontal[i], vertical[i], length, axial_stiffness, weight, clearance, friction, 0.0)
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3], out[i, 4] = r[0], r[1], r[2], r[3], r[4]
+        out[i, 5], out[i, 6], out[i, 7], out[i, 8], out[i, 9] = r[5], r[6], r[7], r[8], r[9]
+        out[i, 10] = -weight * r[4] if (r[4] > 0.0 and clearance == 0.0) else r[3]
+        regime[i] = r[10]
+
+
+@njit(cache=True, error_model="numpy")
+def plane_to_space(span: FloatArray, plane: FloatArray, count: int, force: FloatArray, stiffness: FloatArray) -> None:
+    """Turn (H, V) and their stiffness (columns of :func:`solve_single`) into force on the body and 3x3 stiffness.
+
+    ``span`` (n, 3) leads from anchor to fairlead; ``force`` (n, 3), ``stiffness`` (n, 3, 3): all copies, site axes.
+    """
+    for i in range(span.shape[0]):
+        reach = np.sqrt(span[i, 0] * span[i, 0] + span[i, 1] * span[i, 1])
+        h = plane[i, 0]
+        # a line whose ends stand on one vertical has no direction; its sideways stiffness is the same all round
+        c, s, across = 1.0, 0.0, plane[i, 5]
+        if reach > 0.0:
+            c = span[i, 0] / reach
+            s = span[i, 1] / reach
+            if reach > 1e-12 * abs(span[i, 2]):
+                across = h / reach
+        force[i, 0] = -count * h * c if h > 0.0 else 0.0
+        force[i, 1] = -count * h * s if h > 0.0 else 0.0
+        force[i, 2] = -count * plane[i, 1]
+        stiffness[i, 0, 0] = count * (plane[i, 5] * c * c + across * s * s)
+        stiffness[i, 0, 1] = count * (plane[i, 5] - across) * c * s
+        stiffness[i, 1, 0] = stiffness[i, 0, 1]
+        stiffness[i, 1, 1] = count * (plane[i, 5] * s * s + across * c * c)
+        stiffness[i, 0, 2] = count * plane[i, 6] * c
+        stiffness[i, 1, 2] = count * plane[i, 6] * s
+        stiffness[i, 2, 0] = count * plane[i, 7] * c
+        stiffness[i, 2, 1] = count * plane[i, 7] * s
+        stiffness[i, 2, 2] = count * plane[i, 8]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -168,28 +169,6 @@ def _vector(value: ArrayLike, path: str) -> Vector:
     return float(array[0]), float(array[1]), float(array[2])
 
 
-def _force_and_stiffness(
-    span: FloatArray, h: FloatArray, v: FloatArray, k: FloatArray, count: int
-) -> tuple[FloatArray, FloatArray]:
-    """Turn (H, V) and their 2x2 stiffness in the line's plane into force on the body and 3x3 stiffness, site axes."""
-    reach = np.hypot(span[:, 0], span[:, 1])
-    safe = np.where(reach > 0.0, reach, 1.0)
-    # a line whose ends stand on one vertical has no direction; its sideways stiffness is the same all round
-    direction = np.where(reach[:, None] > 0.0, span[:, :2] / safe[:, None], [1.0, 0.0])
-    across = np.where(reach > 1e-12 * np.hypot(reach, span[:, 2]), h / safe, k[:, 0, 0])
-    c, s = direction[:, 0], direction[:, 1]
-    out = np.empty((len(h), 3, 3))
-    with np.errstate(invalid="ignore"):  # an inextensible line that cannot reach gives inf and NaN, told by its regime
-        force = -np.concatenate([h[:, None] * direction, v[:, None]], axis=1)
-        out[:, 0, 0] = k[:, 0, 0] * c * c + across * s * s
-        out[:, 0, 1] = out[:, 1, 0] = (k[:, 0, 0] - across) * c * s
-        out[:, 1, 1] = k[:, 0, 0] * s * s + across * c * c
-        out[:, 0, 2], out[:, 1, 2] = k[:, 0, 1] * c, k[:, 0, 1] * s
-        out[:, 2, 0], out[:, 2, 1] = k[:, 1, 0] * c, k[:, 1, 0] * s
-        out[:, 2, 2] = k[:, 1, 1]
-        return count * force, count * out
-
-
 @dataclass(frozen=True)
 class Line:
     """A mooring line of one or more segments from an anchor to a fairlead on a body.
@@ -246,17 +225,17 @@ class Line:
                     allowed=f"0 to {len(self.segments) - 2} (between two segments)",
                 )
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Unstretched length of the whole line [m]."""
-        return sum(segment.length for segment in self.segments)
+        return float(sum(segment.length for segment in self.segments))
 
     @property
     def breaking_load(self) -> float:
         """Lowest breaking load along the line [N]."""
         return min(segment.line_type.breaking_load for segment in self.segments)
 
-    @property
+    @cached_property
     def table(self) -> FloatArray:
         """One row a segment for the kernels: length, EA, submerged weight, clump at its upper end."""
         rows = np.zeros((len(self.segments), 4))
@@ -266,11 +245,19 @@ class Line:
             rows[clump.after_segment, 3] += clump.submerged_weight
         return rows
 
-    @property
+    @cached_property
     def is_uniform(self) -> bool:
         """Whether the line is one material throughout."""
         rows = self.table
         return bool(np.all(rows[:, 1:3] == rows[0, 1:3]) and np.all(rows[:-1, 3] == 0.0))
+
+    @cached_property
+    def _mean_properties(self) -> tuple[float, float]:
+        """EA and submerged weight per metre of a uniform line with the stretch and the weight of this one."""
+        rows = self.table
+        soft = float((rows[:, 0] / rows[:, 1]).sum())
+        weight = float((rows[:, 0] * rows[:, 2]).sum() + rows[:-1, 3].sum())
+        return (self.length / soft if soft > 0.0 else math.inf), weight / self.length
 
     def bed_clearance(self, water_depth: float) -> float:
         """Return the height of the anchor over the bed [m]; -1 (no bed) in infinite depth.
@@ -306,51 +293,23 @@ class Line:
         """
         rows = self.table
         clearance = self.bed_clearance(water_depth)
-        n = horizontal.size
-        out = np.empty((n, 11))
-        regime = np.empty(n, dtype=np.int64)
-        length = rows[:, 0].sum()
-        mean_weight = float((rows[:, 0] * rows[:, 2]).sum() + rows[:-1, 3].sum()) / length
-        soft = float((rows[:, 0] / rows[:, 1]).sum())
-        mean_stiffness = length / soft if soft > 0.0 else math.inf
-
-        def full(value: float) -> FloatArray:
-            return np.full(n, value)
-
-        kernels.solve_batch(
-            np.ascontiguousarray(horizontal),
-            np.ascontiguousarray(vertical),
-            full(length),
-            full(mean_stiffness),
-            full(mean_weight),
-            full(clearance),
-            full(self.bed_friction),
-            out[:, :10],
-            regime,
-        )
-        weight = rows[0, 2]
-        out[:, 10] = out[:, 3]
-        resting = (out[:, 4] > 0.0) & (clearance == 0.0)
-        out[:, 10] = np.where(resting, -weight * out[:, 4], out[:, 10])
+        x, z = np.ascontiguousarray(horizontal), np.ascontiguousarray(vertical)
+        out = np.empty((x.size, 11))
+        regime = np.empty(x.size, dtype=np.int64)
+        axial, weight = self._mean_properties
+        kernels.solve_line_batch(x, z, self.length, axial, weight, clearance, self.bed_friction, out, regime)
         if not self.is_uniform:
+            # the uniform line of mean properties is the first guess
             start = np.where(np.isfinite(out[:, 0]), out[:, 0], 0.0)
-            segments.solve_segments_batch(
-                np.ascontiguousarray(horizontal),
-                np.ascontiguousarray(vertical),
-                rows,
-                clearance,
-                self.bed_friction,
-                start,
-                out,
-                regime,
-            )
+            segments.solve_segments_batch(x, z, rows, clearance, self.bed_friction, start, out, regime)
         return out, regime
 
     def solve(self, points: FloatArray, water_depth: float) -> LineState:
         """Solve for fairlead positions (n, 3) [m], site axes; see :class:`LineState`."""
         span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
-        out, regime = self.solve_plane(np.hypot(span[:, 0], span[:, 1]), np.ascontiguousarray(span[:, 2]), water_depth)
-        force, stiffness = _force_and_stiffness(span, out[:, 0], out[:, 1], out[:, 5:9].reshape(-1, 2, 2), self.count)
+        out, regime = self.solve_plane(np.hypot(span[:, 0], span[:, 1]), span[:, 2], water_depth)
+        force, stiffness = np.empty((len(span), 3)), np.empty((len(span), 3, 3))
+        kernels.plane_to_space(span, out, self.count, force, stiffness)
         return LineState(
             force=force,
             stiffness=stiffness,

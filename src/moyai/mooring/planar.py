@@ -96,19 +96,27 @@ class PlanarLineSystem:
         hydrostatic = (
             np.zeros((3, 3)) if hydrostatic_stiffness is None else np.asarray(hydrostatic_stiffness, dtype=float)
         )
-        rest = self.forces(np.zeros(3)) if subtract_rest_force else np.zeros(3)
+        evaluate = self.system.evaluator()
+
+        def planar_force(position: FloatArray) -> FloatArray:
+            return evaluate(_space(position))[0][_KEPT]
+
+        def planar_stiffness(position: FloatArray) -> FloatArray:
+            return evaluate(_space(position))[1][np.ix_(_KEPT, _KEPT)]
+
+        rest = planar_force(np.zeros(3)) if subtract_rest_force else np.zeros(3)
         first = np.asarray(start, dtype=float)
         scale = self.system._load_scale(_space(first), _space(load))[_KEPT]
         position, residual, steps = newton_with_line_search(
-            lambda x: self.forces(x) - rest + load - hydrostatic @ x,
-            lambda x: -self.stiffness(x) - hydrostatic,
+            lambda x: planar_force(x) - rest + load - hydrostatic @ x,
+            lambda x: -planar_stiffness(x) - hydrostatic,
             first,
             scale,
             [0, 1, 2],
             tolerance,
         )
         return Equilibrium(
-            position, self.forces(position), self.tensions(position), self.stiffness(position), residual, steps
+            position, planar_force(position), self.tensions(position), planar_stiffness(position), residual, steps
         )
 
 

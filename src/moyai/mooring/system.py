@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -115,8 +116,7 @@ class LineSystem:
         """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6)."""
         position = _positions(position)
         rotation = rotation_matrix(position[..., 3:])
-        body = np.array([line.fairlead for line in self.lines]).reshape(-1, 3)
-        return position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, body)
+        return position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, self._arms)
 
     def states(self, position: ArrayLike) -> dict[str, LineState]:
         """Solve every line for body positions (n, 6) or (6,); arrays of the states have a leading axis n."""
@@ -134,13 +134,7 @@ class LineSystem:
             Body-fixed point of the moments [m], body axes.
         """
         position = _positions(position)
-        flat = position.reshape(-1, 6)
-        lever = self._levers(flat, about)
-        out = np.zeros((len(flat), 6))
-        for i, state in enumerate(self.states(flat).values()):
-            out[:, :3] += state.force
-            out[:, 3:] += np.cross(lever[:, i], state.force)
-        return out.reshape(position.shape)
+        return self._assemble(position.reshape(-1, 6), about, False)[0].reshape(position.shape)
 
     def tensions(self, position: ArrayLike) -> FloatArray:
         """Return fairlead tensions (..., lines) [N] of one copy of every line."""
@@ -159,21 +153,7 @@ class LineSystem:
         translational part everywhere).
         """
         position = _positions(position)
-        flat = position.reshape(-1, 6)
-        lever = self._levers(flat, about)
-        out = np.zeros((len(flat), 6, 6))
-        for i, state in enumerate(self.states(flat).values()):
-            r = lever[:, i]
-            s = cross_matrix(r)
-            k = state.stiffness
-            turn = -k @ s
-            out[:, :3, :3] += k
-            out[:, :3, 3:] += turn
-            out[:, 3:, :3] += s @ k
-            dot = np.einsum("ni,ni->n", r, state.force)
-            geometric = dot[:, None, None] * np.eye(3) - r[:, :, None] * state.force[:, None, :]
-            out[:, 3:, 3:] += s @ turn + geometric
-        return out.reshape(*position.shape[:-1], 6, 6)
+        return self._assemble(position.reshape(-1, 6), about, True)[1].reshape(*position.shape[:-1], 6, 6)
 
     def restoring_curve(
         self, direction: str | ArrayLike, offsets: ArrayLike, position: ArrayLike = (0.0,) * 6
@@ -221,23 +201,37 @@ class LineSystem:
         hydrostatic = (
             np.zeros((6, 6)) if hydrostatic_stiffness is None else np.asarray(hydrostatic_stiffness, dtype=float)
         )
-        rest = self.forces(np.zeros(6)) if subtract_rest_force else np.zeros(6)
+        evaluate = self.evaluator()
+        rest = evaluate(np.zeros(6))[0] if subtract_rest_force else np.zeros(6)
 
         def imbalance(position: FloatArray) -> FloatArray:
-            return self.forces(position) - rest + load - hydrostatic @ position
+            return evaluate(position)[0] - rest + load - hydrostatic @ position
 
         def jacobian(position: FloatArray) -> FloatArray:
             spin = np.eye(6)
             spin[3:, 3:] = spin_of_angle_rates(position[3:])
-            return -self.stiffness(position) @ spin - hydrostatic
+            return -evaluate(position)[1] @ spin - hydrostatic
 
-        scale = self._load_scale(np.asarray(start, dtype=float), load)
+        first = np.asarray(start, dtype=float)
         position, residual, steps = newton_with_line_search(
-            imbalance, jacobian, np.asarray(start, dtype=float), scale, list(free), tolerance
+            imbalance, jacobian, first, self._load_scale(first, load), list(free), tolerance
         )
-        return Equilibrium(
-            position, self.forces(position), self.tensions(position), self.stiffness(position), residual, steps
-        )
+        force, stiffness = evaluate(position)
+        return Equilibrium(position, force, self.tensions(position), stiffness, residual, steps)
+
+    def evaluator(self) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
+        """Return a function of one position (6,) giving force (6,) and stiffness (6, 6) together; it keeps the last."""
+        last: dict[bytes, tuple[FloatArray, FloatArray]] = {}
+
+        def evaluate(position: FloatArray) -> tuple[FloatArray, FloatArray]:
+            key = position.tobytes()
+            if key not in last:
+                force, stiffness = self._assemble(_positions(position)[None, :], (0.0, 0.0, 0.0), True)
+                last.clear()
+                last[key] = force[0], stiffness[0]
+            return last[key]
+
+        return evaluate
 
     def planar(self) -> PlanarLineSystem:
         """Return the view in x-z: sway x, heave z, roll positive about +y (see :mod:`moyai.mooring.planar`)."""
@@ -245,10 +239,29 @@ class LineSystem:
 
         return PlanarLineSystem(self)
 
-    def _levers(self, flat: FloatArray, about: Vector) -> FloatArray:
+    @cached_property
+    def _arms(self) -> FloatArray:
+        """Fairleads in body axes (lines, 3)."""
+        return np.array([line.fairlead for line in self.lines], dtype=float).reshape(-1, 3)
+
+    def _assemble(self, flat: FloatArray, about: Vector, tangent: bool) -> tuple[FloatArray, FloatArray]:
+        """Return force (n, 6) and, where asked for, tangent stiffness (n, 6, 6)."""
         rotation = rotation_matrix(flat[:, 3:])
-        arms = np.array([line.fairlead for line in self.lines]).reshape(-1, 3) - np.asarray(about, dtype=float)
-        return np.einsum("nij,lj->nli", rotation, arms)
+        force, stiffness = np.zeros((len(flat), 6)), np.zeros((len(flat), 6, 6))
+        for i, line in enumerate(self.lines):
+            arm = rotation @ self._arms[i]
+            state = line.solve(flat[:, :3] + arm, self.water_depth)
+            lever = cross_matrix(arm - rotation @ np.asarray(about, dtype=float))
+            force[:, :3] += state.force
+            force[:, 3:] += (lever @ state.force[:, :, None])[:, :, 0]
+            if tangent:
+                shifted = lever @ state.stiffness
+                stiffness[:, :3, :3] += state.stiffness
+                stiffness[:, :3, 3:] -= state.stiffness @ lever
+                stiffness[:, 3:, :3] += shifted
+                # F x (d theta x r): the moment of the turning lever
+                stiffness[:, 3:, 3:] -= cross_matrix(state.force) @ lever + shifted @ lever
+        return force, stiffness
 
     def _load_scale(self, start: FloatArray, load: FloatArray) -> FloatArray:
         """Return the largest force and moment taking part, for judging an imbalance (6,)."""

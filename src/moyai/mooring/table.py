@@ -70,7 +70,7 @@ class TabulatedForce:
 
 def _exact(line: Line, depth: float, x: FloatArray, z: FloatArray) -> FloatArray:
     """Return (..., 6): H, V, dH/dX, dH/dZ, dV/dX, dV/dZ."""
-    out, _ = line.solve_plane(np.ascontiguousarray(x.ravel()), np.ascontiguousarray(z.ravel()), depth)
+    out, _ = line.solve_plane(x.ravel(), z.ravel(), depth)
     return out[:, [0, 1, 5, 6, 7, 8]].reshape(*x.shape, 6)
 
 
@@ -81,7 +81,7 @@ def _lift_off_distance(line: Line, depth: float, z: FloatArray) -> FloatArray | 
     low, high = np.zeros_like(z), np.full_like(z, 2.0 * line.length)
 
     def lifted(x: FloatArray) -> NDArray[np.bool_]:
-        out, _ = line.solve_plane(np.ascontiguousarray(x), z, depth)
+        out, _ = line.solve_plane(x, z, depth)
         return out[:, 10] > 0.0
 
     if not np.all(lifted(high)) or np.any(lifted(low)):
