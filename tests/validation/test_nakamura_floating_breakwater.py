@@ -1,7 +1,7 @@
 """Nakamura, Ohmori and Ide: every number and statement of the paper that can be checked without its figures.
 
 Numbers stand in tests/validation/data with their source. Tolerances are half a unit of the last printed digit plus the
-stated convergence of the prototype (0.3 % of matched eigenfunctions); known misprints are in docs/validation/breakwater.md.
+stated convergence of the prototype (0.3 % of matched eigenfunctions); misprints are in docs/validation/breakwater.md.
 """
 
 from __future__ import annotations

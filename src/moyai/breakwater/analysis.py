@@ -210,7 +210,9 @@ def _result(problem: BreakwaterProblem, collected: _Collected) -> Result:
         status, message = "outside_validity", outside[0].message
     if collected.unsettled or failed:
         status = "not_converged"
-        message = "; ".join([f"not settled: {name}" for name in collected.unsettled] + [f"identity fails: {name}" for name in failed])
+        message = "; ".join(
+            [f"not settled: {name}" for name in collected.unsettled] + [f"identity fails: {name}" for name in failed]
+        )
     if collected.interrupted:
         status, message = "interrupted", "stopped by the user; groups that were finished are here"
     root = xr.Dataset(
@@ -235,7 +237,9 @@ def _result(problem: BreakwaterProblem, collected: _Collected) -> Result:
         message=message,
         checks=tuple(collected.checks),
         notices=_unique(collected.notices),
-        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="breakwater", seeds=seeds),
+        provenance=make_provenance(
+            title=problem.title, case_hash=problem.case_hash, structure="breakwater", seeds=seeds
+        ),
     )
 
 

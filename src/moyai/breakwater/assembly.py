@@ -278,6 +278,7 @@ def assemble(problem: BreakwaterProblem, level_name: str, level: float) -> Float
         gravity=water.gravity,
     )
     imbalance = statics.imbalance(pull, gravity=water.gravity)
+    imbalance = imbalance if abs(imbalance) > 1e-6 else 0.0
     unit = FloatingUnit(
         name=level_name,
         level=level,
@@ -336,9 +337,7 @@ def _is_balanced_upright(breakwater: Breakwater, water: Water, balance: _Balance
     return abs(moment) <= 1e-9 * buoyancy * size and abs(sideways) <= 1e-9 * buoyancy
 
 
-def _equilibrium(
-    breakwater: Breakwater, water: Water, balance: _Balance, start: float
-) -> tuple[float, float, float]:
+def _equilibrium(breakwater: Breakwater, water: Water, balance: _Balance, start: float) -> tuple[float, float, float]:
     """Find draught, heel and offset at rest."""
 
     def pull(x: float, z: float, heel: float) -> tuple[float, float, float]:
@@ -365,8 +364,13 @@ def _equilibrium(
             free=(bool(breakwater.lines), True, True),
         )
     except ConvergenceError as error:
-        raise InputError(f"the unit finds no rest: {error.fault.message}", path="structure", remedy=error.fault.remedy) from error
-    return found.draught, found.heel, found.offset
+        raise InputError(
+            f"the unit finds no rest: {error.fault.message}", path="structure", remedy=error.fault.remedy
+        ) from error
+    # What is left of a Newton search is no heel and no offset
+    heel = found.heel if abs(found.heel) > 1e-9 else 0.0
+    size = breakwater.hull.beam
+    return found.draught, heel, found.offset if abs(found.offset) > 1e-9 * size else 0.0
 
 
 def _draught_of(breakwater: Breakwater, z_gravity: float, heel: float) -> float:
@@ -390,7 +394,7 @@ def _notices(unit: FloatingUnit) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "imbalance",
-                f"{unit.name}: displacement, weight and line pull differ by {unit.imbalance:+.2f} % of the displacement",
+                f"{unit.name}: displacement, weight and line pull differ by {unit.imbalance:+.2f} % of the first",
                 value=abs(unit.imbalance),
                 limit=IMBALANCE_LIMIT,
                 remedy="give mass or draught alone, or correct one of them",
@@ -420,6 +424,8 @@ def _notices(unit: FloatingUnit) -> tuple[Notice, ...]:
         )
     if unit.freeboard <= 0.0:
         notices.append(
-            Notice("freeboard", f"{unit.name}: the deck is {-unit.freeboard:.3g} m under still water", unit.freeboard, 0.0)
+            Notice(
+                "freeboard", f"{unit.name}: the deck is {-unit.freeboard:.3g} m under still water", unit.freeboard, 0.0
+            )
         )
     return tuple(notices)

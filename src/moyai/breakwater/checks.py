@@ -8,7 +8,7 @@ import numpy as np
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_analysis import FrequencyModel
-from moyai.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea
+from moyai.breakwater.model import BreakwaterProblem
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.frequency import solve_motions
 from moyai.mooring.checks import check_line_system
@@ -42,8 +42,8 @@ def check_problem(problem: BreakwaterProblem) -> tuple[Notice, ...]:
             notices.append(
                 Notice(
                     "oblique-time-domain",
-                    f"{sea.name}: in the time domain the wave load is that of the oblique wave on the section, the memory "
-                    "that of a motion equal all along the unit",
+                    f"{sea.name}: in the time domain the wave load is that of the oblique wave on the section, the "
+                    "memory that of a motion equal all along the unit",
                     severity="information",
                 )
             )
@@ -66,20 +66,6 @@ def check_unit(unit: FloatingUnit) -> tuple[Notice, ...]:
                 limit=0.1,
             )
         )
-    return tuple(notices)
-
-
-def check_waves(problem: BreakwaterProblem, unit: FloatingUnit) -> tuple[Notice, ...]:
-    """Hold every sea against breaking and the range of linear theory at the depth of a level."""
-    from moyai.sea.validity import check_spectrum, check_wave
-
-    notices: list[Notice] = []
-    for sea in problem.environment.sea_states:
-        if isinstance(sea, RegularSea):
-            for period in sea.periods:
-                notices.extend(check_wave(sea.height, period, unit.water))
-        elif isinstance(sea, IrregularSea):
-            notices.extend(check_spectrum(sea.spectrum, unit.water))
     return tuple(notices)
 
 

@@ -92,12 +92,16 @@ def operators(model: FrequencyModel, omega: Array, heading: float) -> FrequencyR
     unit, hydro = model.unit, model.hydro.at(omega, heading)
     motions = solve_motions(hydro, unit.inertia, model.stiffness, damping=model.damping)
     rao = motions.displacement[:, 0, :]
-    out = {"rao": (("omega", "dof"), rao)}
+    out: dict = {"rao": (("omega", "dof"), rao)}
     checks: tuple[IdentityCheck, ...] = ()
     if hydro.has_far_field:
         far = far_field(hydro, motions.displacement)
         out |= _far_field_variables(far, hydro, unit, ("omega",))
-        checks = (replace(energy_check(far, motions, unit.water, hydro.length), name=f"{unit.name}: energy of the moving body"),)
+        checks = (
+            replace(
+                energy_check(far, motions, unit.water, hydro.length), name=f"{unit.name}: energy of the moving body"
+            ),
+        )
     length = wavelengths(omega, unit)
     k = 2.0 * math.pi / length
     depth, gravity = unit.water.depth, unit.water.gravity
@@ -125,11 +129,7 @@ def _far_field_variables(far: FarField, hydro: Hydrodynamics, unit: FloatingUnit
         "transmission_coefficient": (dims, np.abs(far.transmission[:, 0])),
         "dissipation": (dims, far.loss[:, 0]),
         "drift_coefficient": (dims, far.drift_coefficient[:, 0]),
-        "mean_drift_force_per_amplitude_squared": (
-            dims,
-            drift[:, 0],
-            {"units": "N/m2", "long_name": "mean drift force on the unit per wave amplitude squared"},
-        ),
+        "mean_drift_force_per_amplitude_squared": (dims, drift[:, 0]),
     }
 
 
@@ -217,11 +217,13 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
     }
     data = labelled(xr.Dataset(out, coords=coords)).sortby("period")
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": _worst(solved.status)}
-    check = ()
+    check: tuple[IdentityCheck, ...] = ()
     if hydro.has_far_field:
         found = energy_check(solved.far, solved.motions, unit.water, hydro.length)
         check = (replace(found, name=f"{unit.name}, {sea.name}: energy of the moving body"),)
-    return FrequencyResult(data, check, (*solved.notices, *solved.motions.notices, *_overtopping(unit, sea.name, elevation)))
+    return FrequencyResult(
+        data, check, (*solved.notices, *solved.motions.notices, *_overtopping(unit, sea.name, elevation))
+    )
 
 
 def motion_ratio(unit: FloatingUnit, amplitude: Array, height: float) -> Array:
@@ -237,7 +239,13 @@ def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArr
     """
     planar, count = unit.mooring.planar, len(moving)
     kinds = len(unit.lines)
-    names = ("mean_tension", "tension_amplitude", "maximum_tension", "minimum_tension", "maximum_anchor_vertical_tension")
+    names = (
+        "mean_tension",
+        "tension_amplitude",
+        "maximum_tension",
+        "minimum_tension",
+        "maximum_anchor_vertical_tension",
+    )
     out = {name: np.zeros((count, kinds)) for name in names}
     if not kinds:
         return out
@@ -245,7 +253,9 @@ def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArr
     for index in range(count):
         offset, orbit = solved.offset[index], np.nan_to_num(moving[index])
         path = offset + (phase[:, None] * orbit).real
-        states = planar.states(np.concatenate([offset[None], path, offset + 1e-3 * orbit.real[None], offset + 1e-3 * orbit.imag[None]]))
+        states = planar.states(
+            np.concatenate([offset[None], path, offset + 1e-3 * orbit.real[None], offset + 1e-3 * orbit.imag[None]])
+        )
         for column, state in enumerate(states.values()):
             pull = state.tension_fairlead
             out["mean_tension"][index, column] = pull[0]
@@ -292,7 +302,9 @@ def _worst(status: tuple[str, ...]) -> str:
     return "converged" if all(item == "converged" for item in status) else "not_converged"
 
 
-def irregular_sea(model: FrequencyModel, sea: IrregularSea, omega: Array, progress: Progress = silent) -> FrequencyResult:
+def irregular_sea(
+    model: FrequencyModel, sea: IrregularSea, omega: Array, progress: Progress = silent
+) -> FrequencyResult:
     """Response spectra, significant and most probable largest values, transmission weighted by energy, mean drift."""
     import xarray as xr
 
@@ -319,11 +331,7 @@ def irregular_sea(model: FrequencyModel, sea: IrregularSea, omega: Array, progre
         "significant_height": ((), height),
         "significant_motion": ("dof", statistics.significant),
         "most_probable_maximum_motion": ("dof", statistics.most_probable_maximum(duration)),
-        "mean_zero_crossing_period": (
-            "dof",
-            statistics.mean_zero_crossing_period,
-            {"units": "s", "long_name": "mean zero-crossing period of the motion"},
-        ),
+        "mean_zero_crossing_period": ("dof", statistics.mean_zero_crossing_period),
         "mean_drift_force": ((), float(solved.drift_force[0])),
         "mean_offset": ("dof", solved.offset[0]),
         "mean_tension": ("line", tension[1]),
@@ -347,7 +355,10 @@ def irregular_sea(model: FrequencyModel, sea: IrregularSea, omega: Array, progre
         np.where(np.isfinite(load), np.asarray(out["most_probable_maximum_tension"][1]) / load, np.nan),
     )
     share_over, relative = _overtopping_share(unit, motions, omega, headings, directional)
-    out |= {"overtopping_share": ((), share_over), "significant_relative_elevation": ((), relative, {"units": "m", "long_name": "significant double amplitude of the relative elevation at the seaward deck edge"})}
+    out |= {
+        "overtopping_share": ((), share_over),
+        "significant_relative_elevation": ((), relative),
+    }
     coords = {"omega": omega, "dof": list(MODES), "line": [line.name for line in unit.lines]}
     data = labelled(xr.Dataset(out, coords=coords))
     data.attrs |= {
@@ -363,8 +374,8 @@ def irregular_sea(model: FrequencyModel, sea: IrregularSea, omega: Array, progre
         notices.append(
             Notice(
                 "spreading-sector",
-                f"{sea.name}: {100.0 * lost:.1f} % of the wave energy travels within 15 degrees of the crest line or away "
-                "and does not meet the side of the breakwater",
+                f"{sea.name}: {100.0 * lost:.1f} % of the wave energy travels within 15 degrees of the crest line or "
+                "away and does not meet the side of the breakwater",
                 value=lost,
                 limit=0.01,
             )
@@ -373,7 +384,7 @@ def irregular_sea(model: FrequencyModel, sea: IrregularSea, omega: Array, progre
         notices.append(
             Notice(
                 "overtopping",
-                f"{unit.name}, {sea.name}: about {100.0 * share_over:.0f} % of the waves may pass the seaward deck edge",
+                f"{unit.name}, {sea.name}: about {100.0 * share_over:.0f} % of waves may pass the seaward deck edge",
                 value=share_over,
                 limit=0.01,
                 source="Rayleigh distribution of the wall-doubled relative elevation",
@@ -454,11 +465,13 @@ def _tension_transfer(unit: FloatingUnit, motions: Motions, offset: Array) -> tu
 def _overtopping_share(
     unit: FloatingUnit, motions: Motions, omega: Array, headings: Array, directional: Array
 ) -> tuple[float, float]:
-    """Share of waves over the deck edge by Rayleigh [eq:breakwater-overtopping], and the significant double amplitude."""
+    """Return the share of waves over the deck edge [eq:breakwater-overtopping] and the significant double amplitude."""
     k = 2.0 * math.pi / wavelengths(omega, unit)
     columns = []
     for column, heading in enumerate(headings):
-        one = replace(motions, heading=headings[column : column + 1], displacement=motions.displacement[:, column : column + 1])
+        one = replace(
+            motions, heading=headings[column : column + 1], displacement=motions.displacement[:, column : column + 1]
+        )
         columns.append(deck_relative_elevation(unit, one, k, float(heading)))
     statistics = response_statistics(omega, np.stack(columns, axis=1)[..., None], directional)
     significant = float(statistics.significant[0])

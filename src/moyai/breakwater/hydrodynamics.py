@@ -163,7 +163,12 @@ def solve_unit(
     modes, lid, length = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None, unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
     normal = solve(
-        unit.section, unit.water, distinct(np.concatenate([wanted, band(unit)])), modes=modes, lid=lid, progress=progress
+        unit.section,
+        unit.water,
+        distinct(np.concatenate([wanted, band(unit)])),
+        modes=modes,
+        lid=lid,
+        progress=progress,
     )
     headings = headings_of(problem)
     oblique = headings[headings != 0.0]
@@ -192,7 +197,9 @@ def solve_unit(
 
 def oblique_frequencies(problem: BreakwaterProblem, wanted: Array) -> Array:
     """Return frequencies [rad/s] of oblique headings: regular waves exactly, the rest of the band for splines."""
-    regular = [2.0 * math.pi / np.asarray(sea.periods) for sea in problem.environment.sea_states if isinstance(sea, RegularSea)]
+    regular = [
+        2.0 * math.pi / np.asarray(sea.periods) for sea in problem.environment.sea_states if isinstance(sea, RegularSea)
+    ]
     even = np.linspace(float(wanted.min()), float(wanted.max()), OBLIQUE_FREQUENCIES)
     return distinct(np.concatenate([*regular, even]))
 

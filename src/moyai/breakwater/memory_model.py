@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_analysis import FrequencyModel
 from moyai.breakwater.model import MODES
+from moyai.breakwater.variables import labelled
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.memory import ConvolutionMemory, Memory
@@ -70,22 +71,21 @@ class UnitMemory:
 
         pair = ("influenced_dof", "radiating_dof")
         functions = self.functions
-        return xr.Dataset(
-            {
-                "velocity_kernel": (("time", *pair), functions.velocity_kernel, {"units": "N/m", "long_name": "memory K(t) on velocity, of the unit"}),
-                "acceleration_kernel": (("time", *pair), functions.acceleration_kernel, {"units": "N s/m", "long_name": "memory lambda(t) on acceleration, of the unit"}),
-                "added_mass": (("omega", *pair), self.beam_sea.added_mass, {"units": "kg", "long_name": "added mass of the unit"}),
-                "radiation_damping": (("omega", *pair), self.beam_sea.radiation_damping, {"units": "kg/s", "long_name": "radiation damping of the unit"}),
-                "infinite_frequency_added_mass": (pair, functions.infinite_frequency_added_mass, {"units": "kg", "long_name": "added mass at infinite frequency, of the unit"}),
-                "steady_dashpot": (pair, functions.steady_dashpot, {"units": "kg/s", "long_name": "radiation damping at zero frequency, of the unit"}),
-            },
-            coords={
-                "time": ("time", functions.time, {"units": "s", "long_name": "time"}),
-                "omega": ("omega", self.beam_sea.omega, {"units": "rad/s", "long_name": "angular frequency"}),
-                "influenced_dof": list(MODES),
-                "radiating_dof": list(MODES),
-            },
-        )  # fmt: skip
+        data = {
+            "velocity_kernel": (("time", *pair), functions.velocity_kernel),
+            "acceleration_kernel": (("time", *pair), functions.acceleration_kernel),
+            "added_mass": (("omega", *pair), self.beam_sea.added_mass),
+            "radiation_damping": (("omega", *pair), self.beam_sea.radiation_damping),
+            "infinite_frequency_added_mass": (pair, functions.infinite_frequency_added_mass),
+            "steady_dashpot": (pair, functions.steady_dashpot),
+        }
+        coords = {
+            "time": functions.time,
+            "omega": self.beam_sea.omega,
+            "influenced_dof": list(MODES),
+            "radiating_dof": list(MODES),
+        }
+        return labelled(xr.Dataset(data, coords=coords))
 
 
 def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemory:
@@ -112,8 +112,8 @@ def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemo
     notices = (
         Notice(
             "memory-states",
-            f"{unit.name}: the memory of the water is carried by {realised.states} states, kernel within {realised.error:.1e} of "
-            "its start",
+            f"{unit.name}: the memory of the water is carried by {realised.states} states, its kernel within "
+            f"{realised.error:.1e} of its start",
             value=realised.error,
             limit=STATE_TOLERANCE,
             severity="information",
@@ -136,7 +136,9 @@ def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> MemoryFunctions:
         infinite,
         np.linspace(0.0, length, KERNEL_STEPS + 1),
         start="even" if finite else "zero",
-        steady_damping=unit.breakwater.length * steady_damping(volume_rates(unit.section, unit.centre), unit.water) if finite else None,
+        steady_damping=unit.breakwater.length * steady_damping(volume_rates(unit.section, unit.centre), unit.water)
+        if finite
+        else None,
         tail_theory=_tails(unit) if planar else (),
         added_mass=beam.added_mass,
     )

@@ -22,8 +22,8 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.spectra import Spectrum
 from moyai.sea.water import Water
 
-MODES = ("sway", "heave", "roll")
 Mode = Literal["sway", "heave", "roll"]
+MODES: tuple[Mode, ...] = ("sway", "heave", "roll")
 DriftLaw = Literal["ramped", "pulsating", "newman", "none"]
 
 
@@ -283,7 +283,12 @@ class Sensitivity:
 class Settings:
     """Which analyses are run and how."""
 
-    analyses: tuple[Literal["statics", "mooring", "frequency", "time"], ...] = ("statics", "mooring", "frequency", "time")
+    analyses: tuple[Literal["statics", "mooring", "frequency", "time"], ...] = (
+        "statics",
+        "mooring",
+        "frequency",
+        "time",
+    )
     drift: bool = True
     frequencies: tuple[float, ...] | None = None
     restoring_offsets: tuple[float, ...] | None = None

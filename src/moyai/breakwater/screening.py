@@ -91,7 +91,7 @@ def transmission_ruol(
     ndarray
         K_T.
     """
-    chi = np.asarray(omega, dtype=float) * np.sqrt((draught + RUOL_BEAM_FACTOR * beam) / gravity)
+    chi = np.sqrt(gravity / (draught + RUOL_BEAM_FACTOR * beam)) / np.asarray(omega, dtype=float)
     shift = (chi - RUOL_CENTRE) / RUOL_WIDTH
     correction = 1.0 / (1.0 + shift * np.exp(-(shift**2)))
     return np.asarray(correction * transmission_macagno(wave_number, water_depth, beam, draught))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from moyai.breakwater.assembly import FloatingUnit, assemble
 from moyai.breakwater.frequency_analysis import FrequencyModel, make_model, regular_sea
 from moyai.breakwater.hydrodynamics import UnitHydrodynamics
-from moyai.breakwater.model import Breakwater, BreakwaterProblem, MooringLine, RegularSea
+from moyai.breakwater.model import Breakwater, BreakwaterProblem, MooringLine, MooringSpring, RegularSea
 from moyai.breakwater.variables import labelled
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
@@ -47,14 +47,15 @@ def sensitivity_datasets(
 
     Line variations keep the coefficients of the case: draught and section hardly change with the pull of the lines.
     """
-    import xarray as xr
 
     settings, sea = problem.settings.sensitivity, first_regular_sea(problem)
     asked = settings.damping_fractions or settings.line_slacks or settings.line_counts
     if not asked:
         return {}, ()
     if sea is None:
-        return {}, (Notice("sensitivity-needs-regular-waves", "variations are shown for regular waves and the case has none"),)
+        return {}, (
+            Notice("sensitivity-needs-regular-waves", "variations are shown for regular waves and the case has none"),
+        )
     out: dict[str, xr.Dataset] = {}
     notices: list[Notice] = []
     if settings.damping_fractions:
@@ -90,7 +91,7 @@ def _joined(cases: list[xr.Dataset], name: str, values: Array) -> xr.Dataset:
 
 def with_slack(problem: BreakwaterProblem, unit: FloatingUnit, slack: float) -> Breakwater:
     """Return the breakwater with every line's upper segment cut so that it is ``slack`` [m] longer than its chord."""
-    lines = []
+    lines: list[MooringLine | MooringSpring] = []
     for line, placed in zip(problem.breakwater.lines, unit.lines):
         if not isinstance(line, MooringLine):
             lines.append(line)
@@ -99,7 +100,9 @@ def with_slack(problem: BreakwaterProblem, unit: FloatingUnit, slack: float) -> 
         others = sum(segment.length for segment in line.segments[:-1])
         length = chord + slack - others
         if length <= 0.0:
-            raise InputError(f"line {line.name!r} has no upper segment left at a slack of {slack:g} m", path="line_slacks")
+            raise InputError(
+                f"line {line.name!r} has no upper segment left at a slack of {slack:g} m", path="line_slacks"
+            )
         lines.append(replace(line, segments=(*line.segments[:-1], replace(line.segments[-1], length=length))))
     return replace(problem.breakwater, lines=tuple(lines))
 
@@ -111,7 +114,7 @@ def with_count(problem: BreakwaterProblem, unit: FloatingUnit, count: float) -> 
     shares = [line.count * count / now for line in lines]
     if any(abs(share - round(share)) > 1e-9 or round(share) < 1 for share in shares):
         raise InputError(
-            f"{count:g} lines cannot be shared among {len(lines)} kinds of {', '.join(str(line.count) for line in lines)}",
+            f"{count:g} lines cannot be shared among the {len(lines)} kinds in their proportion",
             path="settings.sensitivity.line_counts",
             allowed="multiples that keep the proportion",
         )

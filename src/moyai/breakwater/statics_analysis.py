@@ -128,7 +128,10 @@ def _lines(unit: FloatingUnit) -> dict:
         "anchor_vertical_tension": "vertical_tension_anchor",
         "grounded_length": "grounded_length",
     }
-    out: dict = {ours: ("line", np.array([getattr(state, theirs)[0] for state in states.values()])) for ours, theirs in names.items()}
+    out: dict = {
+        ours: ("line", np.array([getattr(state, theirs)[0] for state in states.values()]))
+        for ours, theirs in names.items()
+    }
     load = np.array([line.breaking_load for line in unit.lines])
     known = np.isfinite(load)
     fairleads = np.array([line.fairlead for line in unit.lines]) + centre
@@ -187,7 +190,11 @@ def mooring_dataset(unit: FloatingUnit, offsets: Array | None) -> xr.Dataset:
         "line_tension": (("line", "offset"), column("tension_fairlead")),
         "line_horizontal_tension": (("line", "offset"), column("horizontal_tension")),
         "line_anchor_vertical_tension": (("line", "offset"), column("vertical_tension_anchor")),
-        "mooring_stiffness": ("offset", planar.stiffness(path)[:, 0, 0], {"units": "N/m", "long_name": "tangent stiffness in sway"}),
+        "mooring_stiffness": (
+            "offset",
+            planar.stiffness(path)[:, 0, 0],
+            {"units": "N/m", "long_name": "tangent stiffness in sway"},
+        ),
     }
     return labelled(xr.Dataset(out, coords={"offset": reach, "line": [line.name for line in unit.lines]}))
 

@@ -119,14 +119,15 @@ def _settling_time(model: FrequencyModel, cummins: CumminsModel, hydro: Hydrodyn
     return min(longest, MOST_SETTLING_PERIODS * period)
 
 
-def _run(
-    model: FrequencyModel, cummins: CumminsModel, forcing: Forcing, expected: Array, **options: Any
-) -> Simulation:
+def _run(model: FrequencyModel, cummins: CumminsModel, forcing: Forcing, expected: Array, **options: Any) -> Simulation:
     """Simulate with line tables for twice the expected motion (at least a thousandth of the beam, or of a radian)."""
     unit = model.unit
     reach = np.maximum(2.0 * np.nan_to_num(expected), 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
     return simulate(
-        replace(cummins, mooring=compiled_lines(unit, reach)), forcing, expected_motion=np.nan_to_num(expected), **options
+        replace(cummins, mooring=compiled_lines(unit, reach)),
+        forcing,
+        expected_motion=np.nan_to_num(expected),
+        **options,
     )
 
 
@@ -154,10 +155,21 @@ def regular_sea(
 
     unit = model.unit
     periods = np.sort(np.asarray(sea.periods, dtype=float))
-    names = ("motion_amplitude", "mean_offset", "maximum_motion", "maximum_tension", "minimum_tension", "mean_tension",
-             "reflection_coefficient", "transmission_coefficient", "dissipation")
+    names = (
+        "motion_amplitude",
+        "mean_offset",
+        "maximum_motion",
+        "maximum_tension",
+        "minimum_tension",
+        "mean_tension",
+        "reflection_coefficient",
+        "transmission_coefficient",
+        "dissipation",
+    )
     rows: dict[str, list] = {name: [] for name in names}
-    runs, notices, status = [], [], "converged"
+    runs: list[TimeRun] = []
+    notices: list[Notice] = []
+    status = "converged"
     for index, period in enumerate(periods):
         progress(f"time domain, {unit.name}, {sea.name}", index, len(periods))
         one = frequency.sel(period=period)
@@ -181,7 +193,11 @@ def regular_sea(
     dims = {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"} | dict.fromkeys(
         ("maximum_tension", "minimum_tension", "mean_tension"), "line"
     )
-    out: dict = {name: (("period", dims[name]) if name in dims else ("period",), np.array(values)) for name, values in rows.items() if values}
+    out: dict = {
+        name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
+        for name, values in rows.items()
+        if values
+    }
     if len(done):
         out["motion_ratio"] = (("period", "dof"), motion_ratio(unit, np.array(rows["motion_amplitude"]), sea.height))
         out["wavelength_over_beam"] = ("period", length / unit.breakwater.hull.beam)
@@ -228,7 +244,10 @@ def _one_period(
     attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular"}
     notices = simulation.notices
     if simulation.status == "diverged":
-        notices = (*notices, Notice("diverged", f"{unit.name}, {sea.name}, T = {period:g} s: {simulation.message}", severity="error"))
+        notices = (
+            *notices,
+            Notice("diverged", f"{unit.name}, {sea.name}, T = {period:g} s: {simulation.message}", severity="error"),
+        )
     return TimeRun(f"T{period:.4g}".replace(".", "p"), simulation, attributes), notices
 
 
@@ -239,7 +258,7 @@ def _harmonics(run: Simulation, period: float, settings: TimeSettings) -> Harmon
 def _summary(
     model: FrequencyModel, run: Simulation, sea: RegularSea, period: float, settings: TimeSettings
 ) -> dict[str, Array]:
-    """First harmonics, extremes, and R and T with the motions of the time domain in the operators of the frequency domain."""
+    """Return first harmonics, extremes, and R and T with these motions in the operators of the frequency domain."""
     blank = np.full(3, np.nan)
     kinds = run.tension.shape[1]
     out = {
@@ -278,7 +297,9 @@ def _steadiness(run: Simulation, period: float, settings: TimeSettings, where: s
         return ()
     last = _harmonics(run, period, settings)
     earlier = run.time <= run.time[-1] - window
-    before = fit_harmonics(run.time[earlier], run.position[earlier], 2.0 * math.pi / period, periods=settings.analysed_periods)
+    before = fit_harmonics(
+        run.time[earlier], run.position[earlier], 2.0 * math.pi / period, periods=settings.analysed_periods
+    )
     size = np.maximum(np.abs(last.first), 1e-3 * np.max(np.abs(last.first)) + 1e-12)
     change = float(np.max(np.abs(np.abs(last.first) - np.abs(before.first)) / size))
     if change <= STEADY_LIMIT:
@@ -286,8 +307,8 @@ def _steadiness(run: Simulation, period: float, settings: TimeSettings, where: s
     return (
         Notice(
             "not-steady",
-            f"{where}, T = {period:g} s: the motion still changes by {100 * change:.1f} % between the last two windows of "
-            f"{settings.analysed_periods} periods",
+            f"{where}, T = {period:g} s: the motion still changes by {100 * change:.1f} % between the last two windows "
+            f"of {settings.analysed_periods} periods",
             value=change,
             limit=STEADY_LIMIT,
             remedy="give a longer duration; strongly nonlinear lines may never settle to one period",
@@ -315,7 +336,6 @@ def irregular_sea(
     settings : TimeSettings
     progress : Progress
     """
-    import xarray as xr
 
     unit = model.unit
     ramp = settings.ramp if settings.ramp is not None else 10.0 * 2.0 * math.pi / float(sea.spectrum.peak_omega)
@@ -363,7 +383,13 @@ def irregular_sea(
     if simulation.status == "diverged":
         notices.append(Notice("diverged", f"{unit.name}, {sea.name}: {simulation.message}", severity="error"))
     data = _irregular_summary(unit, simulation, sea, frequency, ramp)
-    data.attrs |= {"kind": "irregular", "heading": sea.heading, "duration": sea.duration, "seed": sea.seed, "status": status}
+    data.attrs |= {
+        "kind": "irregular",
+        "heading": sea.heading,
+        "duration": sea.duration,
+        "seed": sea.seed,
+        "status": status,
+    }
     return TimeResult(labelled(data), (run,), tuple(notices), status)
 
 
@@ -387,7 +413,9 @@ def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, se
         return None
     motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
     far = far_field(hydro, motions.displacement)
-    per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)[:, 0]
+    per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)[
+        :, 0
+    ]
     out = np.zeros((len(omega), 3))
     # Directions of a spread sea take the drift of the mean heading, turned by the square of the cosine
     turn = np.cos(heading) * np.abs(np.cos(heading)) / max(math.cos(sea.heading) ** 2, 1e-6)
@@ -408,7 +436,7 @@ def _irregular_summary(
         out = {
             "mean_offset": ("dof", mean),
             "maximum_motion": ("dof", np.max(np.abs(position - mean), axis=0)),
-            "maximum_excursion": ("dof", np.max(np.abs(position), axis=0), {"units": "m", "long_name": "largest excursion from rest (roll: rad)"}),
+            "maximum_excursion": ("dof", np.max(np.abs(position), axis=0)),
             "significant_motion": ("dof", _significant(run.time[keep], position)),
             "mean_tension": ("line", tension.mean(axis=0)),
             "maximum_tension": ("line", tension.max(axis=0) if len(unit.lines) else np.zeros(0)),
