@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from moyai.report.breakwater_reading import Level
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
+from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, common_scale
 
 Array = NDArray[np.float64]
@@ -89,7 +90,7 @@ def window_of_interest(level: Level, values: dict[str, Array]) -> tuple[float, f
         periods = [group.real("period", "period") for group in (sea.frequency, sea.time)]
         longest += [float(np.max(entry)) for entry in periods if entry is not None and entry.size]
         omega, density = sea.frequency.real("omega", "omega"), sea.frequency.real("wave_spectrum", "omega")
-        if omega is not None and density is not None and np.nanmax(density) > 0.0:
+        if omega is not None and density is not None and largest_magnitude(density) > 0.0:
             longest.append(2.0 * np.pi / float(omega[int(np.nanargmax(density))]))
     known = values["period"][np.isfinite(values["period"])]
     if not longest or known.size < 2 or 1.7 * max(longest) >= known.max():

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.results import Result
+from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group
 
 Array = NDArray[np.float64]
@@ -210,7 +211,7 @@ def _largest_tension(level: Level, sea: Sea, domain: str, periods: Array | None)
     if table is None and domain == "time":
         records = [record for run in sea.runs() if (record := run.real("tension", "time", "line")) is not None]
         if records:
-            table = np.nanmax(np.array([np.nanmax(record, axis=0) for record in records]), axis=0)
+            table = np.fmax.reduce(np.array([np.fmax.reduce(record, axis=0) for record in records]), axis=0)
             names = sea.runs()[0].labels("line")
             periods = None
     if table is None or not np.isfinite(table).any():
@@ -231,12 +232,12 @@ def _largest_offset(sea: Sea, group: Group, domain: str) -> float:
             if math.isfinite(largest):
                 return largest
         found = [run.real("position", "time", dof="sway") for run in sea.runs()]
-        extremes = [float(np.nanmax(np.abs(record))) for record in found if record is not None and record.size]
-        if extremes:
-            return max(extremes)
+        extreme = max((largest_magnitude(record) for record in found if record is not None), default=0.0)
+        if extreme > 0.0:
+            return extreme
     offset = group.real("mean_offset", "period", dof="sway")
     amplitude = group.real("motion_amplitude", "period", dof="sway")
-    if offset is not None and amplitude is not None:
+    if offset is not None and amplitude is not None and np.isfinite(offset + amplitude).any():
         return float(np.nanmax(np.abs(offset) + np.abs(amplitude)))
     mean = group.value("mean_offset", dof="sway")
     for name in ("maximum_motion", "most_probable_maximum_motion"):

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from moyai.report.breakwater_figures import DASHES, breaking_marks, key, wave_axes, within
 from moyai.report.breakwater_reading import MODES, Level, Sea
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
+from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, common_scale
 
 Array = NDArray[np.float64]
@@ -305,7 +306,7 @@ def tension_bars(level: Level) -> Figure | None:
             found = None
             for variable in ("fairlead_tension_maximum", "maximum_tension", "most_probable_maximum_tension"):
                 found = group.real(variable, "period", "line")
-                found = np.nanmax(found, axis=0) if found is not None else group.real(variable, "line")
+                found = np.fmax.reduce(found, axis=0) if found is not None else group.real(variable, "line")
                 if found is not None:
                     break
             if found is not None and found.size == len(lines):
@@ -321,7 +322,7 @@ def tension_bars(level: Level) -> Figure | None:
         panels.append(Panel("of breaking load", "%", from_zero=True))
         for tone, (words, values) in enumerate(entries):
             series.append(Series(words, {}, 100.0 * values / loads, 1, tone, "bar"))
-        if max(float(np.nanmax(values / loads)) for _, values in entries) > 0.5:
+        if max(largest_magnitude(values / loads) for _, values in entries) > 0.5:
             marks.append(Mark("breaking load", y=100.0, panel=1))
     return Figure(
         key(level, "tension-bars"),

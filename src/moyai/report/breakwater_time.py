@@ -22,7 +22,7 @@ from moyai.report.breakwater_reading import MODES, Level, Sea, attribute_number
 from moyai.report.decimate import focus_indices, mean_crossing_period, window_around
 from moyai.report.document import Abscissa, Animation, Block, Column, Figure, Mark, Panel, Series, Table
 from moyai.report.drawing import snapshot, with_colours
-from moyai.report.formatting import format_quantity
+from moyai.report.formatting import format_quantity, largest_magnitude
 from moyai.report.reading import Group, common_scale
 from moyai.report.waves import travelling_surface
 
@@ -98,7 +98,9 @@ def read_record(level: Level, run: Group) -> Record | None:
         ranked = peaks / loads if loads is not None and loads.size == peaks.size and np.isfinite(loads).all() else peaks
         line = int(np.argmax(ranked))
         at = begin + int(np.nanargmax(settled[:, line]))
-    return Record(run, time, pose, tension, run.labels("line"), elevation, period, begin, at, line)
+    return Record(
+        run, time, pose, tension, run.labels("line") if tension.shape[1] else (), elevation, period, begin, at, line
+    )
 
 
 def _analysis_begin(run: Group, time: Array, period: float) -> int:
@@ -358,7 +360,7 @@ def _extents(
     """Return the near view of the body and the whole view with the anchors."""
     hull = np.concatenate(outlines)
     width, height = float(np.ptp(hull[:, 0])), float(np.ptp(hull[:, 1]))
-    wave = 0.0 if record.elevation is None else float(np.nanmax(np.abs(record.elevation)))
+    wave = 0.0 if record.elevation is None else largest_magnitude(record.elevation)
     reach = float(np.max(np.abs(record.pose[:, 0])))
     low, high = float(hull[:, 1].min()), float(hull[:, 1].max())
     top = max(high, 0.0) + max(1.2 * wave, 0.25 * height)

@@ -6,6 +6,7 @@ A page composer (``breakwater_page`` for the floating breakwater) turns a result
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -102,6 +103,11 @@ class Mark:
     x: float | None = None
     y: float | None = None
     panel: int = 0
+
+    @property
+    def known(self) -> bool:
+        """Whether its place is known (no NaN)."""
+        return all(value is None or math.isfinite(value) for value in (self.x, self.y))
 
 
 @dataclass(frozen=True)

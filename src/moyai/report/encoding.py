@@ -134,7 +134,7 @@ def figure_specification(figure: Figure) -> dict[str, Any]:
         ],
         "series": series,
         "arrays": pool,
-        "marks": [{"label": m.label, "x": m.x, "y": m.y, "panel": m.panel} for m in figure.marks],
+        "marks": [{"label": m.label, "x": m.x, "y": m.y, "panel": m.panel} for m in figure.marks if m.known],
         "window": figure.window,
         "slider": figure.slider,
         "categories": list(figure.categories),
@@ -200,7 +200,8 @@ def _columns_to_csv(columns: Sequence[Sequence[str]]) -> str:
 
 def _harmless(text: str) -> str:
     """Keep a spreadsheet from taking a text for a formula."""
-    if text[:1] in "=+@\t\r" or (text[:1] == "-" and not re.fullmatch(r"-(inf|[\d.]+(e[+-]?\d+)?)", text)):
+    negative_number = re.fullmatch(r"-(inf|[\d.]+(e[+-]?\d+)?)", text)
+    if text.startswith(("=", "+", "-", "@", "\t", "\r")) and not negative_number:
         return "'" + text
     return text
 

@@ -93,7 +93,7 @@ def draw_figure(figure: Figure, *, image_format: str = "svg", width: float = 17.
         axes = canvas.subplots(len(figure.panels), 1, sharex=True, squeeze=False)[:, 0]
         for item in figure.series:
             _draw_series(axes[item.panel], figure, item)
-        for mark in figure.marks:
+        for mark in filter(lambda entry: entry.known, figure.marks):
             _draw_mark(axes[mark.panel], mark)
         _finish_axes(canvas, axes, figure)
         stream = io.BytesIO()

@@ -36,8 +36,9 @@ class Chromium:
         # the browser listens on descriptor 3 and answers on 4
         plumbing = f'exec 3<&{to_read} 4>&{to_write}; exec "$0" "$@"'
         arguments = [
-            "--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
-            "--disable-background-networking", "--disable-dev-shm-usage", f"--user-data-dir={self._folder.name}/profile",
+            "--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--no-first-run",
+            "--hide-scrollbars", "--disable-background-networking", "--disable-dev-shm-usage",
+            f"--user-data-dir={self._folder.name}/profile",
         ]  # fmt: skip
         self._process = subprocess.Popen(
             ["bash", "-c", plumbing, executable, *arguments], pass_fds=(to_read, to_write),
@@ -113,7 +114,8 @@ class Chromium:
                 self.requests.append(parameters["request"]["url"])
 
     def resize(self, width: int, height: int, scale: float = 1.0) -> None:
-        self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
+        size = {"width": width, "height": height, "deviceScaleFactor": scale, "mobile": False}
+        self.send("Emulation.setDeviceMetricsOverride", **size)
 
     def prefer(self, scheme: str) -> None:
         self.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
@@ -130,7 +132,8 @@ class Chromium:
 
     def evaluate(self, expression: str) -> Any:
         """Return the value of an expression, awaited."""
-        answer = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True, userGesture=True)
+        how = {"returnByValue": True, "awaitPromise": True, "userGesture": True}
+        answer = self.send("Runtime.evaluate", expression=expression, **how)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", "exception"))
         return answer["result"].get("value")

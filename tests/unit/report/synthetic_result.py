@@ -138,7 +138,9 @@ def rao(depth: float) -> xr.Dataset:
             "transmission_coefficient": variable(("omega",), transmission, "1", "transmission"),
             "dissipation": variable(("omega",), loss, "1", "dissipation"),
             "drift_coefficient": variable(("omega",), np.abs(reflection) ** 2 + loss / 2, "1", "drift coefficient"),
-            "mean_drift_force_per_amplitude_squared": variable(("omega",), 5e3 * np.abs(reflection) ** 2, "N/m2", "mean drift force"),
+            "mean_drift_force_per_amplitude_squared": variable(
+                ("omega",), 5e3 * np.abs(reflection) ** 2, "N/m2", "mean drift force"
+            ),
             "transmission_macagno": variable(("omega",), 1 / np.sqrt(1 + (3 * k) ** 2), "1", "Macagno"),
             "transmission_wiegel": variable(("omega",), np.exp(-3.0 * k), "1", "Wiegel"),
         },
@@ -165,13 +167,17 @@ def hydrodynamics() -> xr.Dataset:
             ),
             "excitation_force": variable(
                 ("omega", "wave_direction", "influenced_dof"),
-                (shape[:, None] * np.array([3e4, 5e4, 6e4]) * np.exp(0.3j))[:, None, :], "N/m", "excitation",
+                (shape[:, None] * np.array([3e4, 5e4, 6e4]) * np.exp(0.3j))[:, None, :],
+                "N/m",
+                "excitation",
             ),
             "infinite_frequency_added_mass": variable(names[1:], np.diag([1.3e4, 1.8e4, 7e4]), "kg/m", "added mass"),
         },
         {
             "omega": variable(("omega",), omega, "rad/s", "angular frequency"),
-            "radiating_dof": MODES, "influenced_dof": MODES, "wave_direction": [0.0],
+            "radiating_dof": MODES,
+            "influenced_dof": MODES,
+            "wave_direction": [0.0],
         },
     )
 
@@ -202,8 +208,11 @@ def regular(height: float, depth: float, in_time: bool, breaking: float) -> xr.D
         data["maximum_tension"] = variable(("period", "line"), tension, "N", "largest tension")
         data["maximum_anchor_vertical_tension"] = variable(("period", "line"), tension * 0.0, "N", "uplift")
     coordinates = {
-        "period": variable(("period",), period, "s", "period"), "dof": MODES, "influenced_dof": MODES,
-        "radiating_dof": MODES, "line": LINES,
+        "period": variable(("period",), period, "s", "period"),
+        "dof": MODES,
+        "influenced_dof": MODES,
+        "radiating_dof": MODES,
+        "line": LINES,
         "wavelength_over_beam": variable(("period",), 2 * np.pi / wave_number(omega, depth) / BEAM, "1", "L/B"),
     }
     return xr.Dataset(data, coordinates)
@@ -304,15 +313,21 @@ def sensitivity() -> dict[str, xr.Dataset]:
 
 def notices() -> tuple[Notice, ...]:
     return (
-        Notice("wave-breaking", "wave height 1.05 m at T = 3.1 s is near breaking", 0.088, 0.142, "information", "", "Miche 1944"),
+        Notice("wave-breaking", "wave height 1.05 m at T = 3.1 s is near breaking", 0.088, 0.142, "information", "",
+               "Miche 1944"),
         Notice("roll-damping", "roll damping is an assumption and governs the motions at resonance", severity="warning",
                remedy="identify it from a free-decay test"),
     )  # fmt: skip
 
 
 def build(
-    *, duration: float = 1200.0, title: str = "Pontoon at the harbour mouth (港口の浮防波堤)", breaking: float = 2.6e6,
-    levels: tuple[tuple[str, float], ...] = (("HWL", 1.2), ("LWL", 0.0)), time: bool = True, seed: int = 3,
+    *,
+    duration: float = 1200.0,
+    title: str = "Pontoon at the harbour mouth (港口の浮防波堤)",
+    breaking: float = 2.6e6,
+    levels: tuple[tuple[str, float], ...] = (("HWL", 1.2), ("LWL", 0.0)),
+    time: bool = True,
+    seed: int = 3,
 ) -> Result:
     """Return a complete result."""  # fmt: skip
     groups: dict[str, xr.Dataset] = {}
