@@ -100,8 +100,8 @@ def system(case: dict) -> dict:
 
 if __name__ == "__main__":
     case = json.load(sys.stdin)
-    import moorpy
+    from importlib import metadata
 
     answer = {"solve": solve, "system": system}[case["what"]](case)
-    answer["version"] = getattr(moorpy, "__version__", "")
+    answer["version"] = metadata.version("moorpy")
     json.dump(answer, sys.stdout)
