@@ -180,8 +180,8 @@ def identity_checks(
             "damping by pressure and by waves",
             worst(damping),
             accuracy,
-            "B_ij = rho g C_g cos(beta) sum of r_i r_j* + loss in the lid, over the largest sqrt(B_ii B_jj) of the band, "
-            "or a thousandth of omega A where the section hardly makes waves [eq:potential-damping]",
+            "B_ij = rho g C_g cos(beta) sum of r_i r_j* + loss in the lid, over the largest sqrt(B_ii B_jj) of the "
+            "band, or a thousandth of omega A where the section hardly makes waves [eq:potential-damping]",
         ),
         IdentityCheck(
             "resolution of the potentials",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,8 @@ class HeadingSolution:
         beta [rad].
     states : WaveStates
         The frequencies.
+    body, surface : Panels
+        Nodes of the whole wetted boundary and free surface, on which the potentials are given.
     added_mass, radiation_damping : ndarray, shape (omega, radiating, influenced)
         [kg/m], [kg/m/s] for translations. Damping is that of the waves sent out (and of the lid), which is exact to a
         share of itself however small it is.
@@ -81,6 +84,8 @@ class HeadingSolution:
 
     heading: float
     states: WaveStates
+    body: Panels
+    surface: Panels
     added_mass: FloatArray
     radiation_damping: FloatArray
     pressure_damping: FloatArray
@@ -112,12 +117,12 @@ def join(parts: Sequence[HeadingSolution]) -> HeadingSolution:
             for item in fields(WaveStates)
         }
     )
-    arrays = {
+    arrays: dict[str, Any] = {
         item.name: np.concatenate([getattr(part, item.name) for part in parts])
         for item in fields(HeadingSolution)
-        if item.name not in ("heading", "states")
+        if item.name not in ("heading", "states", "body", "surface")
     }
-    return HeadingSolution(heading=parts[0].heading, states=states, **arrays)
+    return replace(parts[0], states=states, **arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,6 +222,8 @@ def solve_states(problem: Problem, blocks: Sequence[Block], states: WaveStates, 
     return HeadingSolution(
         heading=heading,
         states=states,
+        body=body,
+        surface=surface,
         added_mass=force[:, :count].imag / omega,
         radiation_damping=damping,
         pressure_damping=-force[:, :count].real,

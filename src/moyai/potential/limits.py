@@ -111,7 +111,7 @@ def _log_sinh(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:
     forward = np.where(y.real >= 0.0, y, -y)
     small = np.exp(-2.0 * forward)
     value = forward.real - math.log(2.0) + np.log(np.abs(1.0 - small))
-    return value, np.where(y.real >= 0.0, 1.0, -1.0) * (1.0 + small) / (1.0 - small)
+    return value, np.asarray(np.where(y.real >= 0.0, 1.0, -1.0) * (1.0 + small) / (1.0 - small), dtype=np.complex128)
 
 
 def _log_sinh_rest(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.potential.edges import ComplexArray, Edges, FloatArray, arc_position, arc_slope, as_complex
-from moyai.potential.panels import BODY, GAP, RAY, RAY_DIRECTION, Panels, Piece, make_panels
+from moyai.potential.panels import BODY, GAP, OPEN, RAY, RAY_DIRECTION, Panels, Piece, make_panels
 from moyai.potential.sections import Chain, Section
 
 # No panel becomes shorter than this share of its edge
@@ -284,10 +284,11 @@ def _surface_pieces(
         pieces += [
             piece._replace(start=2.0 * left - piece.start - piece.step, grade=-piece.grade) for piece in outward[::-1]
         ]
-    for low, high in zip(limits[::2], limits[1::2]):
+    for number, (low, high) in enumerate(zip(limits[::2], limits[1::2])):
+        kind = GAP if 0 < number < len(edges) // 2 else OPEN
         begin = low if axis is None else max(low, axis)
         if high - begin > 1e-9 * (right - left):
-            pieces += _real_surface(begin, high, (begin in edges, high in edges), around, resolution)
+            pieces += _real_surface(begin, high, (begin in edges, high in edges), kind, around, resolution)
     return pieces + _ray(right, right in edges, around, band, resolution)
 
 
@@ -319,7 +320,7 @@ def _ray_length(around: Surroundings, along: float, reach: float) -> float:
 
 
 def _real_surface(
-    low: float, high: float, graded: tuple[bool, bool], around: Surroundings, resolution: Resolution
+    low: float, high: float, graded: tuple[bool, bool], kind: int, around: Surroundings, resolution: Resolution
 ) -> list[Piece]:
     """Panels of the real free surface between bodies or above them."""
     length = high - low
@@ -335,7 +336,7 @@ def _real_surface(
 
     scales = around.surface_scale(low), around.surface_scale(high)
     return [
-        Piece(complex(low + a * length), complex((b - a) * length), 0.0, grade, GAP, -1)
+        Piece(complex(low + a * length), complex((b - a) * length), 0.0, grade, kind, -1)
         for a, b, grade in _cut(length, graded, scales, resolution, enough)
     ]
 

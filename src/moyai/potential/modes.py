@@ -89,7 +89,7 @@ class Modes:
 
 
 @dataclass(frozen=True)
-class _Rigid:
+class Rigid:
     """Unit translation or rotation; a small callable class, so that modes can be sent to other processes."""
 
     kind: str
@@ -123,6 +123,6 @@ def rigid_modes(centre: tuple[float, float], *, body: int | None = None, prefix:
     moved = None if body is None else (body,)
     return Modes(
         names=tuple(prefix + kind for kind in kinds),
-        functions=tuple(_Rigid(kind, x, z) for kind in kinds),
+        functions=tuple(Rigid(kind, x, z) for kind in kinds),
         bodies=(moved,) * 3,
     )

@@ -16,7 +16,8 @@ from moyai.potential.edges import ComplexArray, FloatArray
 
 IntArray = NDArray[np.int64]
 
-BODY, GAP, RAY = 0, 1, 2
+# Wetted boundary; free surface enclosed between bodies; other real free surface; free surface on a ray
+BODY, GAP, OPEN, RAY = 0, 1, 2, 3
 
 #: Direction of the free-surface ray in the complex x-plane
 RAY_DIRECTION = cmath.exp(0.25j * math.pi)

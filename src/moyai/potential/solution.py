@@ -12,7 +12,6 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Modes
-from moyai.potential.panels import Panels
 from moyai.potential.sections import Section
 from moyai.sea.water import Water
 
@@ -32,8 +31,6 @@ class RadiationDiffraction:
         Waves along +x; its radiation coefficients hold for motion that is uniform along the structure.
     oblique : tuple of HeadingSolution
         One for every other |heading|; its modes vary as exp(i k sin(beta) y).
-    body, surface : Panels
-        Nodes of the whole wetted boundary and free surface, on which the potentials of ``normal`` are given.
     infinite_frequency_added_mass, zero_frequency_added_mass : ndarray, shape (radiating, influenced)
         Limits; NaN where there is none (zero frequency in infinite depth, modes that displace volume).
     unknowns : int
@@ -49,8 +46,6 @@ class RadiationDiffraction:
     lid: float
     normal: HeadingSolution
     oblique: tuple[HeadingSolution, ...]
-    body: Panels
-    surface: Panels
     infinite_frequency_added_mass: FloatArray
     zero_frequency_added_mass: FloatArray
     unknowns: int

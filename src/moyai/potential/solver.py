@@ -142,8 +142,6 @@ def _solve_once(
         lid=lid,
         normal=normal,
         oblique=tuple(solutions[1:]),
-        body=problem.body,
-        surface=problem.surface,
         infinite_frequency_added_mass=limits[0],
         zero_frequency_added_mass=limits[1],
         unknowns=len(layout.panels.u) * (1 if layout.axis is None else 2),
