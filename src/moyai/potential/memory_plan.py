@@ -15,7 +15,7 @@ from moyai.sea.water import Water
 
 FloatArray = NDArray[np.float64]
 
-#: Measured on random rectangles (docs/validation/memory.md): spacing and end that leave 1e-3 of the largest K with margin
+#: Measured on random rectangles (docs/validation/memory.md): spacing and end that leave 1e-3 of the largest K, and less
 _STEP_AT_REFERENCE = 0.1
 _END_AT_REFERENCE = 10.0
 _REFERENCE = 1e-3
@@ -85,8 +85,9 @@ def recommend_frequencies(
     return FrequencyPlan(
         omega,
         f"{count} frequencies from {omega[0]:.3g} rad/s, below which the damping is an even function of frequency, to "
-        f"{end:.3g} rad/s, where waves are {end**2 * wall_height / g:.0f} times shorter (2 pi / length) than the wall is "
-        f"high and the exact tail takes over; steps of {100.0 * last / count:.0f} % for an error of {accuracy:g}",
+        f"{end:.3g} rad/s, where waves are short against the wall (K times its height is "
+        f"{end**2 * wall_height / g:.0f}) and the exact tail takes over; steps of {100.0 * last / count:.0f} % for an "
+        f"error of {accuracy:g}",
     )
 
 

@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 #: Numbers of multipoles; the error falls like their cube because of the logarithm in the field at the waterline
-_COUNTS = (32, 64, 128, 256)
+_FINEST = 256
 _EXPONENT = 3.0
 
 
@@ -50,7 +50,7 @@ class CircleCoefficients:
     energy_defect: float
 
 
-def half_immersed_circle(relative_wave_number: float, mode: str) -> CircleCoefficients:
+def half_immersed_circle(relative_wave_number: float, mode: str, *, multipoles: int = _FINEST) -> CircleCoefficients:
     """Return heave or sway of a half-immersed circle in infinite depth, [eq:reference-ursell].
 
     Parameters
@@ -59,6 +59,8 @@ def half_immersed_circle(relative_wave_number: float, mode: str) -> CircleCoeffi
         K a = omega^2 a / g, from 1e-6 to 20; ``inf`` is the limit phi = 0 on the surface.
     mode : {"sway", "heave"}
         Direction of the motion.
+    multipoles : int
+        Largest number of multipoles, at least 32; an eighth, a quarter, a half and the whole of it are extrapolated.
 
     Returns
     -------
@@ -78,7 +80,10 @@ def half_immersed_circle(relative_wave_number: float, mode: str) -> CircleCoeffi
         return CircleCoefficients(1.0 if mode == "heave" else 4.0 / math.pi**2, 0.0, 0.0, 0.0)
     if not 1e-6 <= ka <= 20.0:
         raise InputError(f"K a is {ka:g}", path="relative_wave_number", allowed="1e-6 to 20, or inf")
-    levels = np.array([_half_circle(ka, mode == "heave", count) for count in _COUNTS])
+    if multipoles < 32:
+        raise InputError(f"multipoles is {multipoles}", path="multipoles", allowed="at least 32")
+    counts = [multipoles // 8 * 2**level for level in range(4)]
+    levels = np.array([_half_circle(ka, mode == "heave", count) for count in counts])
     added, damping, ratio = (float(value) for value in extrapolated_limit(levels, _EXPONENT))
     far = ratio**2 / (0.5 * np.pi * ka**2)
     return CircleCoefficients(added, damping, ratio, abs(far - damping) / damping)

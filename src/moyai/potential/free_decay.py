@@ -1,0 +1,149 @@
+"""Free decay of a linear floating body in three independent ways: frequency integral, states, convolution.
+
+Released from rest at an offset in still water. The frequency integral uses A(omega) and B(omega) alone and no memory
+function, so that it tells whether a memory is right at long times, [eq:memory-decay].
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import make_interp_spline
+
+from moyai.core.errors import InputError
+from moyai.potential.damping_model import DampingModel
+from moyai.potential.oscillatory import fourier_integral
+from moyai.potential.state_space import StateSpace
+
+FloatArray = NDArray[np.float64]
+
+_FIFTH = 5
+
+
+def decay_by_frequency(
+    time: ArrayLike,
+    offset: ArrayLike,
+    mass: ArrayLike,
+    stiffness: ArrayLike,
+    model: DampingModel,
+    infinite_frequency_added_mass: ArrayLike,
+    *,
+    points: int = 1200,
+) -> FloatArray:
+    """Return the motion (t, m) by the inverse Fourier transform of the transfer function.
+
+    Parameters
+    ----------
+    time : array_like (t,)
+        [s].
+    offset : array_like (m,)
+        Position at release [m or rad].
+    mass, stiffness : array_like (m, m)
+        Of the body without added mass; hydrostatic and other restoring, positive definite.
+    model : DampingModel
+        Damping at every frequency; the added mass comes from its Hilbert transform.
+    infinite_frequency_added_mass : array_like (m, m)
+    points : int
+        Frequencies of the integral; resonances must be resolved.
+    """
+    x0, m, c = (np.asarray(item, dtype=float) for item in (offset, mass, stiffness))
+    infinite = np.asarray(infinite_frequency_added_mass, dtype=float)
+    if m.shape != c.shape or m.shape != infinite.shape or x0.shape != m.shape[:1]:
+        raise InputError("offset, mass, stiffness and added mass do not belong together", path="mass")
+    last = 3.0 * model.knots[-1]
+    # dense around the natural frequencies, which lie in the lower part of the band
+    omega = last * np.linspace(0.0, 1.0, points + 1) ** 2
+    positive = omega[1:]
+    impedance = (
+        c
+        - positive[:, None, None] ** 2 * (m + infinite + model.added_mass_excess(positive))
+        + 1j * positive[:, None, None] * model.damping(positive)
+    )
+    velocity = np.linalg.solve(impedance, np.broadcast_to(-(c @ x0)[None, :, None], (points, len(x0), 1)))[..., 0]
+    density = velocity.imag / positive[:, None]
+    # even in frequency: mirrored data fix the start
+    spline = make_interp_spline(
+        np.concatenate([-positive[::-1], positive]), np.concatenate([density[::-1], density]), k=_FIFTH
+    )
+    pieces = np.empty((6, points, len(x0)))
+    middle = 0.5 * (omega[:-1] + omega[1:])
+    factor = 1.0
+    for power in range(6):
+        factor *= max(power, 1)
+        pieces[power] = spline(middle if power == _FIFTH else omega[:-1], power) / factor
+    return 2.0 / np.pi * fourier_integral(omega, pieces, time).real
+
+
+def decay_by_states(
+    time: ArrayLike,
+    offset: ArrayLike,
+    mass: ArrayLike,
+    stiffness: ArrayLike,
+    states: StateSpace,
+    infinite_frequency_added_mass: ArrayLike,
+) -> FloatArray:
+    """Return the motion (t, m) of body and memory states, exact in time by the eigenvectors of the whole system."""
+    x0, m, c = (np.asarray(item, dtype=float) for item in (offset, mass, stiffness))
+    size, order = len(x0), states.order
+    inverse = np.linalg.inv(m + np.asarray(infinite_frequency_added_mass, dtype=float))
+    whole = np.zeros((2 * size + order, 2 * size + order))
+    whole[:size, size : 2 * size] = np.eye(size)
+    whole[size : 2 * size, :size] = -inverse @ c
+    whole[size : 2 * size, 2 * size :] = -inverse @ states.c
+    whole[2 * size :, size : 2 * size] = states.b
+    whole[2 * size :, 2 * size :] = states.a
+    values, vectors = np.linalg.eig(whole)
+    start = np.zeros(len(whole))
+    start[:size] = x0
+    parts = vectors[:size] * np.linalg.solve(vectors, start)
+    t = np.atleast_1d(np.asarray(time, dtype=float))
+    return np.real(np.exp(values * t[:, None]) @ parts.T)
+
+
+def decay_by_convolution(
+    time_step: float,
+    steps: int,
+    offset: ArrayLike,
+    mass: ArrayLike,
+    stiffness: ArrayLike,
+    velocity_kernel: FloatArray,
+    infinite_frequency_added_mass: ArrayLike,
+    steady_rest: ArrayLike | None = None,
+) -> FloatArray:
+    """Return the motion (steps + 1, m) by the trapezoidal rule for body and convolution (second order).
+
+    Parameters
+    ----------
+    time_step : float
+        [s].
+    steps : int
+    offset, mass, stiffness, infinite_frequency_added_mass
+        As in :func:`decay_by_frequency`.
+    velocity_kernel : ndarray (n, m, m)
+        K at multiples of the step; its length is the length of the memory.
+    steady_rest : array_like (m, m), optional
+        Dashpot for the part of D(0) that the cut memory leaves out.
+    """
+    x0, m, c = (np.asarray(item, dtype=float) for item in (offset, mass, stiffness))
+    size, length = len(x0), len(velocity_kernel)
+    inertia = m + np.asarray(infinite_frequency_added_mass, dtype=float)
+    rest = np.zeros((size, size)) if steady_rest is None else np.asarray(steady_rest, dtype=float)
+    x, v, a = (np.zeros((steps + 1, size)) for _ in range(3))
+    x[0] = x0
+    a[0] = np.linalg.solve(inertia, -c @ x0)
+    h = time_step
+    # implicit part of a(n+1): inertia + h/2 (dashpot + h/2 K(0)) + h^2/4 c
+    system = inertia + 0.5 * h * (rest + 0.5 * h * velocity_kernel[0]) + 0.25 * h**2 * c
+    flat = np.ascontiguousarray(velocity_kernel.transpose(1, 0, 2))
+    for n in range(1, steps + 1):
+        count = min(n, length - 1)
+        weights = np.ones(count)
+        weights[-1] = 0.5 if count in (n, length - 1) else 1.0
+        past = v[n - count : n][::-1]
+        history = h * np.einsum("ikj,kj->i", flat[:, 1 : count + 1], past * weights[:, None])
+        v_known, x_known = v[n - 1] + 0.5 * h * a[n - 1], x[n - 1] + h * v[n - 1] + 0.25 * h**2 * a[n - 1]
+        force = -history - (rest + 0.5 * h * velocity_kernel[0]) @ v_known - c @ x_known
+        a[n] = np.linalg.solve(system, force)
+        v[n] = v_known + 0.5 * h * a[n]
+        x[n] = x_known + 0.25 * h**2 * a[n]
+    return x
