@@ -81,8 +81,8 @@ def drift_check(model: FrequencyModel, heading: float) -> tuple[IdentityCheck, .
         return ()
     hydro = model.hydro.whole(heading)
     motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping).displacement[:, 0, :]
-    far = np.asarray(mean_drift_far_field(solution, motions, heading=heading))
-    near = np.asarray(mean_drift_near_field(solution, motions, heading=heading))
+    far = mean_drift_far_field(solution, motions, heading).horizontal
+    near = mean_drift_near_field(solution, motions, heading).horizontal
     scale = float(np.max(np.abs(far)))
     if scale == 0.0:
         return ()
