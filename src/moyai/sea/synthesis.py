@@ -33,12 +33,12 @@ def uniform_numbers(seed: int, stream: Stream, count: int) -> Array:
 def choose_band(spectrum: Spectrum, lower: float | None, upper: float | None) -> tuple[float, float]:
     """Return the band of synthesis [rad/s]; see :func:`moyai.sea.irregular.synthesise`."""
     if spectrum.shapes:
-        default = spectrum.quantile([0.1 * ENERGY_LEFT_OUT, 1.0 - 0.9 * ENERGY_LEFT_OUT])
+        ends = (0.1 * ENERGY_LEFT_OUT, 1.0 - 0.9 * ENERGY_LEFT_OUT)
+        low = float(spectrum.quantile(ends[0])) if lower is None else float(lower)
+        high = float(spectrum.quantile(ends[1])) if upper is None else float(upper)
     else:
-        inside = (max(float(spectrum.omega[0]), spectrum.lower), min(float(spectrum.omega[-1]), spectrum.upper))
-        default = np.array(inside)
-    low = float(default[0]) if lower is None else float(lower)
-    high = float(default[1]) if upper is None else float(upper)
+        low = max(float(spectrum.omega[0]), spectrum.lower) if lower is None else float(lower)
+        high = min(float(spectrum.omega[-1]), spectrum.upper) if upper is None else float(upper)
     if not (0.0 <= low < high and math.isfinite(high)):
         raise InputError(
             f"band {low:g} to {high:g} rad/s", path="upper_omega", allowed="0 <= lower_omega < upper_omega"

@@ -171,7 +171,7 @@ def check_wave(
             notices.append(
                 Notice(
                     "wave-theory",
-                    f"{used} neglects harmonics of {100.0 * neglected:.2g} % of the first (limit {100.0 * limit:g} %); "
+                    f"{used} neglects harmonics of {100.0 * neglected:.3g} % of the first (limit {100.0 * limit:g} %); "
                     f"recommended: {advice.name}",
                     neglected,
                     limit,
@@ -235,7 +235,7 @@ def check_sea_state(significant_height: float, peak_period: float, water: Water)
             notices.append(
                 Notice(
                     "significant-height-depth",
-                    f"significant height {significant_height:.4g} m exceeds {factor:g} of the water depth, {limit:.4g} m",
+                    f"significant height {significant_height:.4g} m exceeds {factor:g} of the depth, {limit:.4g} m",
                     significant_height,
                     limit,
                     "error" if severity == "error" else "warning",
@@ -313,7 +313,7 @@ def check_spectrum(
             notices.append(
                 Notice(
                     "jonswap-range",
-                    f"T_p / sqrt(H_m0) = {ratio:.3g} is outside 3.6 to 5 (s/m^1/2), where JONSWAP is a reasonable model",
+                    f"T_p / sqrt(H_m0) = {ratio:.3g} is outside 3.6 to 5 s/m^1/2, the range of JONSWAP",
                     ratio,
                     3.6 if ratio <= 3.6 else 5.0,
                     "information",
@@ -337,7 +337,7 @@ def _band_notices(spectrum: Spectrum, lower: float | None, upper: float | None) 
             notices.append(
                 Notice(
                     "spectrum-truncated",
-                    f"{100.0 * left_out:.3g} % of the wave energy lies outside {low:.4g} to {high:.4g} rad/s (limit 1 %)",
+                    f"{100.0 * left_out:.3g} % of the energy lies outside {low:.4g} to {high:.4g} rad/s (limit 1 %)",
                     left_out,
                     0.01,
                     "warning",
@@ -350,7 +350,7 @@ def _band_notices(spectrum: Spectrum, lower: float | None, upper: float | None) 
             notices.append(
                 Notice(
                     "spectrum-table-cut",
-                    f"the table of the spectrum ends at {100.0 * worst:.3g} % of its peak (limit 5 %): energy is missing",
+                    f"the table of the spectrum ends at {100.0 * worst:.3g} % of its peak (limit 5 %): it is cut",
                     worst,
                     0.05,
                     "warning",
