@@ -245,9 +245,9 @@ class Block(BaseModel):
         faults = []
         given = [key for key, value in data.items() if value is not None]
         for group in (*cls.exactly_one, *cls.at_most_one):
-            both = [key for key in group if key in given]
+            both = [key for key in given if key in group]
             if len(both) > 1:
-                names = " and ".join(f"'{key}'" for key in both)
+                names = " and ".join(f"'{key}'" for key in group if key in both)
                 faults.append((both[1], f"{names} exclude each other", f"keep one: {_either(group)}"))
         for group in (*cls.exactly_one, *cls.at_least_one):
             # A key without value is reported as such

@@ -6,6 +6,7 @@ import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
+
 from moyai.case import yaml_reader
 from moyai.case.yaml_reader import Place, dotted, parse_yaml, read_yaml
 from moyai.core.errors import CaseError
@@ -165,9 +166,7 @@ def test_files_in_other_encodings(tmp_path):
     path.write_bytes(text.encode("cp932"))
     with pytest.raises(CaseError) as caught:
         read_yaml(path)
-    assert str(caught.value) == (
-        f"{path}:2:8: the file is not UTF-8 (it looks like Shift-JIS); save it again as UTF-8"
-    )
+    assert str(caught.value) == (f"{path}:2:8: the file is not UTF-8 (it looks like Shift-JIS); save it again as UTF-8")
     path.write_bytes("title: caf\xe9\n".encode("latin-1"))
     with pytest.raises(CaseError, match="Windows-1252"):
         read_yaml(path)

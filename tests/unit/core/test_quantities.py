@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from moyai.core import quantities as q
 from moyai.core.errors import InputError
 from moyai.core.quantities import from_si, parse_quantity, to_si
