@@ -240,8 +240,8 @@ def side_view(
 def displaced_line(rest: Array, fairlead_shift: Array, bed: float | None) -> Array:
     """Return line shapes for drawing when the fairlead moves: the hanging part of the rest shape is carried along.
 
-    The grounded part stays, the hanging part moves in proportion to its distance along the line. It is a drawing of the
-    line, exact at both ends; where a result stores the shapes of the lines they are drawn instead.
+    The grounded part stays, the hanging part moves in proportion to its distance along the line. Exact at both ends
+    only; where a result stores the shapes of the moving line, :func:`tabulated_line` draws them.
 
     Parameters
     ----------
@@ -256,8 +256,7 @@ def displaced_line(rest: Array, fairlead_shift: Array, bed: float | None) -> Arr
     -------
     ndarray, shape (frames, points, 2)
     """
-    steps = np.linalg.norm(np.diff(rest, axis=0), axis=1)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
+    along = _distance(rest)
     touchdown = 0.0
     if bed is not None:
         height = max(float(np.ptp(rest[:, 1])), 1e-12)
@@ -266,6 +265,48 @@ def displaced_line(rest: Array, fairlead_shift: Array, bed: float | None) -> Arr
             touchdown = float(along[lying[-1]])
     weight = np.clip((along - touchdown) / max(along[-1] - touchdown, 1e-12), 0.0, 1.0)
     return rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+
+
+def _distance(points: Array) -> Array:
+    """Return the distance along a polyline, from its first point."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+
+
+def tabulated_line(shift_x: Array, shift_z: Array, shapes: Array, fairlead_shift: Array) -> Array:
+    """Return line shapes when the fairlead moves, between shapes stored over a grid of fairlead positions.
+
+    Parameters
+    ----------
+    shift_x, shift_z : ndarray
+        Increasing displacements of the fairlead from rest [m].
+    shapes : ndarray, shape (shift_x, shift_z, points, 2)
+        x and z from the anchor to the fairlead [m].
+    fairlead_shift : ndarray, shape (frames, 2)
+        Motion of the fairlead [m]; beyond the grid the nearest shapes are taken and led to the fairlead.
+
+    Returns
+    -------
+    ndarray, shape (frames, points, 2)
+    """
+
+    def place(grid: Array, wanted: Array) -> tuple[NDArray[np.int64], Array]:
+        if grid.size == 1:
+            return np.zeros(wanted.size, dtype=np.int64), np.zeros(wanted.size)
+        inside = np.clip(wanted, grid[0], grid[-1])
+        cell = np.clip(np.searchsorted(grid, inside, side="right") - 1, 0, grid.size - 2)
+        return cell, (inside - grid[cell]) / (grid[cell + 1] - grid[cell])
+
+    (i, u), (j, v) = place(shift_x, fairlead_shift[:, 0]), place(shift_z, fairlead_shift[:, 1])
+    right, up = np.minimum(i + 1, shift_x.size - 1), np.minimum(j + 1, shift_z.size - 1)
+    u, v = u[:, None, None], v[:, None, None]
+    path = (1 - u) * ((1 - v) * shapes[i, j] + v * shapes[i, up]) + u * (
+        (1 - v) * shapes[right, j] + v * shapes[right, up]
+    )
+    # the end of the drawn line must meet the body also beyond the grid: what is missing there is led in
+    origin = shapes[:, :, -1, :] - np.stack(np.meshgrid(shift_x, shift_z, indexing="ij"), axis=-1)
+    missing = origin.reshape(-1, 2).mean(axis=0) + fairlead_shift - path[:, -1, :]
+    weight = np.linspace(0.0, 1.0, shapes.shape[2])
+    return path + weight[None, :, None] * missing[:, None, :]
 
 
 def fairlead_motion(pose: Array, arm: tuple[float, float]) -> Array:

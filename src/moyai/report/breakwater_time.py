@@ -16,6 +16,7 @@ from moyai.report.animation import (
     fairlead_motion,
     frame_times,
     side_view,
+    tabulated_line,
 )
 from moyai.report.breakwater_figures import key
 from moyai.report.breakwater_reading import MODES, Level, Sea, attribute_number
@@ -344,7 +345,8 @@ def _moving_lines(
     lines = []
     for name, rest in lines_rest_shapes(level):
         arm = (float(rest[-1, 0]) - pivot[0], float(rest[-1, 1]) - pivot[1])
-        path = displaced_line(rest, fairlead_motion(pose, arm), bed)
+        shift, table = fairlead_motion(pose, arm), _shape_table(statics, name)
+        path = displaced_line(rest, shift, bed) if table is None else tabulated_line(*table, shift)
         tension, maximum = np.full(times.size, np.nan), math.nan
         if name in record.lines:
             values = record.tension[:, record.lines.index(name)]
@@ -352,6 +354,16 @@ def _moving_lines(
                 tension, maximum = np.interp(times, record.time, values), float(np.nanmax(values))
         lines.append(MovingLine(name, path, tension, maximum, float(known.get(name, math.nan))))
     return tuple(lines)
+
+
+def _shape_table(statics: Group, name: str) -> tuple[Array, Array, Array] | None:
+    """Return the stored shapes of a moving line over the displacement of its fairlead, ``None`` where absent."""
+    shift_x, shift_z = statics.real("shift_x", "shift_x"), statics.real("shift_z", "shift_z")
+    x = statics.real("line_shape_x", "shift_x", "shift_z", "line_point", line=name)
+    z = statics.real("line_shape_z", "shift_x", "shift_z", "line_point", line=name)
+    if shift_x is None or shift_z is None or x is None or z is None or not np.isfinite(x + z).all():
+        return None
+    return shift_x, shift_z, np.stack([x, z], axis=-1)
 
 
 def _extents(

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from moyai.report.animation import displaced_line, encode_track, fairlead_motion, frame_times
+from moyai.report.animation import displaced_line, encode_track, fairlead_motion, frame_times, tabulated_line
 from moyai.report.decimate import envelope_indices, focus_indices, mean_crossing_period, window_around
 from moyai.report.waves import travelling_surface
 
@@ -111,6 +111,23 @@ def test_drawn_lines_hold_at_both_ends() -> None:
     np.testing.assert_allclose(moved[0], rest)
     np.testing.assert_allclose(moved[1, :2], rest[:2])
     np.testing.assert_allclose(moved[1, -1], rest[-1] + shift[1])
+
+
+def test_stored_line_shapes_are_met_and_led_to_the_fairlead() -> None:
+    random = np.random.default_rng(13)
+    shift_x, shift_z = np.sort(random.normal(size=6)), np.sort(random.normal(size=4))
+    share = np.linspace(0.0, 1.0, 9)
+    anchor, fairlead = np.array([-50.0, -10.0]), np.array([-5.0, -3.0])
+    ends = fairlead + np.stack(np.meshgrid(shift_x, shift_z, indexing="ij"), axis=-1)
+    shapes = anchor + share[None, None, :, None] * (ends[:, :, None, :] - anchor)
+    shapes[..., 1] -= 4.0 * (share * (1.0 - share)) * (1.0 + shift_x[:, None, None]) ** 2
+    for i, j in ((0, 0), (3, 2), (5, 3), (2, 0)):
+        moved = tabulated_line(shift_x, shift_z, shapes, np.array([[shift_x[i], shift_z[j]]]))
+        np.testing.assert_allclose(moved[0], shapes[i, j], atol=1e-12)
+    wanted = random.normal(size=(40, 2)) * 3.0
+    moved = tabulated_line(shift_x, shift_z, shapes, wanted)
+    np.testing.assert_allclose(moved[:, -1], fairlead + wanted, atol=1e-12)
+    np.testing.assert_allclose(moved[:, 0], np.broadcast_to(anchor, (40, 2)), atol=1e-12)
 
 
 def test_surface_is_that_of_linear_theory() -> None:
