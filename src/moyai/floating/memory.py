@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +11,22 @@ from scipy.interpolate import CubicSpline
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.floating.arrays import ComplexArray, FloatArray, finite, increasing
+
+
+class ModalForm(Protocol):
+    """A rational memory in modal form, as :mod:`moyai.potential.state_space` gives it."""
+
+    @property
+    def poles(self) -> ComplexArray:
+        """One of each conjugate pair (n,)."""
+
+    @property
+    def inputs(self) -> ComplexArray:
+        """(n, m)."""
+
+    @property
+    def outputs(self) -> ComplexArray:
+        """(m, n), the partner of a complex pole already in."""
 
 
 @dataclass(frozen=True)
@@ -80,6 +97,25 @@ class StateSpaceMemory:
         )
 
     @classmethod
+    def of(cls, fit: ModalForm, dashpot: ArrayLike | None = None) -> StateSpaceMemory:
+        """Take over a rational fit that is already in modal form (:class:`moyai.potential.state_space.StateSpace`).
+
+        Parameters
+        ----------
+        fit : ModalForm
+            With ``poles``, ``inputs``, ``outputs`` as here.
+        dashpot : array_like (m, m) or None
+            Instantaneous part beside the states.
+        """
+        size = fit.outputs.shape[0]
+        return cls(
+            np.ascontiguousarray(fit.poles, dtype=np.complex128),
+            np.ascontiguousarray(fit.inputs, dtype=np.complex128),
+            np.ascontiguousarray(fit.outputs, dtype=np.complex128),
+            np.zeros((size, size)) if dashpot is None else np.asarray(dashpot, dtype=float),
+        )
+
+    @classmethod
     def from_matrices(
         cls, a: ArrayLike, b: ArrayLike, c: ArrayLike, feedthrough: ArrayLike | None = None, tolerance: float = 1e-6
     ) -> StateSpaceMemory:
@@ -97,13 +133,12 @@ class StateSpaceMemory:
         poles, vectors = np.linalg.eig(matrix)
         modal_inputs = np.linalg.solve(vectors, inputs.astype(np.complex128))
         modal_outputs = outputs @ vectors
-        scale = float(np.max(np.abs(outputs @ inputs)))
-        lost = float(np.max(np.abs((modal_outputs @ modal_inputs).real - outputs @ inputs)))
-        slope = outputs @ matrix @ inputs
-        lost_slope = float(np.max(np.abs(((modal_outputs * poles) @ modal_inputs).real - slope)))
-        if lost > tolerance * scale or lost_slope > tolerance * float(np.max(np.abs(slope))) + tolerance * scale:
+        spread = float(np.linalg.cond(vectors))
+        size_of = float(np.max(np.abs(outputs)) * np.max(np.abs(inputs))) or 1.0
+        lost = float(np.max(np.abs((modal_outputs @ modal_inputs).real - outputs @ inputs))) / size_of
+        if not lost <= tolerance or spread * np.finfo(float).eps > tolerance:
             raise ConvergenceError(
-                f"the memory's state-space model has no usable modal form (kernel off by {lost / scale:.2g})",
+                f"the memory's state-space model has no usable modal form (eigenvectors of condition {spread:.2g})",
                 remedy="fit with fewer states, or use the convolution",
             )
         keep = poles.imag >= 0.0

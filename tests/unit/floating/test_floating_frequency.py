@@ -12,7 +12,6 @@ from moyai.core.errors import InputError
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping, critical_damping
 from moyai.floating.decay import fit_decay
-from moyai.floating.drift import FunctionMooring, LinearMooring, mean_offset
 from moyai.floating.frequency import point_motion, relative_elevation, solve_motions
 from moyai.floating.harmonics import fit_harmonics
 from moyai.floating.irregular import (
@@ -22,6 +21,7 @@ from moyai.floating.irregular import (
     response_statistics,
 )
 from moyai.floating.modes import natural_modes
+from moyai.floating.offset import FunctionMooring, LinearMooring, mean_offset
 
 
 def _body(seed: int, headings: int = 1, size: int = 3) -> tuple[Hydrodynamics, np.ndarray, np.ndarray]:

@@ -1,0 +1,149 @@
+"""Where a steady force holds a body that hangs on nonlinear lines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.floating.arrays import FloatArray, square_matrix
+
+Status = Literal["converged", "not_converged", "interrupted"]
+
+
+class Mooring(Protocol):
+    """What the loop needs of the lines; positions are relative to the rest position, in the modes of the body."""
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return the force (m,) of all lines on the body at the position (m,)."""
+
+    def stiffness(self, position: FloatArray) -> FloatArray:
+        """Return the tangent (m, m), minus the derivative of the force."""
+
+
+@dataclass(frozen=True)
+class LinearMooring:
+    """Springs of constant stiffness."""
+
+    matrix: FloatArray
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return minus stiffness times position."""
+        return -self.matrix @ position
+
+    def stiffness(self, position: FloatArray) -> FloatArray:
+        """Return the constant stiffness."""
+        return self.matrix
+
+
+@dataclass(frozen=True)
+class FunctionMooring:
+    """Lines given by one function ``position -> force``; the tangent by central differences (P3, section 4)."""
+
+    function: Callable[[FloatArray], FloatArray]
+    steps: FloatArray
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return the force of the function."""
+        return np.asarray(self.function(np.asarray(position, dtype=float)), dtype=float)
+
+    def stiffness(self, position: FloatArray) -> FloatArray:
+        """Return minus the central difference of the force."""
+        size = len(self.steps)
+        matrix = np.empty((size, size))
+        for column in range(size):
+            step = np.zeros(size)
+            step[column] = self.steps[column]
+            matrix[:, column] = -(self.force(position + step) - self.force(position - step)) / (
+                2.0 * self.steps[column]
+            )
+        return matrix
+
+
+@dataclass(frozen=True)
+class MeanOffset:
+    """Position under a steady force.
+
+    Parameters
+    ----------
+    position : ndarray (m,)
+        Relative to rest [m, m, rad].
+    residual : float
+        Remaining force over the largest force involved, rows scaled by their stiffness.
+    iterations : int
+    status : {"converged", "not_converged"}
+    """
+
+    position: FloatArray
+    residual: float
+    iterations: int
+    status: Status
+
+
+def mean_offset(
+    mooring: Mooring,
+    hydrostatic_stiffness: ArrayLike,
+    steady_force: ArrayLike,
+    *,
+    start: ArrayLike | None = None,
+    tolerance: float = 1e-10,
+    maximum_iterations: int = 100,
+) -> MeanOffset:
+    """Solve ``F_moor(X) - F_moor(0) - K_H X + F = 0`` [eq:floating-offset].
+
+    Parameters
+    ----------
+    mooring : Mooring
+    hydrostatic_stiffness : array_like (m, m)
+    steady_force : array_like (m,)
+        Drift, wind, current [N, N, N m].
+    start : array_like (m,) or None
+        First guess; ``None`` starts at rest.
+    tolerance : float
+        On the Newton correction relative to the offset, and on the residual relative to the force.
+    maximum_iterations : int
+
+    Returns
+    -------
+    MeanOffset
+        With status ``not_converged`` when there is nothing to hold the body or the search stalls.
+    """
+    load = np.asarray(steady_force, dtype=float)
+    restoring = square_matrix(hydrostatic_stiffness, len(load), "hydrostatic_stiffness")
+    position = np.zeros(len(load)) if start is None else np.array(start, dtype=float)
+    rest = mooring.force(np.zeros(len(load)))
+
+    def residual(at: FloatArray) -> FloatArray:
+        return mooring.force(at) - rest - restoring @ at + load
+
+    if not np.any(load):
+        return MeanOffset(np.zeros(len(load)), 0.0, 0, "converged")
+    value = residual(position)
+    iterations, measure = 0, np.inf
+    # Moment rows are made comparable with force rows through the stiffness at rest
+    diagonal = np.abs(np.diag(restoring + mooring.stiffness(np.zeros(len(load)))))
+    if np.any((diagonal <= 0.0) & (load != 0.0)):
+        return MeanOffset(np.full(len(load), np.nan), np.inf, 0, "not_converged")
+    scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    reference = float(np.linalg.norm(load / scale))
+    while iterations < maximum_iterations:
+        measure = float(np.linalg.norm(value / scale)) / reference
+        if measure <= tolerance:
+            break
+        iterations += 1
+        tangent = (restoring + mooring.stiffness(position)) / (scale[:, None] * scale[None, :])
+        step = np.linalg.lstsq(tangent, value / scale, rcond=1e-14)[0] / scale
+        for halving in range(40):
+            trial = position + step / 2.0**halving
+            trial_value = residual(trial)
+            if np.linalg.norm(trial_value / scale) < np.linalg.norm(value / scale):
+                position, value = trial, trial_value
+                break
+        else:
+            break
+    # Tabulated or iterated line forces are smooth to their own tolerance only
+    status: Status = "converged" if measure <= max(tolerance, 1e-7) else "not_converged"
+    return MeanOffset(position, measure, iterations, status)
