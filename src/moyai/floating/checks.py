@@ -50,7 +50,7 @@ def check_statics(statics: Hydrostatics, *, vertical_pull: float, gravity: float
         notices.append(
             Notice(
                 code="unstable",
-                message=f"metacentric height of {statics.metacentric_height:.3g} m: the free body does not float upright",
+                message=f"metacentric height {statics.metacentric_height:.3g} m: the free body cannot float upright",
                 value=statics.metacentric_height,
                 limit=0.0,
                 severity="error",
