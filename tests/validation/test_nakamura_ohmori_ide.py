@@ -13,7 +13,9 @@ import pytest
 
 from moyai.floating.damping import LinearDamping
 from moyai.floating.far_field import energy_check, far_field
+from moyai.floating.forcing import RegularForcing
 from moyai.floating.frequency import solve_motions
+from moyai.floating.time import CumminsModel, simulate
 from moyai.validation import floating as model
 
 DATA = Path(__file__).parent / "data"
@@ -157,3 +159,26 @@ def test_statements_of_the_paper() -> None:
 def test_cases_of_the_validate_command(case: object) -> None:
     value = case.compute()  # type: ignore[attr-defined]
     assert case.error(value) <= case.tolerance, value  # type: ignore[attr-defined]
+
+
+def test_snapping_chains_at_the_chosen_step() -> None:
+    """Waves of 8 cm at T = 1.6 s pull the chains taut (a hundred times their rest tension) in every period."""
+    hydro, body = model.paper_hydrodynamics(model.period_grid()), model.paper_model()
+    index = model.row(1.60)
+    infinite = hydro.infinite_frequency_added_mass
+    assert infinite is not None
+    damping = LinearDamping.of_modes(critical_fraction=[0.15] * 3).at(
+        body.inertia, hydro.added_mass[index], body.stiffness
+    )
+    cummins = CumminsModel(
+        body.inertia + infinite, body.statics.stiffness, damping, model.paper_memory(), mooring=body.mooring
+    )
+    wave = RegularForcing(
+        float(hydro.omega[index]), 0.04, hydro.excitation[index, 0], np.zeros(3), np.zeros(3), ramp=9.6
+    )
+    chosen = simulate(cummins, wave, duration=32.0, expected_motion=(0.04, 0.03, 0.1))
+    fine = simulate(cummins, wave, duration=32.0, time_step=0.0025)
+    assert "stiffest lines" in chosen.notices[0].message
+    assert chosen.tension.max() > 80.0 * chosen.tension[0].max()
+    assert chosen.tension.max() == pytest.approx(fine.tension.max(), rel=0.01)
+    assert np.abs(chosen.position).max(axis=0) == pytest.approx(np.abs(fine.position).max(axis=0), rel=0.01)
