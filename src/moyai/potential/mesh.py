@@ -23,8 +23,6 @@ from moyai.potential.sections import Chain, Section
 _SHORTEST = 1e-9
 # Places along a panel at which the gap to other edges is looked at
 _SAMPLES = np.linspace(0.0, 1.0, 7)
-# In deep water the local disturbance dies out like 1/x^2 only: longer rays, by this factor
-_DEEP_REACH = 8.0
 # Largest length of a panel times the wave number along the crest
 _LARGEST_CREST = 4.0
 # Largest turn of a circular panel [rad]
@@ -49,6 +47,8 @@ class Resolution:
         Largest length of a panel, in terms of its distance from the corner.
     reach : float
         Wave number times length of the ray: a wave has fallen to exp(-reach / sqrt 2) at its end.
+    deep_reach : float
+        In deep water the local disturbance dies out like 1/x^2 only: longer rays, by this factor.
     """
 
     order: int = 8
@@ -56,16 +56,23 @@ class Resolution:
     corner: float = 1.0
     growth: float = 1.0
     reach: float = 14.0
+    deep_reach: float = 8.0
 
     @classmethod
     def for_accuracy(cls, accuracy: float) -> Resolution:
         """Return the resolution that meets an error relative to the band maximum, by experience with a margin."""
         digits = max(0.0, -math.log10(accuracy) - 3.0)
-        return cls(order=8 + math.ceil(1.5 * digits), reach=4.0 - math.sqrt(2.0) * math.log(accuracy))
+        return cls(
+            order=8 + math.ceil(1.5 * digits),
+            reach=4.0 - math.sqrt(2.0) * math.log(accuracy),
+            deep_reach=8.0 * 10.0 ** (0.5 * digits),
+        )
 
     def refined(self) -> Resolution:
         """Return a finer resolution."""
-        return Resolution(self.order + 2, 0.8 * self.wave, 0.7 * self.corner, self.growth, self.reach + 4.0)
+        return Resolution(
+            self.order + 2, 0.8 * self.wave, 0.7 * self.corner, self.growth, self.reach + 4.0, 4.0 * self.deep_reach
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -299,7 +306,7 @@ def _ray(
     size = min(resolution.corner * around.surface_scale(x), resolution.wave / band[1])
     pieces: list[Piece] = []
     s = 0.0
-    reach = _ray_length(around, band[0], resolution.reach)
+    reach = _ray_length(around, band[0], resolution)
     while s < reach:
         grade = -1 if graded and not pieces else 0
         pieces.append(Piece(x + s * RAY_DIRECTION, size * RAY_DIRECTION, 0.0, grade, RAY, -1))
@@ -308,14 +315,15 @@ def _ray(
     return pieces
 
 
-def _ray_length(around: Surroundings, along: float, reach: float) -> float:
+def _ray_length(around: Surroundings, along: float, resolution: Resolution) -> float:
     """Length [m] at which the wave has died out and the local disturbance as well.
 
     The disturbance falls algebraically, first with the size of the bodies, then with the wave length, until the bed (or
     the kernel of an oblique wave) cuts it off exponentially.
     """
+    reach = resolution.reach
     wave = reach / along
-    disturbance = max(_DEEP_REACH * wave, 5.0 * reach * around.size)
+    disturbance = resolution.deep_reach * max(wave, 0.6 * reach * around.size)
     return max(wave, min(disturbance, 0.4 * reach * around.depth, around.longest * reach / _LARGEST_CREST))
 
 
