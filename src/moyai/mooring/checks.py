@@ -11,6 +11,7 @@ from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.mooring import kernels
 from moyai.mooring.lines import Line, LineElement, LineState
+from moyai.mooring.shape import line_shape
 from moyai.mooring.system import LineSystem
 
 BoxCorners = tuple[tuple[float, float, float], tuple[float, float, float]]
@@ -186,6 +187,21 @@ def _geometry(line: Line, point: np.ndarray, state: LineState, depth: float, lab
                 "check that the anchor type bears uplift, or lengthen the line",
             )
         )
+    buoyant = any(row[2] < 0.0 or row[3] < 0.0 for row in line.table)
+    if buoyant and regime not in slack:
+        highest = float(line_shape(line, point, depth).points[:, 2].max())
+        if highest > max(float(point[2]), 0.0) + 1e-6 * line.length:
+            notices.append(
+                Notice(
+                    "mooring-buoy-above-water",
+                    f"{label}: a buoyant part would stand {highest:.4g} m above the still water {where}; its full "
+                    "buoyancy is overrated",
+                    highest,
+                    0.0,
+                    "warning",
+                    "reduce its buoyancy to what holds it at the surface, or shorten the line below it",
+                )
+            )
     if regime in (kernels.TOUCHES_BETWEEN, kernels.NOT_CONVERGED):
         notices.append(
             Notice(

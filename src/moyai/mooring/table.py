@@ -212,6 +212,7 @@ def tabulate_line(
         xi = np.linspace(*horizontal_range, 9)
     grid = _grid(line, water_depth, xi, z, aligned)
     most_xi, most_z = (_MOST_XI, _MOST_Z) if line.is_uniform else _MOST_SEGMENTED
+    history: list[float] = []
     for _ in range(_ROUNDS):
         xi_mid = 0.5 * (grid.xi[1:] + grid.xi[:-1])
         z_mid = 0.5 * (grid.z[1:] + grid.z[:-1])
@@ -222,6 +223,9 @@ def tabulate_line(
         along = _errors(
             grid, grid.xi[:, None] + grid.reference_at(z_mid), np.broadcast_to(z_mid, (len(grid.xi), len(z_mid)))
         )
+        history.append(float(max(across.max(), along.max())))
+        if len(history) > 7 and history[-1] > 10.0 * tolerance and history[-1] > 0.5 * history[-4]:
+            break  # a sharp bend of the force: more nodes hardly help
         # a cell middle shows most of the error, not all of it
         split_z = along.max(axis=0) > 0.4 * tolerance
         split_xi = across[:, ::2].max(axis=1) > 0.4 * tolerance

@@ -81,6 +81,14 @@ def test_second_contact_is_an_error() -> None:
     assert codes(lines)["mooring-touches-between"] == "error"
 
 
+def test_buoy_that_would_leave_the_water() -> None:
+    chain = LineType("chain", 100.0, 1e8)
+    parts = (Segment(chain, 24.0), Segment(chain, 14.0))
+    for buoyancy, expected in ((2e4, True), (1e3, False)):
+        lines = LineSystem((Line("l", (20.0, 0, -20), (0, 0, -1), parts, (Clump(0, -buoyancy),)),), 20.0)
+        assert ("mooring-buoy-above-water" in codes(lines)) is expected
+
+
 def test_net_force_across_the_section_is_told() -> None:
     chain = LineType("chain", 420.0, 2e8)
     one = Line("a", (90.0, 40.0, -10.0), (5.0, 0.0, -2.0), (Segment(chain, 100.0),))
