@@ -8,13 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gamma, gammaln, ive, jv, roots_gegenbauer
-
-from moyai.potential.extrapolation import extrapolated_limit
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -22,8 +19,7 @@ ComplexArray = NDArray[np.complex128]
 #: Exponents of the velocity at a corner of 270 degrees are -1/3 and +1/3 plus whole numbers: Gegenbauer index minus 1/2
 CORNER_INDICES = (1.0 / 6.0, 5.0 / 6.0)
 
-_RICHARDSON_LEVELS = 5
-_FIRST_LEVEL = 512
+_FEWEST_MODES = 512
 
 
 @dataclass(frozen=True)
@@ -146,6 +142,39 @@ def _table_at_multiples(pairs: int, count: int) -> FloatArray:
     return GapBasis(pairs).cosine_transform(np.asarray(np.pi * np.arange(1, count + 1), dtype=float))
 
 
+@lru_cache(maxsize=8)
+def _tail_rule(pairs: int, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Points, weights and envelopes that sum over all m > count, [eq:reference-tail-sum]."""
+    node, weight = np.polynomial.legendre.leggauss(12)
+    # The midpoint rule backwards: the sum is the integral from count + 1/2 and a 24th of the slope there
+    start = count + 0.5
+    edges = start * 1.6 ** np.arange(72)
+    half = 0.5 * np.diff(edges)
+    points = np.concatenate([(edges[:-1, None] + half[:, None] * (node + 1.0)).ravel(), [count, count + 1.0]])
+    weights = np.concatenate([(half[:, None] * weight).ravel(), [-1.0 / 24.0, 1.0 / 24.0]])
+    return points, weights, _envelope(GapBasis(pairs), points)
+
+
+def _envelope(basis: GapBasis, m: FloatArray) -> FloatArray:
+    """Cosine transforms at m pi less the factor (-1)^m, by Hankel's expansion: smooth functions of m."""
+    x = np.pi * m
+    out = np.empty((basis.size, m.size))
+    for row, (index, degree, scale) in enumerate(zip(basis.index, basis.degree, basis.scale, strict=True)):
+        order = degree + index
+        term, even, odd = np.ones_like(x), np.zeros_like(x), np.zeros_like(x)
+        for k in range(12):
+            sign = -1.0 if k // 2 % 2 else 1.0
+            if k % 2:
+                odd += sign * term
+            else:
+                even += sign * term
+            term = term * (4.0 * order**2 - (2 * k + 1) ** 2) / ((k + 1) * 8.0 * x)
+        shift = 0.5 * np.pi * order + 0.25 * np.pi
+        wave = np.cos(shift) * even + np.sin(shift) * odd
+        out[row] = scale * np.sqrt(2.0 / (np.pi * x)) * wave / x**index
+    return out
+
+
 @dataclass(frozen=True)
 class InnerSums:
     """Sums over the modes m >= 1 below the body, lengths in gap heights.
@@ -174,30 +203,28 @@ def inner_sums(basis: GapBasis, half_beam: float, along: float, symmetric: bool)
     -----
     w is the cosine transform of the edge velocity of the particular solution of roll; that of heave is constant.
     """
-    # Terms follow their asymptotic power series once the hyperbolic tangent is 1 and m is past the highest degree
-    start = max(20.0 / (np.pi * half_beam), (basis.degree.max() + 1.0) ** 2 / np.pi, 4.0 * along / np.pi)
-    first = _FIRST_LEVEL
-    while first < start and first < 65536:
-        first *= 2
-    count = first * 2 ** (_RICHARDSON_LEVELS - 1)
-    table = _table_at_multiples(basis.pairs, count)
+    # Hankel's expansion holds to rounding once m pi exceeds the square of the highest degree by far
+    count = _FEWEST_MODES
+    while count < basis.degree.max() ** 2:
+        count *= 2
     m = np.arange(1, count + 1)
+    table = _table_at_multiples(basis.pairs, count)
+    points, tail_weights, envelope = _tail_rule(basis.pairs, count)
+    weight, roll = _mode_weights(m.astype(float), half_beam, along, symmetric)
+    far_weight, far_roll = _mode_weights(points, half_beam, along, symmetric)
+    far_weight = far_weight * tail_weights
+    roll = roll * (-1.0) ** m
+    return InnerSums(
+        matrix=(table * weight) @ table.T + (envelope * far_weight) @ envelope.T,
+        vector=table @ (weight * roll) + envelope @ (far_weight * far_roll),
+        scalar=float(np.sum(weight * roll**2) + np.sum(far_weight * far_roll**2)),
+    )
+
+
+def _mode_weights(m: FloatArray, half_beam: float, along: float, symmetric: bool) -> tuple[FloatArray, FloatArray]:
+    """2/(kappa T) and the transform of the roll velocity at the edge without its factor (-1)^m."""
     kappa = np.hypot(np.pi * m, along)
     reach = np.tanh(kappa * half_beam)
-    weight = 2.0 / (kappa * reach) if symmetric else 2.0 * reach / kappa
-    roll = np.zeros(count) if symmetric else -((-1.0) ** m) / kappa**2
-    edges = [0, *(first * 2**level for level in range(_RICHARDSON_LEVELS))]
-    matrices, vectors, scalars = [], [], []
-    for start_mode, stop in pairwise(edges):
-        block = table[:, start_mode:stop]
-        weighted = block * weight[start_mode:stop]
-        matrices.append(weighted @ block.T)
-        vectors.append(weighted @ roll[start_mode:stop])
-        scalars.append(float(np.sum(weight[start_mode:stop] * roll[start_mode:stop] ** 2)))
-    index = basis.index
-    # The transform of the constant vanishes at every multiple of pi, so that its sums need no care
-    return InnerSums(
-        matrix=extrapolated_limit(np.cumsum(matrices, axis=0), index[:, None] + index[None, :] + 1.0),
-        vector=extrapolated_limit(np.cumsum(vectors, axis=0), index + 2.5),
-        scalar=float(extrapolated_limit(np.cumsum(scalars, axis=0), 4.0)),
-    )
+    if symmetric:
+        return 2.0 / (kappa * reach), np.zeros_like(kappa)
+    return 2.0 * reach / kappa, -1.0 / kappa**2

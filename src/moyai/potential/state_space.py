@@ -349,7 +349,8 @@ def _rank_terms(residue: ComplexArray, pole: complex, cut: float) -> list[tuple[
     for k, value in enumerate(values):
         if value * factor > cut * abs(pole.real):
             root = math.sqrt(value)
-            terms.append((root * right[k].astype(complex), factor * root * left[:, k].astype(complex)))
+            entry, leaving = right[k] * (root + 0j), left[:, k] * (factor * root + 0j)
+            terms.append((np.asarray(entry, dtype=complex), np.asarray(leaving, dtype=complex)))
     return terms
 
 
