@@ -71,18 +71,20 @@ class Surface:
     elevation: Array
 
 
-def encode_track(values: Array, tolerance: float) -> dict[str, Any]:
+def encode_track(values: Array, tolerance: float, *, everywhere: bool = True) -> dict[str, Any]:
     """Pack many coordinates over many frames as mean + basis x coefficients.
 
-    The principal directions of the motion are kept until no coordinate of any frame is wrong by more than
-    ``tolerance``: water lines and mooring lines move in few ways, so that hundreds of coordinates become a few.
+    The principal directions of the motion are kept until the error is within ``tolerance``. Water and mooring lines
+    move in few ways, so that hundreds of coordinates become a few.
 
     Parameters
     ----------
     values : ndarray, shape (frames, coordinates)
         Finite.
     tolerance : float
-        Largest error allowed, in the unit of the values.
+        Error allowed, in the unit of the values.
+    everywhere : bool
+        Whether the tolerance holds for every coordinate of every frame, or as root mean square over all.
 
     Returns
     -------
@@ -99,7 +101,8 @@ def encode_track(values: Array, tolerance: float) -> dict[str, Any]:
     count = 1
     for count in range(1, vectors.shape[1] + 1):
         rest = rest - np.outer(coefficients[:, count - 1], vectors[:, count - 1])
-        if np.abs(rest).max() <= 0.5 * tolerance:
+        error = np.abs(rest).max() if everywhere else np.sqrt(np.mean(rest**2))
+        if error <= 0.5 * tolerance:
             break
     kept, basis = coefficients[:, :count], vectors[:, :count]
     # half the tolerance is left for the rounding of the coefficients; roundings of several columns add as squares
@@ -227,7 +230,7 @@ def side_view(
         "lines": shown_lines,
         "surface": None
         if surface is None
-        else {"x": encode_array(surface.x), "elevation": encode_track(surface.elevation, 2.5 * tolerance)},
+        else {"x": encode_array(surface.x), "elevation": encode_track(surface.elevation, tolerance, everywhere=False)},
         "bed": bed,
         "extents": {name: [float(bound) for bound in bounds] for name, bounds in extents.items()},
         "window": [float(window[0]), float(window[1])],

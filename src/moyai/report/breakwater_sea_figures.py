@@ -326,7 +326,7 @@ def tension_bars(level: Level) -> Figure | None:
             marks.append(Mark("breaking load", y=100.0, panel=1))
     return Figure(
         key(level, "tension-bars"),
-        "Tension against breaking load",
+        "Tension against breaking load" if len(panels) > 1 else "Largest line tensions",
         (Abscissa("line", "line"),),
         tuple(panels),
         tuple(series),

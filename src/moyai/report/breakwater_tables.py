@@ -288,7 +288,7 @@ def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table
         found = group.real(name, "period", "line")
         if found is not None:
             columns += [
-                Column(f"Largest tension {line}", [float(value) for value in found[:, number]], "N")
+                Column(f"Largest tension {line}", [float(value) for value in found[:, number]], "N", digits=4)
                 for number, line in enumerate(group.labels("line"))
             ]
             break

@@ -322,10 +322,15 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     caption = (
         f"To scale; opened at the governing maximum, t = {moment:.2f} s. The cross is the centre of gravity at rest."
     )
+    if lines and level.group.child("statics").variable("line_shape_x") is None:
+        caption += " Lines: their shape at rest, led along with the fairlead."
     if surface is not None:
+        reflection = level.group.child("rao").array("reflection_coefficient", "omega")
+        phased = reflection is not None and np.iscomplexobj(reflection)
         caption += (
-            " Water: far-field waves of linear theory, incident and reflected before the body, transmitted behind."
+            f" Water: far-field waves of linear theory, incident{' and reflected' if phased else ''} before the body, "
         )
+        caption += "transmitted behind it."
     return Animation(
         key(level, sea.name, record.run.name, "animation"),
         "Animated side view",

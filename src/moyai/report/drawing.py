@@ -14,7 +14,7 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.report.formatting import format_quantity
+from moyai.report.formatting import format_number, trimmed
 
 Array = NDArray[np.float64]
 
@@ -179,6 +179,10 @@ class Sketch:
         )
 
 
+def _metres(length: float) -> str:
+    return f"{trimmed(format_number(length, 4))} m"
+
+
 @dataclass(frozen=True)
 class SectionGeometry:
     """What the drawings of a floating section need, in site axes of the water level [m].
@@ -256,7 +260,7 @@ def mooring_elevation(geometry: SectionGeometry) -> str:
     _line_labels(sketch, geometry, bottom)
     if math.isfinite(depth):
         at = x0 - 0.6 * pad
-        sketch.dimension(at, 0.0, at, bottom, f"h = {format_quantity(depth, 'm')}", offset=0.001)
+        sketch.dimension(at, 0.0, at, bottom, f"h = {_metres(depth)}", offset=0.001)
     sketch.level_mark(x1 + 0.7 * pad, 0.0)
     _axes(sketch, (0.0, 0.0), 46.0)
     wave_x, wave_y = sketch.px(x0 - 0.5 * pad), sketch.pz(max(z1, 0.0)) - 16.0
@@ -282,7 +286,7 @@ def _line_labels(sketch: Sketch, geometry: SectionGeometry, bottom: float) -> No
             continue
         far = max(ends, key=lambda shape: abs(float(shape[0, 0]) - float(shape[-1, 0])))
         a, f = float(far[0, 0]), float(far[-1, 0])
-        sketch.dimension(min(a, f), bottom, max(a, f), bottom, format_quantity(abs(a - f), "m"), offset=30.0)
+        sketch.dimension(min(a, f), bottom, max(a, f), bottom, _metres(abs(a - f)), offset=30.0)
 
 
 def _axes(sketch: Sketch, origin: tuple[float, float], length: float) -> None:
@@ -332,7 +336,7 @@ def section_detail(geometry: SectionGeometry) -> str:
     _motion_signs(sketch, (x0, x1, z0, z1), top)
     if math.isfinite(gz):
         sketch.dot(gx, gz, 4.5, "marker")
-        sketch.text(gx, gz, f"G, z = {format_quantity(gz, 'm')}", shift=(10.0, 15.0), anchor="start")
+        sketch.text(gx, gz, f"G, z = {_metres(gz)}", shift=(10.0, 15.0), anchor="start")
     _axes(sketch, (0.0, 0.0), 60.0)
     return sketch.svg()
 
@@ -357,13 +361,13 @@ def _clipped(shape: Array, near: Array, sketch: Sketch, low: float) -> Array:
 def _dimensions(sketch: Sketch, geometry: SectionGeometry, box: tuple[float, float, float, float]) -> None:
     x0, x1, z0, z1 = box
     if math.isfinite(geometry.beam):
-        sketch.dimension(x0, z0, x1, z0, f"B = {format_quantity(geometry.beam, 'm')}", offset=26.0)
+        sketch.dimension(x0, z0, x1, z0, f"B = {_metres(geometry.beam)}", offset=26.0)
     if math.isfinite(geometry.draught) and z0 < 0:
-        sketch.dimension(x1, 0.0, x1, z0, f"d = {format_quantity(geometry.draught, 'm')}", offset=44.0)
+        sketch.dimension(x1, 0.0, x1, z0, f"d = {_metres(geometry.draught)}", offset=44.0)
     if math.isfinite(geometry.freeboard) and z1 > 0:
-        sketch.dimension(x1, z1, x1, 0.0, f"freeboard {format_quantity(geometry.freeboard, 'm')}", offset=44.0)
+        sketch.dimension(x1, z1, x1, 0.0, f"freeboard {_metres(geometry.freeboard)}", offset=44.0)
     if math.isfinite(geometry.section_height):
-        sketch.dimension(x0, z1, x0, z0, f"D = {format_quantity(geometry.section_height, 'm')}", offset=-44.0)
+        sketch.dimension(x0, z1, x0, z0, f"D = {_metres(geometry.section_height)}", offset=-44.0)
 
 
 def _motion_signs(sketch: Sketch, box: tuple[float, float, float, float], top: float) -> None:

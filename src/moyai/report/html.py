@@ -349,7 +349,10 @@ def notice_text(notice: Notice) -> tuple[str, str]:
     if notice.source:
         parts.append(f"source: {notice.source.strip().rstrip('.')}")
     second = "; ".join(parts)
-    return message[:1].upper() + message[1:], second[:1].upper() + second[1:]
+    first = message.split(" ", 1)[0]
+    if first.isalpha():  # a path of the case file or a name keeps its letters
+        message = message[:1].upper() + message[1:]
+    return message, second[:1].upper() + second[1:]
 
 
 def check_text(check: IdentityCheck) -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-SAMPLES_PER_SHORTEST_PERIOD = 12
-ENERGY_KEPT = 0.9995
+SAMPLES_PER_SHORTEST_PERIOD = 8
+ENERGY_KEPT = 0.995  # the shortest ripples are below a pixel
 
 
 def travelling_surface(
@@ -65,7 +66,7 @@ def travelling_surface(
     count = min(int(np.searchsorted(energy, ENERGY_KEPT * energy[-1])) + 2, spectrum.size)
     spectrum, frequency = spectrum[:count], frequency[:count]
     k, reflected, transmitted = _coefficients(frequency, omega, wave_number, reflection, transmission)
-    length = max(SAMPLES_PER_SHORTEST_PERIOD * count, 16)
+    length = 1 << math.ceil(math.log2(max(SAMPLES_PER_SHORTEST_PERIOD * count, 16)))  # powers of two transform fast
     coarse = times[0] + np.arange(length) * (closed.size * step / length)
     out = np.empty((wanted.size, places.size))
     for number, place in enumerate(places):

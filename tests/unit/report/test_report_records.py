@@ -75,6 +75,9 @@ def test_tracks_keep_their_tolerance(seed: int) -> None:
         coded = encode_track(values, tolerance)
         assert np.abs(decode_track(coded) - values).max() <= tolerance
         assert len(coded["basis"]) <= min(ways, places)
+        rough = encode_track(values, tolerance, everywhere=False)
+        assert np.sqrt(np.mean((decode_track(rough) - values) ** 2)) <= tolerance
+        assert len(rough["basis"]) <= len(coded["basis"])
 
 
 def test_frames_are_dense_in_the_window_and_hit_the_maximum() -> None:
