@@ -153,8 +153,6 @@ def run(
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
 
-        # Whoever ends the program politely gets the partial result as with Ctrl-C
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
         started = time.perf_counter()
         case = load_case(file)
         folder = prepare_output(output if output is not None else Path("out") / file.stem)
@@ -232,6 +230,8 @@ def _write_text(path: Path, text: str, force: bool) -> None:
 def main() -> None:
     """Entry point of the ``moyai`` command."""
     prepare_streams()
+    # Whoever ends the program politely gets the partial result as with Ctrl-C
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     arguments = sys.argv[1:]
     if "--debug" in arguments:
         # Accepted at any place, since it is wanted after the fact

@@ -1,0 +1,63 @@
+"""Ctrl-C leaves a readable partial result and the exit code 1."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from moyai.case.reader import load_case
+from moyai.case.templates import template
+from moyai.cli.runner import run
+from moyai.core.results import read_result
+
+
+@pytest.fixture
+def case_file(tmp_path):
+    path = tmp_path / "pontoon.yaml"
+    path.write_text(template("breakwater"), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("stop_after", [1, 3])
+def test_an_interrupt_hands_back_what_there_is(case_file, tmp_path, stop_after):
+    steps = []
+
+    def listen(what, done, total):
+        steps.append((what, done, total))
+        assert total > 0
+        if len(steps) > stop_after:
+            raise KeyboardInterrupt
+
+    result = run(load_case(case_file), listen)
+    assert result.status == "interrupted"
+    again = read_result(result.write(tmp_path / "results.nc"))
+    assert again.status == "interrupted"
+    assert again.provenance["title"] == "Floating breakwater"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of another process differ there")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_signals_end_a_long_run_with_a_partial_result(case_file, tmp_path, number):
+    """A run of many long seas is stopped in the middle; what was finished can be read."""
+    text = template("breakwater").replace(
+        "periods: {from: 3 s, to: 8 s, count: 11}", "periods: {from: 3 s, to: 8 s, count: 400}"
+    )
+    case_file.write_text(text, encoding="utf-8")
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "moyai.cli.main", "run", str(case_file), "--output", str(out), "--no-report"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ))
+    deadline = time.monotonic() + 120.0
+    while not out.exists() and time.monotonic() < deadline:
+        time.sleep(0.1)
+    time.sleep(6.0)
+    process.send_signal(number)
+    output, errors = process.communicate(timeout=120)
+    assert process.returncode == 1, errors
+    assert b"Traceback" not in errors
+    assert b"interrupted" in output
+    assert read_result(out / "results.nc").status == "interrupted"
+    assert [path.name for path in out.iterdir()] == ["results.nc"]

@@ -1,0 +1,98 @@
+"""``moyai validate``: the record of every case, and the exit code."""
+
+import json
+import math
+
+import pytest
+from typer.testing import CliRunner
+
+from moyai.cli import validation
+from moyai.cli.main import app
+from moyai.cli.validation import choose, compute, topics
+from moyai.core.errors import InputError
+from moyai.core.validation import ValidationCase
+
+runner = CliRunner()
+
+
+def broken():
+    raise RuntimeError("no such file")
+
+
+GOOD = ValidationCase("circle: pi", "exact", lambda: 3.1416, math.pi, 1e-5)
+ABSOLUTE = ValidationCase("zero: nothing", "identity", lambda: 1e-12, 0.0, 1e-10, relative=False)
+WRONG = ValidationCase("circle: wrong", "exact", lambda: 3.0, math.pi, 1e-5)
+BROKEN = ValidationCase("circle: broken", "exact", broken, math.pi, 1e-5)
+UNKNOWN = ValidationCase("circle: nan", "exact", lambda: math.nan, math.pi, 1e9)
+
+
+@pytest.fixture
+def cases(monkeypatch):
+    def use(*chosen):
+        monkeypatch.setattr(validation, "choose", lambda only: [("circle", case) for case in chosen])
+
+    return use
+
+
+def test_records_have_the_agreed_keys(cases):
+    cases(GOOD, ABSOLUTE)
+    found = runner.invoke(app, ["validate", "--json"])
+    assert found.exit_code == 0
+    first, second = json.loads(found.stdout)["cases"]
+    assert first == {
+        "name": "circle: pi",
+        "source": "exact",
+        "value": 3.1416,
+        "reference": math.pi,
+        "error": abs(3.1416 - math.pi) / math.pi,
+        "tolerance": 1e-5,
+        "passed": True,
+    }
+    assert second["error"] == 1e-12
+
+
+@pytest.mark.parametrize("bad", [WRONG, BROKEN, UNKNOWN])
+def test_one_failure_ends_with_one_and_hides_nothing(cases, bad):
+    cases(GOOD, bad, ABSOLUTE)
+    found = runner.invoke(app, ["validate", "--json"])
+    assert found.exit_code == 1
+    assert [record["passed"] for record in json.loads(found.stdout)["cases"]] == [True, False, True]
+    table = runner.invoke(app, ["validate"])
+    assert table.exit_code == 1
+    assert "2 of 3 cases passed" in table.stdout
+    assert bad.name in table.stdout
+    quiet = runner.invoke(app, ["validate", "--quiet"])
+    assert GOOD.name not in quiet.stdout
+    assert bad.name in quiet.stdout
+    if bad is BROKEN:
+        assert "RuntimeError: no such file" in table.stdout
+
+
+def test_values_that_are_not_numbers_are_null_in_json(cases):
+    cases(UNKNOWN)
+    record = json.loads(runner.invoke(app, ["validate", "--json"]).stdout)["cases"][0]
+    assert record["value"] is None
+    assert record["error"] is None
+    assert record["passed"] is False
+
+
+def test_progress_is_told():
+    told = []
+    compute([("circle", GOOD), ("circle", WRONG)], lambda what, done, total: told.append((done, total)))
+    assert told == [(0, 2), (1, 2), (2, 2)]
+
+
+def test_topics_are_the_modules_and_their_names_are_unique():
+    assert topics()
+    names = [case.name for _, case in choose(())]
+    assert len(names) == len(set(names))
+    for topic in topics():
+        assert all(found == topic for found, _ in choose([topic]))
+
+
+def test_an_unknown_topic_is_refused():
+    with pytest.raises(InputError, match="unknown topic 'flotaing'"):
+        choose(["flotaing"])
+    found = runner.invoke(app, ["validate", "--only", "flotaing"])
+    assert found.exit_code == 2
+    assert "allowed: " in found.stderr
