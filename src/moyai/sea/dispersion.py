@@ -24,21 +24,23 @@ _ITERATIONS = 60
 def relative_depth_scalar(deep_relative_depth: float) -> float:
     """Solve y tanh y = x for y = kh, given x = omega^2 h / g [eq:sea-dispersion].
 
-    Newton's method on a guess that is within 3 % everywhere (Guo's form); the correction is computed from the
+    Halley's method on a guess that is within 1 % everywhere (Guo's form); the correction is computed from the
     residual itself, so the last step leaves rounding only.
     """
     x = deep_relative_depth
     if x <= 0.0:
         return 0.0
-    y = x * (-math.expm1(-(x**1.25))) ** -0.4 if x > 1e-3 else math.sqrt(x)
+    y = x * (-math.expm1(-x * math.sqrt(math.sqrt(x)))) ** -0.4 if x > 1e-3 else math.sqrt(x)
     for _ in range(_ITERATIONS):
         t = math.tanh(y)
-        # beyond y = 20 the term y sech^2 y is below rounding, and 1 - t*t would be noise there
-        slope = t + y * (1.0 - t) * (1.0 + t)
-        step = (y * t - x) / slope
+        # sech^2 as a product: 1 - t*t would be noise in deep water
+        bend = (1.0 - t) * (1.0 + t)
+        slope = t + y * bend
+        residual = y * t - x
+        step = residual * slope / (slope * slope - residual * bend * (1.0 - y * t))
         y -= step
-        if abs(step) <= 1e-9 * y:
-            # quadratic convergence: what is left after this step is of the order of step^2
+        if abs(step) <= 1e-6 * y:
+            # third order: what is left after this step is of the order of step^3
             break
     return y
 

@@ -112,6 +112,9 @@ def linear_velocity_acceleration(
     """
     count = omega.size
     cosines, sines = np.cos(heading), np.sin(heading)
+    # 1 - e^{-2kh} belongs to the component, not to the node
+    whole = -np.expm1(-2.0 * wave_number * water_depth)
+    endless = math.isinf(water_depth)
     for node in range(x.size):
         level = z[node]
         if stretching == 2:
@@ -121,12 +124,17 @@ def linear_velocity_acceleration(
                 eta += amplitude[i] * math.cos(wave_number[i] * along - omega[i] * time + phase[i])
             level = wheeler_elevation_scalar(level, eta, water_depth)
         above = level if (stretching == 1 and level > 0.0) else 0.0
+        level = min(max(level, -water_depth), 0.0)
         eta = u = v = w = du = dv = dw = 0.0
         for i in range(count):
             k, sigma = wave_number[i], intrinsic_omega[i]
             argument = k * (x[node] * cosines[i] + y[node] * sines[i]) - omega[i] * time + phase[i]
             real, imaginary = amplitude[i] * math.cos(argument), amplitude[i] * math.sin(argument)
-            horizontal, vertical, _ = depth_functions_scalar(k, water_depth, level)
+            horizontal = vertical = math.exp(k * level)
+            if not endless:
+                # the depth functions of depth_functions_scalar [eq:sea-depth-functions]
+                sinh_part = -math.expm1(-2.0 * k * (level + water_depth))
+                horizontal, vertical = horizontal * (2.0 - sinh_part) / whole[i], vertical * sinh_part / whole[i]
             if above > 0.0:
                 # the slope of each function at z = 0 is k times the other one
                 horizontal, vertical = horizontal + above * k * vertical, vertical + above * k * horizontal

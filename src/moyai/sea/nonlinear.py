@@ -110,9 +110,10 @@ def _raised_to_crest(amplitudes: Array, elevation: Array, wave_number: float, de
 
 def _guarded(solve: Callable[[float], _Solution], length: float) -> _Solution:
     """Turn every way in which raschii can fail into one error."""
-    import raschii
+    from raschii.common import NonConvergenceError
 
-    failures = (raschii.common.RaschiiError, np.linalg.LinAlgError, ArithmeticError, ValueError)
+    # the base of raschii's errors changed its spelling between releases
+    failures = (NonConvergenceError, *NonConvergenceError.__bases__, np.linalg.LinAlgError, ArithmeticError, ValueError)
     try:
         with np.errstate(all="ignore"):
             solution = solve(length)
