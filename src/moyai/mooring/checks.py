@@ -23,6 +23,7 @@ def check_line_system(
     *,
     body_box: BoxCorners | None = None,
     initial: bool = True,
+    still_water: float = 0.0,
     path: str = "lines",
 ) -> tuple[Notice, ...]:
     """Check every line of a system at one body position.
@@ -37,6 +38,8 @@ def check_line_system(
         Lowest and highest corner (x, y, z) [m] of the body at rest, site axes: anchors inside it are faults.
     initial : bool
         Whether the position is the one of installation (words of the findings).
+    still_water : float
+        z of the still water in the axes of the system [m], for systems whose origin is elsewhere.
     path : str
         Path of the lines in the case, for the messages.
 
@@ -56,19 +59,19 @@ def check_line_system(
         state = line.solve(point[None, :], system.water_depth)
         notices += _strength(line, state, label, where)
         notices += _anchor_in_body(line, body_box, label)
-        if point[2] > 0.0:
+        if point[2] > still_water:
             notices.append(
                 Notice(
                     "mooring-fairlead-dry",
-                    f"{label}: the fairlead stands {point[2]:.3g} m above the still water; the weight in water is "
-                    "taken for the whole line",
-                    float(point[2]),
+                    f"{label}: the fairlead stands {point[2] - still_water:.3g} m above the still water; the weight in "
+                    "water is taken for the whole line",
+                    float(point[2] - still_water),
                     0.0,
                     "information",
                 )
             )
         if isinstance(line, Line):
-            notices += _geometry(line, point, state, system.water_depth, label, where)
+            notices += _geometry(line, point, state, system.water_depth, still_water, label, where)
     return tuple(notices)
 
 
@@ -144,7 +147,9 @@ def _anchor_in_body(line: LineElement, box: BoxCorners | None, label: str) -> li
     ]
 
 
-def _geometry(line: Line, point: np.ndarray, state: LineState, depth: float, label: str, where: str) -> list[Notice]:
+def _geometry(
+    line: Line, point: np.ndarray, state: LineState, depth: float, still_water: float, label: str, where: str
+) -> list[Notice]:
     notices = []
     regime = int(state.regime[0])
     reach = math.hypot(point[0] - line.anchor[0], point[1] - line.anchor[1])
@@ -189,8 +194,8 @@ def _geometry(line: Line, point: np.ndarray, state: LineState, depth: float, lab
         )
     buoyant = any(row[2] < 0.0 or row[3] < 0.0 for row in line.table)
     if buoyant and regime not in slack:
-        highest = float(line_shape(line, point, depth).points[:, 2].max())
-        if highest > max(float(point[2]), 0.0) + 1e-6 * line.length:
+        highest = float(line_shape(line, point, depth).points[:, 2].max()) - still_water
+        if highest > max(float(point[2]) - still_water, 0.0) + 1e-6 * line.length:
             notices.append(
                 Notice(
                     "mooring-buoy-above-water",

@@ -234,6 +234,7 @@ def _match_height(
     floor: float,
     scale: float,
     span: float,
+    accuracy: float,
     data: FloatArray,
     bed: bool,
     friction: float,
@@ -248,7 +249,7 @@ def _match_height(
     for k in range(200):
         walk(h, q, data, bed, friction, state, piece)
         off = state[_Z] - z
-        if abs(off) <= 1e-15 * span:
+        if abs(off) <= accuracy * span:
             return q
         if off > 0.0:
             high = q
@@ -271,6 +272,44 @@ def _match_height(
             return q
         q = new
     return q
+
+
+@njit(cache=True, error_model="numpy")
+def _quick(
+    x: float,
+    z: float,
+    data: FloatArray,
+    bed: bool,
+    friction: float,
+    start: float,
+    floor: float,
+    scale: float,
+    span: float,
+    state: FloatArray,
+    piece: FloatArray,
+) -> tuple[float, float, float, bool]:
+    """Newton in both unknowns from a guess of H; gives up at the first sign of trouble. (H, q, residual, success)."""
+    h = start
+    q = _match_height(h, z, 0.0, floor, scale, span, 1e-3, data, bed, friction, state, piece)
+    before = np.inf
+    for _ in range(12):
+        walk(h, q, data, bed, friction, state, piece)
+        off_x = state[_X] - x
+        off_z = state[_Z] - z
+        miss = max(abs(off_x), abs(off_z)) / span
+        if not miss < 2.0 * before:
+            break
+        determinant = state[_F11] * state[_F22] - state[_F12] * state[_F21]
+        dh = -(off_x * state[_F22] - off_z * state[_F12]) / determinant
+        dq = -(off_z * state[_F11] - off_x * state[_F21]) / determinant
+        if miss < 1e-15 or (miss < 1e-13 and miss > 0.2 * before):
+            return h, q, miss, True
+        before = miss
+        if not (dh > -0.8 * h and dh < 4.0 * h and q + dq > floor):
+            break
+        h += dh
+        q += dq
+    return h, q, np.inf, False
 
 
 @njit(cache=True, error_model="numpy")
@@ -317,7 +356,11 @@ def solve_segments(
     chord = np.hypot(x, z)
     if scale == 0.0:
         return _weightless(x, z, chord, span, data, state)
-    q = _match_height(0.0, z, 0.0, floor, scale, span, data, bed, friction, state, piece)
+    if start > 0.0 and x > 0.0:
+        h, q, miss, found = _quick(x, z, data, bed, friction, start, floor, scale, span, state, piece)
+        if found:
+            return h, q, miss, GROUNDED if state[_GROUND] > 0.0 else (STRETCHED if chord > span else SUSPENDED)
+    q = _match_height(0.0, z, 0.0, floor, scale, span, 1e-15, data, bed, friction, state, piece)
     ground = state[_GROUND]
     if x <= ground + 1e-16 * span:
         taut = abs(z) > span and ground == 0.0
@@ -336,7 +379,7 @@ def solve_segments(
     best = np.inf
     converged = False
     for k in range(200):
-        q = _match_height(h, z, q, floor, scale, span, data, bed, friction, state, piece)
+        q = _match_height(h, z, q, floor, scale, span, 1e-15, data, bed, friction, state, piece)
         off = state[_X] - x
         if off > 0.0:
             high = h

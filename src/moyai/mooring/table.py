@@ -21,7 +21,7 @@ from moyai.mooring.system import LineSystem
 
 _BINS = 512
 _MOST_XI, _MOST_Z = 600, 120
-_MOST_SEGMENTED = 200, 48
+_MOST_SEGMENTED = 300, 64
 _ROUNDS = 24
 
 
@@ -224,7 +224,7 @@ def tabulate_line(
             grid, grid.xi[:, None] + grid.reference_at(z_mid), np.broadcast_to(z_mid, (len(grid.xi), len(z_mid)))
         )
         history.append(float(max(across.max(), along.max())))
-        if len(history) > 7 and history[-1] > 10.0 * tolerance and history[-1] > 0.5 * history[-4]:
+        if len(history) > 4 and history[-1] > 10.0 * tolerance and history[-1] > 0.3 * history[-3]:
             break  # a sharp bend of the force: more nodes hardly help
         # a cell middle shows most of the error, not all of it
         split_z = along.max(axis=0) > 0.4 * tolerance
