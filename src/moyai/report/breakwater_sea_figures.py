@@ -311,7 +311,7 @@ def tension_bars(level: Level) -> Figure | None:
                     break
             if found is not None and found.size == len(lines):
                 entries.append((f"{name}, {words}", found))
-    if not entries or not lines:
+    if not lines or all(words == "at rest" for words, _ in entries):
         return None
     factor, unit = common_scale("N", *(values for _, values in entries))
     panels = [Panel("largest tension", unit, from_zero=True)]

@@ -137,7 +137,7 @@ def derived_numbers(levels: Sequence[Level]) -> Table | None:
         (
             f"Steady {mode} under wind and current",
             _turn(mode, "m", "rad"),
-            [g.value("steady_offset", dof=mode) for g in groups],
+            [_settled(g.value("steady_offset", dof=mode)) for g in groups],
         )
         for mode in MODES
     ]
@@ -157,6 +157,11 @@ def derived_numbers(levels: Sequence[Level]) -> Table | None:
             )
         )
     return Table("derived-numbers", "Body and water at rest", tuple(columns))
+
+
+def _settled(value: float) -> float:
+    """Take an offset below a hundredth of a millimetre for what a solver leaves over."""
+    return 0.0 if abs(value) < 1e-5 else value
 
 
 def _turn(mode: str, straight: str, turning: str) -> str:
@@ -228,7 +233,7 @@ def natural_periods(level: Level) -> Table | None:
         key(level, "natural-periods"),
         "Natural periods",
         tuple(columns),
-        note="A dash: no restoring force, no natural period.",
+        note="A dash or ∞: no restoring force, no natural period.",
     )
 
 

@@ -356,7 +356,7 @@ def _moving_lines(
         if name in record.lines:
             values = record.tension[:, record.lines.index(name)]
             if np.isfinite(values).any():
-                tension, maximum = np.interp(times, record.time, values), float(np.nanmax(values))
+                tension, maximum = np.interp(times, record.time, values), float(np.fmax.reduce(values[record.begin :]))
         lines.append(MovingLine(name, path, tension, maximum, float(known.get(name, math.nan))))
     return tuple(lines)
 

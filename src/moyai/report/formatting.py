@@ -191,7 +191,7 @@ def trimmed(text: str) -> str:
 def subscripted(text: str) -> str:
     """Write K_T and its like with a lowered letter of Unicode, for media without markup."""
     lowered = {"T": "ₜ", "R": "ᵣ"}
-    return re.sub(r"\bK_([TR])", lambda match: "K" + lowered[match.group(1)], text)
+    return re.sub(r"\bK_([TR])(?![A-Za-z])", lambda match: "K" + lowered[match.group(1)], text)
 
 
 def format_quantity(value: float, unit: str, digits: int = 3) -> str:

@@ -1,6 +1,6 @@
 // Figures: each is a small table of data with drawing instructions; plotly draws it, the buttons hand the data out.
 "use strict";
-MOYAI.escape = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/\b([KC])_([TRg])\b/g, "$1<sub>$2</sub>");
+MOYAI.escape = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/\b([KC])_([TRg])(?![A-Za-z])/g, "$1<sub>$2</sub>");
 
 MOYAI.theme = (paper) => {
   const html = document.documentElement, had = html.classList.contains("paper");
@@ -55,7 +55,7 @@ class Figure {
     const n = this.spec.panels.length, gap = n > 1 ? 0.045 : 0, share = (1 - gap * (n - 1)) / n;
     const axisStyle = { gridcolor: theme.rule, linecolor: theme.muted, zerolinecolor: theme.muted, zerolinewidth: 1, ticks: "outside", tickcolor: theme.muted, ticklen: 4, showline: true, mirror: true, automargin: true, exponentformat: "none" };
     const layout = {
-      paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", barmode: "group", bargap: 0.35, dragmode: "zoom",
+      paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", barmode: "group", bargap: 0.35, separators: ".\u2009", dragmode: "zoom",
       font: { family: getComputedStyle(document.body).fontFamily, size: 12, color: theme.ink },
       margin: { l: 64, r: 14, t: 30, b: 46 }, hovermode: this.spec.categories.length ? "closest" : "x unified",
       hoverlabel: { bgcolor: theme.page, bordercolor: theme.rule, font: { color: theme.ink } },
@@ -114,7 +114,7 @@ class Figure {
     if (this.range === undefined && this.abscissa === this.spec.abscissae[0]) this.range = this.spec.window || null;
     const layout = this.layout(theme);
     layout.width = MOYAI.printing ? 672 : undefined;
-    layout.height = MOYAI.printing ? Math.round(0.76 * this.spec.height) : this.spec.height;
+    layout.height = MOYAI.printing ? Math.round(0.86 * this.spec.height) : this.spec.height;
     this.plot.style.height = `${layout.height}px`;
     layout.autosize = !MOYAI.printing;
     Plotly.react(this.plot, this.traces(theme), layout, { displayModeBar: false, responsive: true, doubleClick: "reset+autosize" });
