@@ -80,7 +80,7 @@ def jonswap(
     normalisation : {"quadrature", "goda", "goda_significant"}
         ``quadrature`` makes 4 sqrt(m_0) equal to ``significant_height`` to rounding [eq:sea-jonswap]. ``goda`` uses
         Goda's approximate factor 0.0624 / (0.230 + 0.0336 gamma - 0.185 / (1.9 + gamma)), whose H_m0 is right within
-        0.2 % for gamma up to 7. ``goda_significant`` multiplies it by (1.094 - 0.01915 ln gamma), as design manuals
+        0.3 % for gamma up to 7. ``goda_significant`` multiplies it by (1.094 - 0.01915 ln gamma), as design manuals
         print it, because H_1/3 of the zero-crossing analysis is smaller than H_m0: the resulting H_m0 is 3 to 5 %
         above the height given [eq:sea-goda-factor].
     sigma_low, sigma_high : float

@@ -182,6 +182,27 @@ def test_long_and_steep_waves_are_reached():
         assert max(wave.surface_residuals()) < 1e-3
 
 
+@pytest.mark.slow
+def test_nearly_all_random_waves_are_found_by_length_and_by_period():
+    """Up to 97 % of the highest wave, kh from 0.12 to 32; what is refused is long and within 8 % of the highest."""
+    rng = np.random.default_rng(99)
+    refused = []
+    for _ in range(400):
+        depth, kh = 10.0 ** rng.uniform(-1.0, 3.0), 10.0 ** rng.uniform(math.log10(0.12), 1.5)
+        length, share = 2.0 * math.pi * depth / kh, rng.uniform(0.02, 0.97)
+        height, water = share * highest_steady_wave(length, depth), Water(depth, 1025.0, 9.81)
+        try:
+            wave = nonlinear_wave("stream_function", height=height, wavelength=length, water=water)
+            again = nonlinear_wave("stream_function", height=height, period=wave.period, water=water)
+        except ConvergenceError:
+            refused.append((share, kh))
+            continue
+        assert max(wave.surface_residuals()) < 1e-3
+        assert again.wavelength == pytest.approx(length, rel=1e-6)
+    assert len(refused) <= 6
+    assert all(share > 0.9 and kh < 0.35 for share, kh in refused)
+
+
 def test_solitary_limit_of_long_waves():
     """c^2 = g (h + H) to second order for a long wave that is nearly solitary (Boussinesq; Laitone)."""
     water = Water(1.0, 1000.0, 9.81)

@@ -63,7 +63,7 @@ def test_peak_enhancement_is_the_ratio_at_the_peak():
 def test_goda_forms_are_near_the_quadrature():
     for enhancement in np.linspace(1.0, 7.0, 13):
         plain = spectra.jonswap(3.0, 9.0, enhancement, normalisation="goda")
-        assert plain.significant_height == pytest.approx(3.0, rel=0.002)
+        assert plain.significant_height == pytest.approx(3.0, rel=0.003)
         zero = spectra.jonswap(3.0, 9.0, enhancement, normalisation="goda_significant")
         expected = math.sqrt(1.094 - 0.01915 * math.log(enhancement))
         assert zero.significant_height / plain.significant_height == pytest.approx(expected, rel=1e-12)
