@@ -138,17 +138,22 @@ def choose_tail(
             return Tail("theory", start, exponents, (*terms, *pair), reason)
     if abs(value) < _NEGLIGIBLE * largest:
         return Tail("negligible", start, (8.0,), (value,), f"{abs(value) / largest:.1e} of the largest at the end")
+    ratio = start / omega[upper]
+    height = float(np.max(np.abs(damping[upper])))
     pair = _matched_pair(value, slope * start, 3.0)
-    guess = pair[0] * (start / omega) ** 3 + pair[1] * (start / omega) ** 5
-    error = float(np.max(np.abs(guess - damping)[upper]) / np.max(np.abs(damping[upper])))
-    if error < _TRUST:
-        return Tail("series", start, (3.0, 5.0), pair, f"omega^-3, omega^-5 match the last values to {error:.1e}")
+    error = float(np.max(np.abs(pair[0] * ratio**3 + pair[1] * ratio**5 - damping[upper]))) / height
     local = -slope * start / value if value else 0.0
-    if local < 3.0:
+    if local >= 3.0:
+        exponent = min(local, _STEEPEST)
+        alone = float(np.max(np.abs(value * ratio**exponent - damping[upper]))) / height
+        if alone < error:
+            reason = f"slope of the last values, omega^-{local:.1f}, within {alone:.1e}"
+            return Tail("power", start, (exponent,), (value,), reason)
+    if error < _TRUST:
+        reason = f"omega^-3, omega^-5 match the last values to {error:.1e}"
+    else:
         reason = f"no law fits (slope omega^{-local:.1f}): omega^-3, omega^-5 matched in value and slope"
-        return Tail("series", start, (3.0, 5.0), pair, reason)
-    exponent = min(local, _STEEPEST)
-    return Tail("power", start, (exponent,), (value,), f"slope of the last values: omega^-{local:.1f}")
+    return Tail("series", start, (3.0, 5.0), pair, reason)
 
 
 def _matched_pair(value: float, slope: float, exponent: float) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from moyai.core.errors import InputError
 from moyai.potential.damping_model import DampingModel
@@ -18,6 +18,7 @@ from moyai.potential.state_space import StateSpace
 FloatArray = NDArray[np.float64]
 
 _FIFTH = 5
+_ROUNDS = 14
 
 
 def decay_by_frequency(
@@ -28,7 +29,8 @@ def decay_by_frequency(
     model: DampingModel,
     infinite_frequency_added_mass: ArrayLike,
     *,
-    points: int = 1200,
+    points: int = 300,
+    tolerance: float = 1e-8,
 ) -> FloatArray:
     """Return the motion (t, m) by the inverse Fourier transform of the transfer function.
 
@@ -44,34 +46,49 @@ def decay_by_frequency(
         Damping at every frequency; the added mass comes from its Hilbert transform.
     infinite_frequency_added_mass : array_like (m, m)
     points : int
-        Frequencies of the integral; resonances must be resolved.
+        Frequencies to begin with.
+    tolerance : float
+        Frequencies are added until the integrand is interpolated to this share of its largest value.
     """
     x0, m, c = (np.asarray(item, dtype=float) for item in (offset, mass, stiffness))
     infinite = np.asarray(infinite_frequency_added_mass, dtype=float)
     if m.shape != c.shape or m.shape != infinite.shape or x0.shape != m.shape[:1]:
         raise InputError("offset, mass, stiffness and added mass do not belong together", path="mass")
-    last = 3.0 * model.knots[-1]
-    # dense around the natural frequencies, which lie in the lower part of the band
-    omega = last * np.linspace(0.0, 1.0, points + 1) ** 2
-    positive = omega[1:]
-    impedance = (
-        c
-        - positive[:, None, None] ** 2 * (m + infinite + model.added_mass_excess(positive))
-        + 1j * positive[:, None, None] * model.damping(positive)
-    )
-    velocity = np.linalg.solve(impedance, np.broadcast_to(-(c @ x0)[None, :, None], (points, len(x0), 1)))[..., 0]
-    density = velocity.imag / positive[:, None]
-    # even in frequency: mirrored data fix the start
-    spline = make_interp_spline(
-        np.concatenate([-positive[::-1], positive]), np.concatenate([density[::-1], density]), k=_FIFTH
-    )
-    pieces = np.empty((6, points, len(x0)))
-    middle = 0.5 * (omega[:-1] + omega[1:])
+
+    def density(frequency: FloatArray) -> FloatArray:
+        w = frequency[:, None, None]
+        impedance = c - w**2 * (m + infinite + model.added_mass_excess(frequency)) + 1j * w * model.damping(frequency)
+        right = np.broadcast_to(-(c @ x0)[None, :, None], (len(frequency), len(x0), 1))
+        return np.asarray(np.linalg.solve(impedance, right)[..., 0].imag / frequency[:, None])
+
+    omega = 3.0 * model.knots[-1] * np.linspace(0.0, 1.0, points + 1)[1:] ** 2
+    values = density(omega)
+    for _ in range(_ROUNDS):
+        # halve the intervals in which the spline misses the middle: lightly damped resonances are narrow
+        middle = 0.5 * (np.concatenate([[0.0], omega[:-1]]) + omega)
+        exact = density(middle)
+        miss = np.abs(_even_spline(omega, values)(middle) - exact).max(axis=1)
+        poor = miss > tolerance * np.abs(values).max()
+        if not poor.any():
+            break
+        grown = np.concatenate([omega, middle[poor]])
+        order = np.argsort(grown)
+        omega, values = grown[order], np.concatenate([values, exact[poor]])[order]
+    spline = _even_spline(omega, values)
+    knots = np.concatenate([[0.0], omega])
+    pieces = np.empty((6, len(omega), len(x0)))
     factor = 1.0
     for power in range(6):
         factor *= max(power, 1)
-        pieces[power] = spline(middle if power == _FIFTH else omega[:-1], power) / factor
-    return 2.0 / np.pi * fourier_integral(omega, pieces, time).real
+        # the fifth derivative jumps at the knots
+        pieces[power] = spline(0.5 * (knots[:-1] + knots[1:]) if power == _FIFTH else knots[:-1], power) / factor
+    return np.asarray(2.0 / np.pi * fourier_integral(knots, pieces, time).real)
+
+
+def _even_spline(omega: FloatArray, values: FloatArray) -> BSpline:
+    """Spline of fifth degree; the data are even in frequency and mirrored, which fixes the start."""
+    x = np.concatenate([-omega[::-1], omega])
+    return make_interp_spline(x, np.concatenate([values[::-1], values]), k=_FIFTH)
 
 
 def decay_by_states(

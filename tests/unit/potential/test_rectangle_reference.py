@@ -142,7 +142,7 @@ def test_long_waves_and_low_frequencies():
 
 
 def test_thin_plate_without_gravity_has_the_added_mass_of_the_strip():
-    # both sides of a vertical plate under phi = 0, over rho d^2: Galerkin values of an independent calculation, and 2/pi
+    # both sides of a vertical plate under phi = 0, over rho d^2: values of an independent Galerkin calculation, 2/pi
     table = {0.4: 0.6374, 0.5: 0.6386, 0.6: 0.6411, 0.7: 0.6464, 0.8: 0.6574, 0.9: 0.6837}
     for ratio, expected in table.items():
         solution = solve_rectangle(1e-5, ratio, Water(1.0, 1.0, G), 1.0, centre=(0.0, 0.0))
