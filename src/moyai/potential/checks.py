@@ -91,11 +91,7 @@ def gap_notices(section: Section, water: Water, omega: FloatArray, lid: float) -
     for (_, left), (right, _) in itertools.pairwise(lines):
         width = right - left
         # The shallower of the two sides lets the water out
-        depths = []
-        for body_left, body_right in ((line[0], line[1]) for line in lines):
-            if math.isclose(body_right, left) or math.isclose(body_left, right):
-                depths.append(_side_depth(section, left if math.isclose(body_right, left) else right))
-        draught = min(depths) if depths else -section.bottom
+        draught = min(_side_depth(section, left), _side_depth(section, right))
         length = draught + width / math.pi * (1.5 + math.log(max(whole / (2.0 * width), math.exp(-1.5))))
         resonance = math.sqrt(water.gravity / length)
         inside = bool(omega.min() <= resonance <= omega.max())
