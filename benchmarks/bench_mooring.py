@@ -21,9 +21,9 @@ from pathlib import Path
 
 import numpy as np
 
-from moyai.mooring import kernels
+from moyai.mooring import kernels, segments
 from moyai.mooring.catenary import solve_catenary
-from moyai.mooring.lines import Line, LineType, Segment
+from moyai.mooring.lines import Clump, Line, LineType, Segment
 from moyai.mooring.system import LineSystem
 from moyai.mooring.table import compile_lines
 
@@ -159,6 +159,26 @@ def bench_system(python: str | None, repeat: int) -> dict:
     return record
 
 
+def bench_segments(repeat: int) -> dict:
+    """Time a chain-rope-chain line with a clump, from no guess and from the last tension."""
+    chain, rope = LineType("chain", WEIGHT, AXIAL), LineType("rope", 20.0, 4e6)
+    line = Line(
+        "l", (0, 0, -10), (0, 0, 0), (Segment(chain, 60.0), Segment(rope, 30.0), Segment(chain, 10.0)), (Clump(0, 3e3),)
+    )
+    x, z = np.sort(np.random.default_rng(1).uniform(96.5, 99.2, 20_000)), np.full(20_000, 8.0)
+    out, regime = np.empty((x.size, 11)), np.empty(x.size, dtype=np.int64)
+    none = np.zeros(x.size)
+    cold = cpu(lambda: segments.solve_segments_batch(x, z, line.table, 0.0, 0.0, none, out, regime), repeat)
+    last = np.roll(out[:, 0], 1)
+    warm = cpu(lambda: segments.solve_segments_batch(x, z, line.table, 0.0, 0.0, last, out, regime), repeat)
+    return {
+        "bench": "three segments and a clump",
+        "no_guess_us": 1e6 * cold / x.size,
+        "last_tension_us": 1e6 * warm / x.size,
+        "residual": float(out[:, 9].max()),
+    }
+
+
 def bench_time_domain(repeat: int) -> dict:
     """Cost of one line at one step: table and exact kernel inside compiled code."""
     system = breakwater()
@@ -202,6 +222,7 @@ def main() -> int:
             failed += not record["passed"]
         print(json.dumps(record))
     print(json.dumps(bench_system(python, arguments.repeat)))
+    print(json.dumps(bench_segments(arguments.repeat)))
     print(json.dumps(bench_time_domain(arguments.repeat)))
     return 1 if failed else 0
 
