@@ -45,7 +45,7 @@ def _curves(
         if choice.get("dof") == "roll" or choice.get("influenced_dof") == "roll":
             unit = {"m": "rad", "m/m": "rad/m", "N/m": "N m/rad"}.get(unit, unit)
         factor, shown = common_scale(unit, *(entry[4] for entry in tables))
-        panels.append(Panel(words, shown))
+        panels.append(Panel(words, shown, from_zero=name != "mean_offset"))
         for domain, _, these, values, found in tables:
             axes = axes if len(axes) > 0 and len(axes) <= len(these) else these
             in_time = domain == TIME_WORDS
