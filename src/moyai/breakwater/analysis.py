@@ -59,7 +59,7 @@ def run(
     progress : Progress
         Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
     coefficients : callable or None
-        Planar coefficients of the whole unit from a 3-D program in place of the section.
+        Planar coefficients per metre of the unit from a 3-D program in place of the section.
 
     Returns
     -------

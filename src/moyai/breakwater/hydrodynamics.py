@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea
+from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
+from moyai.potential.damping_model import Start
+from moyai.potential.memory_plan import FrequencyPlan, recommend_frequencies, refine_frequencies
 from moyai.potential.modes import rigid_modes
 from moyai.potential.solver import RadiationDiffraction, solve
 from moyai.sea.dispersion import angular_frequency, wave_number
@@ -25,14 +28,16 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 CoefficientsOf = Callable[[FloatingUnit], "xr.Dataset"]
-"""Gives planar coefficients of the whole unit from another program, for a unit at rest."""
+"""Gives planar coefficients per metre of the unit from another program, for a unit at rest."""
 
 SHORTEST_WAVE_OVER_BEAM = 1.0  # operators are drawn from L/B = 1, where a floating breakwater lets nothing pass,
 LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
 OPERATOR_FREQUENCIES = 60
-BAND_TOP = 16.0  # K d of the highest frequency: waves that reach a sixteenth of the draught down
-BAND_COUNT = 110
+MOST_REFINEMENTS = 6
+MOST_FREQUENCIES = 1500
+REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 48
+HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 
 
@@ -156,20 +161,11 @@ def solve_unit(
     progress : Progress
     """
     if coefficients is not None:
-        data = coefficients(unit)
-        whole = Hydrodynamics.from_dataset(data, length=unit.breakwater.length)
-        return UnitHydrodynamics(data, None, whole, _headings_of(data, unit.breakwater.length), None, (), ())
+        return _given(coefficients(unit), unit, problem)
     wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
     modes, lid, length = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None, unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
-    normal = solve(
-        unit.section,
-        unit.water,
-        distinct(np.concatenate([wanted, band(unit)])),
-        modes=modes,
-        lid=lid,
-        progress=progress,
-    )
+    normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
     headings = headings_of(problem)
     oblique = headings[headings != 0.0]
     by_heading = [item.scaled_to(length) for item in _headings_of(normal.dataset, 1.0)]
@@ -204,19 +200,62 @@ def oblique_frequencies(problem: BreakwaterProblem, wanted: Array) -> Array:
     return distinct(np.concatenate([*regular, even]))
 
 
+def _given(data: xr.Dataset, unit: FloatingUnit, problem: BreakwaterProblem) -> UnitHydrodynamics:
+    """Take planar coefficients of another program, per metre of the unit.
+
+    Raises
+    ------
+    InputError
+        When a heading of the case is not among them.
+    """
+    length = unit.breakwater.length
+    by_heading = tuple(item.scaled_to(length) for item in _headings_of(data, 1.0))
+    known = np.array([float(item.heading[0]) for item in by_heading])
+    for heading in headings_of(problem):
+        if np.min(np.abs(known - heading)) > HEADING_TOLERANCE:
+            raise InputError(
+                f"the coefficients hold no heading of {math.degrees(heading):.4g} degrees to the normal of the unit",
+                path="structure.coefficients_file",
+                allowed=", ".join(f"{math.degrees(value):.4g}" for value in np.sort(known)),
+                remedy="compute that heading, or change that of the waves",
+            )
+    order = np.argsort(known)
+    normal = by_heading[int(np.argmin(np.abs(known)))]
+    return UnitHydrodynamics(data, None, normal, tuple(by_heading[index] for index in order), None, (), ())
+
+
 def distinct(omega: Array) -> Array:
     """Return sorted frequencies; two that differ by rounding only are one."""
     omega = np.unique(omega)
     return np.asarray(omega[np.concatenate([[True], np.diff(omega) > 1e-9 * omega[-1]])], dtype=float)
 
 
-def band(unit: FloatingUnit) -> Array:
-    """Return the frequencies [rad/s] that the memory is made of: from long waves to a sixteenth of the draught."""
-    gravity, draught = unit.water.gravity, -unit.section.bottom
-    high = math.sqrt(gravity * BAND_TOP / draught)
-    share = np.linspace(0.0, 1.0, BAND_COUNT + 1)[1:]
-    # Denser towards long waves, where the damping of sway starts steeply
-    return np.asarray(high * share * (0.35 + 0.65 * share), dtype=float)
+def band(unit: FloatingUnit) -> FrequencyPlan:
+    """Return the frequencies that the memory of the water is made of, and why these."""
+    # A thin wetted side leaves the exact tail late; a hundredth of the beam bounds the effort
+    height = max(-unit.section.bottom, 0.01 * unit.breakwater.hull.beam)
+    if not unit.section.surface_piercing:
+        height = max(-unit.section.bounds[3], 0.05 * unit.breakwater.hull.beam)
+    return recommend_frequencies(unit.water, breadth=unit.breakwater.hull.beam, wall_height=height)
+
+
+def damping_start(unit: FloatingUnit) -> Start:
+    """Return how radiation damping starts at zero frequency: an even function in two dimensions and finite depth."""
+    return "even" if math.isfinite(unit.water.depth) else "zero"
+
+
+def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> RadiationDiffraction:
+    """Solve the normal heading, adding frequencies where the damping turns sharply (water between twin hulls)."""
+    modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
+    grid = distinct(omega)
+    for _ in range(MOST_REFINEMENTS):
+        found = solve(unit.section, unit.water, grid, modes=modes, lid=lid, progress=progress)
+        damping = found.normal.radiation_damping
+        more = refine_frequencies(grid, damping, start=damping_start(unit), tolerance=REFINEMENT_TOLERANCE)
+        if found.status == "interrupted" or not len(more) or len(grid) > MOST_FREQUENCIES:
+            break
+        grid = distinct(np.concatenate([grid, more]))
+    return found
 
 
 def _headings_of(data: xr.Dataset, length: float) -> tuple[Hydrodynamics, ...]:

@@ -11,24 +11,29 @@ from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_analysis import FrequencyModel
+from moyai.breakwater.hydrodynamics import damping_start
 from moyai.breakwater.model import MODES
 from moyai.breakwater.variables import labelled
+from moyai.core.errors import ConvergenceError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
-from moyai.floating.memory import ConvolutionMemory, Memory
-from moyai.floating.realisation import realise_memory
+from moyai.floating.memory import ConvolutionMemory, Memory, StateSpaceMemory
 from moyai.floating.time import CumminsModel
+from moyai.potential.damping_model import fit_damping
 from moyai.potential.damping_tail import TailTheory, wall_sided_tails
 from moyai.potential.memory import MemoryFunctions, memory_functions, steady_damping
+from moyai.potential.memory_plan import MemoryPlan, recommend_memory
 from moyai.potential.sections import Section
+from moyai.potential.state_space import fit_memory
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
-KERNEL_LENGTH = 50.0  # length of the kernels over sqrt(B/g), by which they have died away to about 1e-4
-KERNEL_STEPS = 1200
+MOST_POLES = 32
+CAUSAL = ("Kramers-Kronig", "Ogilvie")
+LEAST_STEPS, MOST_STEPS = 400, 4000  # of the time grid on which the kernels are stored
 STATE_TOLERANCE = 1e-3
 
 
@@ -98,50 +103,84 @@ def unit_memory(model: FrequencyModel, *, convolution: bool = False) -> UnitMemo
         Give the convolution instead of states (for comparison; its cost grows with the length of the memory).
     """
     unit = model.unit
-    beam = model.hydro.unit
-    functions = _functions(unit, beam)
+    functions, plan = _functions(unit, model.hydro.unit)
     where = f"{unit.name}: memory, "
-    checks = tuple(replace(check, name=where + check.name) for check in functions.checks)
-    if convolution:
-        memory: Memory = ConvolutionMemory(functions.time, functions.velocity_kernel, np.zeros((3, 3))).truncated(
-            float(functions.time[-1]), functions.steady_dashpot
-        )
-        return UnitMemory(beam, functions, memory, checks, ())
-    realised = realise_memory(functions.time, functions.velocity_kernel, tolerance=STATE_TOLERANCE)
-    checks += tuple(replace(check, name=where + check.name) for check in realised.checks)
-    notices = (
-        Notice(
-            "memory-states",
-            f"{unit.name}: the memory of the water is carried by {realised.states} states, its kernel within "
-            f"{realised.error:.1e} of its start",
-            value=realised.error,
-            limit=STATE_TOLERANCE,
-            severity="information",
-        ),
-        *realised.notices,
+    checks, notices = _causality(unit, functions.checks)
+    memory: Memory | None = None
+    message = plan.reason
+    if not convolution:
+        try:
+            fit = fit_memory(functions, tolerance=STATE_TOLERANCE, highest_order=MOST_POLES)
+            memory = StateSpaceMemory.of(fit)
+            checks.extend(fit.checks)
+            message = (
+                f"{2 * len(fit.poles)} states or fewer carry the memory of the water, its frequency response within "
+                f"{fit.error:.1e}; {plan.reason}"
+            )
+        except ConvergenceError as error:
+            notices.append(
+                Notice("memory-states", f"{unit.name}: {error.fault.message}; the convolution is used instead")
+            )
+    if memory is None:
+        kernel = ConvolutionMemory(functions.time, functions.velocity_kernel, np.zeros((3, 3)))
+        memory = kernel.truncated(float(functions.time[-1]), functions.steady_dashpot)
+    notices.append(Notice("memory", f"{unit.name}: {message}", severity="information"))
+    named = tuple(replace(check, name=where + check.name) for check in checks)
+    return UnitMemory(model.hydro.unit, functions, memory, named, tuple(notices))
+
+
+def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[list[IdentityCheck], list[Notice]]:
+    """Part the identities that a damping lid breaks from those that hold with it.
+
+    A lid that takes a constant fraction at every frequency answers before it is pushed (as hysteretic damping does): no
+    memory function obeys Kramers-Kronig with it. How far it is off is told instead.
+    """
+    if not unit.breakwater.gap_damping_lid:
+        gaps = len(unit.section.waterlines) - 1
+        if gaps > 0 and any(check.name in CAUSAL and not check.passed for check in checks):
+            advice = Notice(
+                "gap-memory",
+                f"{unit.name}: the water in the gap resonates too sharply for a memory in time",
+                remedy="give structure.gap_damping_lid (0.01 to 0.1), or leave the time domain out",
+            )
+            return list(checks), [advice]
+        return list(checks), []
+    kept = [check for check in checks if check.name not in CAUSAL]
+    worst = max((check.value for check in checks if check.name in CAUSAL), default=0.0)
+    told = Notice(
+        "lid-memory",
+        f"{unit.name}: a damping lid of constant fraction has no causal memory; added mass and damping in time are off "
+        f"by up to {100.0 * worst:.1f} % of their largest values",
+        value=worst,
+        severity="information" if worst < 0.05 else "warning",
+        remedy="trust the frequency domain near the gap resonance, or lower the lid",
     )
-    return UnitMemory(beam, functions, realised.memory, checks, notices)
+    return kept, [told]
 
 
-def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> MemoryFunctions:
-    length = KERNEL_LENGTH * math.sqrt(unit.breakwater.hull.beam / unit.water.gravity)
-    infinite = beam.infinite_frequency_added_mass
-    if infinite is None:
-        infinite = beam.added_mass[-1]
+def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> tuple[MemoryFunctions, MemoryPlan]:
+    """Return the memory functions of the unit on a time grid that the damping itself asks for."""
     planar = beam.has_far_field
-    finite = planar and math.isfinite(unit.water.depth)
-    return memory_functions(
+    start = damping_start(unit) if planar else "zero"
+    steady = None
+    if planar and start == "even":
+        steady = unit.breakwater.length * steady_damping(volume_rates(unit.section, unit.centre), unit.water)
+    tails = _tails(unit) if planar else ()
+    infinite = beam.infinite_frequency_added_mass
+    model = fit_damping(beam.omega, beam.radiation_damping, start=start, steady_damping=steady, tail_theory=tails)
+    plan = recommend_memory(model)
+    steps = min(max(math.ceil(plan.length / plan.time_step), LEAST_STEPS), MOST_STEPS)
+    found = memory_functions(
         beam.omega,
         beam.radiation_damping,
-        infinite,
-        np.linspace(0.0, length, KERNEL_STEPS + 1),
-        start="even" if finite else "zero",
-        steady_damping=unit.breakwater.length * steady_damping(volume_rates(unit.section, unit.centre), unit.water)
-        if finite
-        else None,
-        tail_theory=_tails(unit) if planar else (),
-        added_mass=beam.added_mass,
+        beam.added_mass[-1] if infinite is None else infinite,
+        np.linspace(0.0, plan.length, steps + 1),
+        start=start,
+        steady_damping=steady,
+        tail_theory=tails,
+        added_mass=beam.added_mass if infinite is not None else None,
     )
+    return found, plan
 
 
 def volume_rates(section: Section, centre: tuple[float, float]) -> Array:

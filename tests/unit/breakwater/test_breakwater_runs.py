@@ -1,0 +1,224 @@
+"""Whole runs of small breakwaters against identities, exact limits and the mistakes that users make."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from moyai.breakwater.analysis import run
+from moyai.breakwater.assembly import assemble
+from moyai.breakwater.model import Damping, IrregularSea, MooringSpring, RegularSea, TimeSettings, Wind
+from moyai.core.errors import InputError
+from moyai.core.results import read_result
+from moyai.potential.shapes import circle, pi_type, rectangle, trapezoid, twin_pontoon
+from moyai.sea.current import uniform
+from moyai.sea.spectra import jonswap
+from moyai.sea.water import Water
+
+
+def springs(stiffness: float) -> tuple[MooringSpring, ...]:
+    """Two horizontal springs so long that they stay linear, at the height of the centre of gravity."""
+    return tuple(
+        MooringSpring(name, 1, (side * 0.19, 0.0, 0.086), (side * 60.0, 0.0, -0.027), stiffness, 2.0)
+        for name, side in (("left", -1), ("right", 1))
+    )
+
+
+def changed(problem, *, breakwater=None, environment=None, settings=None):
+    return replace(
+        problem,
+        breakwater=replace(problem.breakwater, **(breakwater or {})),
+        environment=replace(problem.environment, **(environment or {})),
+        settings=replace(problem.settings, **(settings or {})),
+    )
+
+
+def test_linear_mooring_in_time_gives_the_frequency_domain(pontoon_problem):
+    # the mandatory test of the specification, motions, C_R and C_T within 1 %; waves so low that springs stay linear
+    generator = np.random.default_rng(7)
+    for _ in range(2):
+        periods = tuple(generator.uniform(0.7, 1.3, 2))
+        problem = changed(
+            pontoon_problem,
+            breakwater={
+                "lines": springs(float(generator.uniform(50, 400))),
+                "mass": None,
+                "damping": Damping(float(generator.uniform(0.05, 0.2))),
+            },
+            environment={"sea_states": (RegularSea("waves", 0.003, periods),)},
+        )
+        tree = run(problem).tree
+        time, frequency = (tree[f"SWL/{name}/waves"].to_dataset() for name in ("time", "frequency"))
+        assert time.motion_amplitude.values == pytest.approx(frequency.motion_amplitude.values, rel=4e-3, abs=1e-7)
+        for name in ("reflection_coefficient", "transmission_coefficient"):
+            assert time[name].values == pytest.approx(frequency[name].values, abs=5e-3)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_units_rest_in_balance(pontoon_problem, seed):
+    generator = np.random.default_rng(seed)
+    hull = [
+        rectangle(0.4, 0.3),
+        trapezoid(0.3, 0.5, 0.3),
+        pi_type(0.5, 0.3, 0.08, 0.03),
+        twin_pontoon(0.15, 0.3, 0.3, deck_thickness=0.05),
+    ][seed]
+    mass = float(generator.uniform(15, 25))
+    offset = float(generator.uniform(-0.01, 0.01))
+    problem = changed(
+        pontoon_problem,
+        breakwater={"hull": hull, "mass": mass, "draught": None, "centre_of_gravity": (offset, 0.12)},
+        environment={"water_levels": (("low", 0.0), ("high", float(generator.uniform(0, 0.05))))},
+    )
+    for name, level in problem.environment.water_levels:
+        unit = assemble(problem, name, level)
+        section, weight = unit.section, mass * 9.81
+        buoyancy = 1000.0 * 9.81 * section.area * 0.986
+        force = unit.mooring.force(np.zeros(3))
+        assert buoyancy + force[1] - weight == pytest.approx(0.0, abs=1e-7 * weight)
+        assert force[0] == pytest.approx(0.0, abs=1e-7 * weight)
+        moment = force[2] - buoyancy * (section.centroid[0] - unit.centre[0])
+        assert moment == pytest.approx(0.0, abs=1e-7 * weight)
+        assert unit.imbalance == 0.0
+
+
+def test_long_waves_pass_and_carry_the_body(pontoon_problem):
+    # without lines and damping a long wave moves the body with the water: |heave| = a, C_T = 1, no drift
+    problem = changed(
+        pontoon_problem,
+        breakwater={"lines": (), "mass": None, "damping": Damping(0.0)},
+        environment={"sea_states": (RegularSea("swell", 0.01, (8.0,)),)},
+        settings={"analyses": ("statics", "frequency"), "drift": False},
+    )
+    data = run(problem).tree["SWL/frequency/swell"].to_dataset()
+    assert float(data.motion_ratio.sel(dof="heave")[0]) == pytest.approx(1.0, abs=0.01)
+    assert float(data.transmission_coefficient[0]) == pytest.approx(1.0, abs=1e-3)
+    assert float(data.drift_coefficient[0]) == pytest.approx(0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4, -0.7])
+def test_energy_of_the_moving_body_in_oblique_waves(pontoon_problem, heading):
+    problem = changed(
+        pontoon_problem,
+        environment={"sea_states": (RegularSea("waves", 0.02, (0.9,), heading),)},
+        settings={"analyses": ("statics", "frequency")},
+    )
+    result = run(problem)
+    checks = [check for check in result.checks if "moving body" in check.name]
+    assert checks and all(check.passed for check in checks)
+    assert result.status == "converged"
+
+
+def test_irregular_sea_of_one_frequency_is_a_regular_sea(pontoon_problem):
+    # a spectrum so narrow that it is one wave: K_T and mean drift are those of the regular wave of equal energy
+    omega = 2.0 * math.pi / 0.95
+    narrow = np.linspace(0.995, 1.005, 21) * omega
+    height = 0.03
+    density = np.full(21, (height / 4.0) ** 2 / (narrow[-1] - narrow[0]))
+    from moyai.sea.spectra import Spectrum
+
+    seas = (
+        RegularSea("regular", height / math.sqrt(2.0), (0.95,)),
+        IrregularSea("narrow", Spectrum(narrow, density, "narrow"), duration=60.0),
+    )
+    problem = changed(
+        pontoon_problem, environment={"sea_states": seas}, settings={"analyses": ("statics", "frequency")}
+    )
+    tree = run(problem).tree
+    regular, narrow_sea = (tree[f"SWL/frequency/{sea.name}"].to_dataset() for sea in seas)
+    assert float(narrow_sea.transmission_coefficient) == pytest.approx(
+        float(regular.transmission_coefficient[0]), rel=5e-3
+    )
+    assert float(narrow_sea.mean_drift_force) == pytest.approx(float(regular.mean_drift_force[0]), rel=1e-2)
+    significant = 2.0 * math.sqrt(2.0) * regular.motion_amplitude.values[0]
+    assert narrow_sea.significant_motion.values == pytest.approx(significant, rel=1e-2)
+
+
+def test_same_seed_same_sea_bit_for_bit(pontoon_problem):
+    sea = IrregularSea("storm", jonswap(0.02, 1.0, 3.3), duration=120.0, seed=3)
+    problem = changed(pontoon_problem, environment={"sea_states": (sea,)})
+    first, second = (run(problem).tree["SWL/time/storm/realisation"].to_dataset() for _ in range(2))
+    assert np.array_equal(first.tension.values, second.tension.values)
+    other = changed(problem, environment={"sea_states": (replace(sea, seed=4),)})
+    third = run(other).tree["SWL/time/storm/realisation"].to_dataset()
+    assert not np.array_equal(first.tension.values, third.tension.values)
+
+
+def test_steady_wind_and_current_move_the_unit(pontoon_problem):
+    still = run(changed(pontoon_problem, settings={"analyses": ("statics",)})).tree["SWL/statics"].to_dataset()
+    assert np.all(still.steady_offset.values == 0.0)
+    problem = changed(
+        pontoon_problem,
+        breakwater={"wind_drag_coefficient": 1.2, "current_drag_coefficient": 1.5},
+        environment={"wind": Wind(10.0, 0.0, 1.225), "current": uniform(0.1, 0.0)},
+        settings={"analyses": ("statics",)},
+    )
+    data = run(problem).tree["SWL/statics"].to_dataset()
+    wind = 0.5 * 1.225 * 1.2 * 0.986 * 0.057 * 100.0
+    current = 0.5 * 1000.0 * 1.5 * 0.986 * 0.113 * 0.01
+    assert float(data.steady_force[0]) == pytest.approx(wind + current, rel=1e-12)
+    # the offset is that of the exact lines under that force
+    unit = assemble(problem, "SWL", 0.0)
+    at = unit.mooring.force(data.steady_offset.values) - unit.mooring.force(np.zeros(3))
+    restoring = unit.statics.stiffness @ data.steady_offset.values
+    assert at - restoring + data.steady_force.values == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_wind_without_its_coefficient_is_refused(pontoon_problem):
+    problem = changed(pontoon_problem, environment={"wind": Wind(10.0, 0.0, 1.225)})
+    with pytest.raises(InputError, match="wind_drag_coefficient"):
+        run(problem)
+
+
+@pytest.mark.parametrize(
+    ("breakwater", "environment", "message"),
+    [
+        ({"mass": 200.0, "draught": None}, {}, "it sinks"),
+        ({"hull": rectangle(0.38, 0.6), "draught": 0.4, "mass": None}, {}, "reaches the bed"),
+        ({}, {"water": Water(math.inf, 1000.0, 9.81)}, "infinite water depth"),
+        ({}, {"water_levels": (("dry", -0.5),)}, "no water"),
+    ],
+)
+def test_impossible_units_are_refused(pontoon_problem, breakwater, environment, message):
+    with pytest.raises(InputError, match=message):
+        run(changed(pontoon_problem, breakwater=breakwater, environment=environment))
+
+
+def test_infinite_depth_with_springs(pontoon_problem):
+    problem = changed(
+        pontoon_problem,
+        breakwater={"hull": circle(0.2), "mass": None, "draught": 0.2, "centre_of_gravity": (0.0, 0.15), "lines": springs(100.0)},
+        environment={"water": Water(math.inf, 1000.0, 9.81)},
+        settings={"time": TimeSettings(analysed_periods=5)},
+    )  # fmt: skip
+    result = run(problem)
+    assert result.status == "converged", result.message
+    assert np.all(np.isfinite(result.tree["SWL/time/waves"].to_dataset().motion_amplitude.values))
+
+
+def test_interrupt_keeps_what_was_done(pontoon_problem, tmp_path):
+    def stop_in_time_domain(what, done, total):
+        if what.startswith("time domain"):
+            raise KeyboardInterrupt
+
+    result = run(pontoon_problem, stop_in_time_domain)
+    assert result.status == "interrupted"
+    back = read_result(result.write(tmp_path / "results.nc"))
+    assert back.status == "interrupted"
+    assert "motion_amplitude" in back.tree["SWL/frequency/waves"]
+
+
+@pytest.mark.parametrize("lid", [0.0, 0.05])
+def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
+    hull = twin_pontoon(0.15, 0.3, 0.2, deck_thickness=0.05)
+    problem = changed(
+        pontoon_problem,
+        breakwater={"hull": hull, "mass": None, "draught": 0.12, "gap_damping_lid": lid},
+        settings={"analyses": ("statics", "frequency")},
+    )
+    result = run(problem)
+    assert result.status == "converged", result.message
+    assert any("gap" in notice.code for notice in result.notices) == (lid == 0.0)
