@@ -27,6 +27,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _COUPLED = 1e-6
+_SLOW = 0.03  # largest weight of slow motions is 1 over this
 _ROUNDS = 12
 _PASSIVITY_POINTS = 900
 _RANK = 1e-5  # of the tolerance: parts of residues below it are left out
@@ -246,11 +247,13 @@ def _fit_group(
     rows, columns = np.triu_indices(h.shape[1])
     # the transform with exp(+i omega t) is the conjugate
     entries = h[:, rows, columns].conj()
-    weight = np.ones(len(x))
+    # Slow motions (drift on soft moorings) are damped by little: below the peak the little counts by its own size
+    size = np.sqrt(np.abs(np.einsum("tii->t", h.real)) / np.abs(np.einsum("tii->t", h.real)).max())
+    weight = np.where(np.arange(len(x)) < np.argmax(size), 1.0 / np.maximum(size, _SLOW), 1.0)
     best = math.inf
     for count in range(2, highest_order + 1):
         poles = fit_poles(s, entries, weight, starting_poles(x[0] * 2.0, x[-1] / 4.0, count))
-        residues = _residues(x, poles, entries, steady[rows, columns], (rows, columns), _MARGIN * tolerance)
+        residues = _residues(x, poles, entries, weight, steady[rows, columns], (rows, columns), _MARGIN * tolerance)
         error = float(np.abs(partial_fractions(s, poles) @ residues - entries).max())
         best = min(best, error)
         if error <= tolerance:
@@ -276,6 +279,7 @@ def _residues(
     x: FloatArray,
     poles: ComplexArray,
     entries: ComplexArray,
+    weight: FloatArray,
     steady: FloatArray,
     triangle: tuple[NDArray[np.intp], NDArray[np.intp]],
     margin: float,
@@ -283,8 +287,9 @@ def _residues(
     """Least squares for all entries with the exact value at zero frequency, then cuts until the fit is passive."""
     rows, columns = triangle
     basis = partial_fractions(np.asarray(1j * x, dtype=complex), poles)
-    stacked = np.concatenate([basis.real, basis.imag])
-    right = np.concatenate([entries.real, entries.imag])
+    stacked = np.tile(weight, 2)[:, None] * np.concatenate([basis.real, basis.imag])
+    both = np.tile(weight, 2)[:, None]
+    right = both * np.concatenate([entries.real, entries.imag])
     at_zero: FloatArray = partial_fractions(np.zeros(1, dtype=complex), poles).real
     count = len(rows)
     dense = np.concatenate([[0.0], np.geomspace(0.05 * x[0], 200.0 * x[-1], _PASSIVITY_POINTS)])

@@ -146,7 +146,7 @@ def test_free_decay_of_coupled_modes_is_that_of_the_frequency_integral(seed):
         ).max()
         for t in (1e-3, 2e-4)
     )
-    assert coarse < 3e-3
+    assert coarse < 1e-3
     assert fine < 6e-4
 
 
