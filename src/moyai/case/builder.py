@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 from moyai.case.reader import Case
-
-_BUILDERS = {"breakwater": "moyai.case.build_breakwater"}
+from moyai.case.structures import part
 
 
 def build(case: Case) -> Any:
@@ -23,5 +21,4 @@ def build(case: Case) -> Any:
     InputError
         When a file that the case names has changed or become unreadable since it was checked.
     """
-    module = import_module(_BUILDERS[case.kind])
-    return module.build_problem(case.model, case.folder, case_text=case.text, case_hash=case.case_hash)
+    return part(case.kind, "build")(case.model, case.folder, case_text=case.text, case_hash=case.case_hash)

@@ -28,8 +28,8 @@ def check(model: BreakwaterCase, findings: Findings, folder: Path) -> None:
     _check_files(model, findings, folder)
     hull = _hull(model, findings)
     if hull is not None:
-        _check_floating(model, hull, findings)
-        _check_places_of_lines(model, hull, findings)
+        draught = _check_floating(model, hull, findings)
+        _check_places_of_lines(model, hull, draught, findings)
     _check_catalogue(model, findings)
     if findings.faults:
         return
@@ -119,8 +119,8 @@ def _hull(model: BreakwaterCase, findings: Findings) -> Hull | None:
         return None
 
 
-def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> None:
-    """Check draught, mass and clearance under the keel."""
+def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> float | None:
+    """Check draught, mass and clearance under the keel; return the draught where there is one."""
     unit, site = model.structure, model.site
     if abs(hull.bottom) > 1e-9 * hull.height:
         findings.fault(
@@ -128,7 +128,7 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> No
             f"the lowest point of the section is at z = {hull.bottom:g} m",
             allowed="0 m: z counts from the keel",
         )
-        return
+        return None
     draught = unit.draught
     if draught is not None and draught >= hull.height:
         findings.fault(
@@ -136,12 +136,12 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> No
             f"the draught of {draught:g} m is not less than the height of the section, {hull.height:g} m",
             allowed=f"less than {hull.height:g} m",
         )
-        return
+        return None
     if unit.mass is not None:
         from_mass = _draught_of_mass(model, hull, findings)
         draught = draught if draught is not None else from_mass
     if draught is None:
-        return
+        return None
     for name, level in site.water_levels.items():
         depth = site.water_depth + level
         if 0.0 < depth <= draught:
@@ -158,6 +158,7 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> No
             f"the centre of gravity, {unit.centre_of_gravity_above_keel:g} m above the keel, lies outside the section",
             allowed=f"0 to {hull.height:g} m for a body of one piece",
         )
+    return draught
 
 
 def _draught_of_mass(model: BreakwaterCase, hull: Hull, findings: Findings) -> float | None:
@@ -184,7 +185,7 @@ def _draught_of_mass(model: BreakwaterCase, hull: Hull, findings: Findings) -> f
     return 0.5 * (low + high)
 
 
-def _check_places_of_lines(model: BreakwaterCase, hull: Hull, findings: Findings) -> None:
+def _check_places_of_lines(model: BreakwaterCase, hull: Hull, draught: float | None, findings: Findings) -> None:
     """Check fairleads against the hull, and anchors against the hull and the water."""
     left, right, _, top = hull.bounds
     margin = 1e-6 * max(hull.beam, hull.height)
@@ -203,8 +204,8 @@ def _check_places_of_lines(model: BreakwaterCase, hull: Hull, findings: Findings
                 f"the fairlead of '{line.name}' lies beyond the end of the unit",
                 allowed=f"-{0.5 * model.structure.length:g} to {0.5 * model.structure.length:g} m",
             )
-        if model.structure.draught is not None:
-            _check_anchor(model, line, index, hull, model.structure.draught, findings)
+        if draught is not None:
+            _check_anchor(model, line, index, hull, draught, findings)
 
 
 def _check_anchor(model: BreakwaterCase, line: Any, index: int, hull: Hull, draught: float, findings: Findings) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from moyai.case.findings import Findings
+from moyai.case.structures import part
 from moyai.case.yaml_reader import Document
-
-_CHECKS = {"breakwater": "moyai.case.check_breakwater"}
 
 
 def check(model: Any, document: Document, folder: Path) -> Findings:
@@ -25,5 +23,5 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
         Folder that file names refer to.
     """
     findings = Findings(document)
-    import_module(_CHECKS[model.structure.kind]).check(model, findings, folder)
+    part(model.structure.kind, "check")(model, findings, folder)
     return findings

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from moyai.case.structures import part
 from moyai.core.units import parse_unit
 
 if TYPE_CHECKING:
     from moyai.case.reader import Case
-
-_DERIVED = {"breakwater": "moyai.case.derived_breakwater"}
 
 
 @dataclass(frozen=True)
@@ -66,5 +64,5 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     case : Case
         From :func:`moyai.case.reader.load_case`.
     """
-    numbers: tuple[Number, ...] = import_module(_DERIVED[case.kind]).derived_numbers(case)
+    numbers: tuple[Number, ...] = part(case.kind, "derived")(case)
     return numbers

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from moyai.case.yaml_reader import Document, KeyPath
 from moyai.core.errors import Fault, InputError
@@ -12,13 +11,13 @@ from moyai.core.errors import Fault, InputError
 _STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
-@dataclass
 class Findings:
-    """Faults and warnings collected on one document."""
+    """Collects faults and warnings on one document."""
 
-    document: Document
-    faults: list[Fault] = field(default_factory=list)
-    warnings: list[Fault] = field(default_factory=list)
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.faults: list[Fault] = []
+        self.warnings: list[Fault] = []
 
     def fault(self, path: KeyPath, message: str, *, allowed: str = "", remedy: str = "") -> None:
         """Record what stops the case."""

@@ -1,21 +1,16 @@
 """Every kind of case file: which schema reads which structure, and the JSON Schema that editors use.
 
-A structure brings its own root schema; the kind written at ``structure.kind`` chooses it. A further structure is
-one line in ``_ROOTS``.
+A structure brings its own root schema; the kind written at ``structure.kind`` chooses it.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 from moyai.case.schema_types import Block
+from moyai.case.structures import STRUCTURES, part
 
-_ROOTS = {
-    "breakwater": "moyai.case.schema_breakwater:BreakwaterCase",
-}
-
-STRUCTURE_KINDS = tuple(_ROOTS)
+STRUCTURE_KINDS = tuple(STRUCTURES)
 """Kinds of structure that a case file can describe."""
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"
@@ -23,8 +18,7 @@ _DRAFT = "http://json-schema.org/draft-07/schema#"
 
 def root_schema(kind: str) -> type[Block]:
     """Return the root schema of a structure's case files."""
-    module, name = _ROOTS[kind].split(":")
-    schema: type[Block] = getattr(import_module(module), name)
+    schema: type[Block] = part(kind, "schema")
     return schema
 
 

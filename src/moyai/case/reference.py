@@ -1,0 +1,167 @@
+"""The reference of all keys as Markdown, made from the schemas, so that it cannot fall behind them.
+
+``python -m moyai.case.reference docs/case_file.md`` renews everything below the mark in that page.
+"""
+
+from __future__ import annotations
+
+import sys
+import typing
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from moyai.case.schema import STRUCTURE_KINDS, root_schema
+from moyai.case.schema_types import Block, QuantityOf
+
+MARK = "<!-- made by: python -m moyai.case.reference docs/case_file.md -->"
+
+
+def reference_markdown() -> str:
+    """Return the tables of every block of every kind of structure."""
+    lines: list[str] = []
+    for kind in STRUCTURE_KINDS:
+        lines += [f"## Case of a {kind}", ""]
+        for name, model in _blocks(root_schema(kind)):
+            lines += _section(name, model)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _blocks(root: type[Block]) -> Iterator[tuple[str, type[Block]]]:
+    """Yield every block once, from the outside inwards, with the path that leads to it first."""
+    waiting: list[tuple[str, type[Block]]] = [("", root)]
+    seen: set[type[Block]] = set()
+    while waiting:
+        path, model = waiting.pop(0)
+        if model in seen:
+            continue
+        seen.add(model)
+        yield path, model
+        inner = []
+        for name, field in model.model_fields.items():
+            key = f"{path}.{field.alias or name}".lstrip(".")
+            inner += [(key, found) for found in _models_in(field)]
+        waiting = inner + waiting
+
+
+def _models_in(field: FieldInfo) -> list[type[Block]]:
+    found: list[type[Block]] = []
+
+    def walk(annotation: Any) -> None:
+        if isinstance(annotation, type) and issubclass(annotation, Block):
+            found.append(annotation)
+        for argument in typing.get_args(annotation):
+            walk(argument)
+
+    walk(field.annotation)
+    return found
+
+
+def _section(path: str, model: type[Block]) -> list[str]:
+    title = f"`{path}`" if path else "The file"
+    chosen = next((model.model_fields[key] for key in ("kind", "shape", "program") if key in model.model_fields), None)
+    if path and chosen is not None:
+        title += " " + ", ".join(f"`{value}`" for value in typing.get_args(chosen.annotation))
+    lines = [f"### {title}", "", f"{(model.__doc__ or '').strip().splitlines()[0]}", ""]
+    for rule, words in ((model.exactly_one, "Exactly one of"), (model.at_least_one, "At least one of")):
+        lines += [f"{words} {', '.join(f'`{key}`' for key in group)}." for group in rule]
+    if lines[-1]:
+        lines.append("")
+    lines += ["| key | meaning | form | default |", "|---|---|---|---|"]
+    grouped = {key for rule in (model.exactly_one, model.at_least_one) for group in rule for key in group}
+    for name, field in model.model_fields.items():
+        key = field.alias or name
+        default = _default(field, key in grouped)
+        meaning = (field.description or "").split(" Default:")[0]
+        cells = (f"`{key}`", meaning, _form(field), default)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return [*lines, ""]
+
+
+def _form(field: FieldInfo) -> str:
+    """Return what may stand at a key: words, a quantity, a list, a block."""
+    direct = next((entry for entry in field.metadata if isinstance(entry, QuantityOf)), None)
+    if direct is not None:
+        return _quantity(direct)
+    many = _holds(field.annotation, tuple)
+    inner = next(_quantities_in(field.annotation), None)
+    words = [f"`{word}`" for word in _words_in(field.annotation)]
+    models = bool(_models_in(field))
+    parts: list[str] = []
+    if words:
+        every = "list of " if many and inner is None and not models and "all" not in words[0] else ""
+        parts.append(every + ", ".join(words))
+    if inner is None and many and not models and not (words and "all" not in words[0]):
+        parts.append("list of whole numbers" if int in _plain_types(field.annotation) else "list of names")
+    if inner is not None:
+        container = "list of " if many else ("names, each with " if _holds(field.annotation, dict) else "")
+        parts.append(container + _quantity(inner))
+    if models:
+        parts.append("list of blocks" if many and inner is None else "block")
+    if parts:
+        return " or ".join(parts)
+    if bool in (field.annotation, *typing.get_args(field.annotation)):
+        return "true or false"
+    if field.annotation is int:
+        return "whole number"
+    return "names, each with text" if _holds(field.annotation, dict) else "text"
+
+
+def _plain_types(annotation: Any) -> list[Any]:
+    arguments = typing.get_args(annotation)
+    return [annotation] if not arguments else [found for argument in arguments for found in _plain_types(argument)]
+
+
+def _holds(annotation: Any, container: type) -> bool:
+    """Whether a tuple or a mapping may stand there."""
+    if typing.get_origin(annotation) is container:
+        return True
+    return any(_holds(argument, container) for argument in typing.get_args(annotation))
+
+
+def _quantity(entry: QuantityOf) -> str:
+    kind = entry.kind.name.split(" ", 1)[1]
+    unit = f" [{entry.kind.unit}]" if entry.kind.unit else ""
+    return f"{kind}{unit}" + (f", {entry.allowed}" if entry.allowed else "")
+
+
+def _quantities_in(annotation: Any) -> Iterator[QuantityOf]:
+    for entry in getattr(annotation, "__metadata__", ()):
+        if isinstance(entry, QuantityOf):
+            yield entry
+    for argument in typing.get_args(annotation):
+        yield from _quantities_in(argument)
+
+
+def _words_in(annotation: Any) -> list[str]:
+    if typing.get_origin(annotation) is Literal:
+        return [str(value) for value in typing.get_args(annotation)]
+    return [word for argument in typing.get_args(annotation) for word in _words_in(argument)]
+
+
+def _default(field: FieldInfo, grouped: bool) -> str:
+    if field.is_required():
+        return "**required**"
+    value = field.default if field.default is not PydanticUndefined else None
+    if value is None and any(word == "auto" for entry in field.metadata for word, _ in getattr(entry, "words", ())):
+        return "auto"
+    if grouped or value in (None, ()) or isinstance(value, Block):
+        return ""
+    if isinstance(value, tuple):
+        return "[" + ", ".join(f"{item:g}" for item in value) + "]"
+    if isinstance(value, dict):
+        return ", ".join(f"{key}: {item:g}" for key, item in value.items())
+    return f"{value:g}" if isinstance(value, float) else str(value).lower()
+
+
+def renew(page: str) -> str:
+    """Return a page with everything below the mark made again."""
+    return page[: page.index(MARK)] + MARK + "\n\n" + reference_markdown()
+
+
+if __name__ == "__main__":
+    target = Path(sys.argv[1])
+    target.write_text(renew(target.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
