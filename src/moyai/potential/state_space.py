@@ -27,6 +27,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _COUPLED = 1e-6
+_NOTHING = 1e-5  # of the largest response: D(0) below it is taken for zero
 _SLOW = 0.03  # largest weight of slow motions is 1 over this
 _ROUNDS = 12
 _PASSIVITY_POINTS = 900
@@ -162,7 +163,7 @@ def fit_state_space(
     response : array_like (n, m, m)
         B - i omega (A - A_inf), symmetric.
     steady_dashpot : array_like (m, m)
-        D(0): reproduced exactly.
+        D(0): reproduced exactly, but for noise below 1e-5 of the largest response and negative eigenvalues.
     tolerance : float
         Largest error over the largest response of the pair of modes.
     highest_order : int
@@ -182,7 +183,8 @@ def fit_state_space(
     w, h, steady = _checked(omega, response, steady_dashpot, tolerance)
     measure = pair_measure(np.abs(h))
     unit = np.sqrt(np.diag(measure))
-    scaled, goal = h / np.outer(unit, unit), steady / np.outer(unit, unit)
+    scaled, goal = h / np.outer(unit, unit), _physical(steady / np.outer(unit, unit))
+    steady = goal * np.outer(unit, unit)
     m = len(unit)
     poles: list[complex] = []
     inputs: list[ComplexArray] = []
@@ -223,6 +225,12 @@ def _checked(
     if not 1e-8 <= tolerance <= 0.2:
         raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="1e-8 to 0.2")
     return w, 0.5 * (h + np.swapaxes(h, 1, 2)), 0.5 * (steady + steady.T)
+
+
+def _physical(steady: FloatArray) -> FloatArray:
+    """Take rounding and interpolation noise out of D(0): entries that are nothing, eigenvalues below zero."""
+    values, vectors = np.linalg.eigh(np.where(np.abs(steady) < _NOTHING, 0.0, steady))
+    return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
 
 
 def _groups(scaled: ComplexArray) -> list[NDArray[np.intp]]:
@@ -292,12 +300,16 @@ def _residues(
     right = both * np.concatenate([entries.real, entries.imag])
     at_zero: FloatArray = partial_fractions(np.zeros(1, dtype=complex), poles).real
     count = len(rows)
-    dense = np.concatenate([[0.0], np.geomspace(0.05 * x[0], 200.0 * x[-1], _PASSIVITY_POINTS)])
+    dense = np.geomspace(0.05 * x[0], 200.0 * x[-1], _PASSIVITY_POINTS)
     dense_basis = partial_fractions(np.asarray(1j * dense, dtype=complex), poles).real
-    # constraints compare damping at all frequencies on one footing: it falls like omega^-2 in the fit
+    # Conditions compare damping at all frequencies on one footing: the fit falls like omega^-2, and where nothing is
+    # left at zero frequency (sway, roll) it starts with omega^2
     lift = 1.0 + (dense / x[-1]) ** 2
-    # Sway and roll have no damping at zero frequency, and it starts with omega^2: so does the margin
-    floor = margin * dense**2 / (dense**2 + 1.0)
+    if not steady.any():
+        lift = lift * (1.0 + 1.0 / dense**2)
+        floor = np.full(len(dense), margin)
+    else:
+        floor = margin * dense**2 / (dense**2 + 1.0)
     cuts: list[FloatArray] = []
     bounds: list[float] = []
     # block system: unknowns ordered entry by entry
@@ -314,10 +326,10 @@ def _residues(
         lowest = values[:, 0] - 0.5 * floor
         if (lowest > -1e-13).all():
             break
-        before, after = np.roll(lowest, 1), np.roll(lowest, -1)
-        dips = np.flatnonzero((lowest < 0.0) & (lowest <= before) & (lowest <= after) & (dense > 0.0))
+        before, after = np.append(np.inf, lowest[:-1]), np.append(lowest[1:], np.inf)
+        dips = np.flatnonzero((lowest < 0.0) & (lowest <= before) & (lowest <= after))
         # neighbours as well: the dip moves when it is lifted
-        near = np.unique(np.clip(dips[:, None] + np.array([-6, -2, 0, 2, 6]), 1, len(dense) - 1))
+        near = np.unique(np.clip(dips[:, None] + np.array([-6, -2, 0, 2, 6]), 0, len(dense) - 1))
         for place in near:
             for direction in vectors[place].T[values[place] < 1e-3]:
                 quadratic = double * direction[rows] * direction[columns]

@@ -71,6 +71,23 @@ def test_fit_is_accurate_stable_passive_and_right_at_zero_frequency(seed, tolera
     assert np.all(states.response(1.0)[0][1, [0, 2]] == 0.0)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_three_coupled_modes_with_a_steady_dashpot_of_rank_one(seed):
+    rng = np.random.default_rng(seed)
+    beam, draught, water = rng.uniform(2.0, 8.0), rng.uniform(0.5, 2.0), Water(5.0, 1000.0, G)
+    centre = (rng.uniform(0.05, 0.4) * beam, -0.3)
+    plan = recommend_frequencies(water, breadth=beam, wall_height=draught)
+    s = solve_rectangle(beam, draught, water, plan.omega, centre=centre)
+    arguments = (s.omega, s.radiation_damping, s.infinite_frequency_added_mass, [0.0, 1.0])
+    memory = memory_functions(*arguments, start="even", added_mass=s.added_mass)
+    # heave pushes water out, and so does roll about a point beside the middle
+    steady = steady_damping([0.0, beam, beam * centre[0]], water)
+    assert np.allclose(memory.steady_dashpot, steady, atol=1e-4 * np.abs(steady).max())
+    states = fit_memory(memory)
+    for check in states.checks:
+        assert check.passed, check
+
+
 def test_real_form_is_the_modal_form():
     memory, _, _ = rectangle_memory(3)
     states = fit_memory(memory)
