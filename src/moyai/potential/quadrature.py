@@ -289,9 +289,9 @@ def add_rankine(
 
 
 _EULER = 0.5772156649015329
-# Trapezoidal rule of K_n(z) = int exp(-z cosh t) cosh(nt) dt; for |arg z| <= pi/4 and 2 < |z| < 16 its error is below
-# exp(-pi^2 / (2 step)) and exp(-sqrt 2 (pi / step)^2 / |z|)
-_BESSEL_STEP = 0.16
+# Trapezoidal rule of K_n(z) = int exp(-z cosh t) cosh(nt) dt; for |arg z| <= pi/4 and 2 < |z| < 16 its relative error is
+# about exp(-pi^2 / (2 step) + |z| / 5)
+_BESSEL_STEP = 0.14
 _BESSEL_LARGE = 16.0
 _COSH = np.cosh(_BESSEL_STEP * np.arange(1, 40))
 

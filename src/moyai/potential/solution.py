@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.errors import InputError
 from moyai.core.results import DIRECTION_CONVENTION, TIME_CONVENTION, Status
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.potential.edges import ComplexArray, FloatArray
@@ -79,13 +80,14 @@ class RadiationDiffraction:
 
         Raises
         ------
-        KeyError
+        InputError
             When the heading was not solved.
         """
         for solution in (self.normal, *self.oblique):
             if abs(abs(heading) - solution.heading) < 1e-12:
                 return solution
-        raise KeyError(f"heading {heading:g} rad was not solved")
+        solved = ", ".join(f"{value:g}" for value in sorted({0.0, *np.abs(self.heading)}))
+        raise InputError(f"heading {heading:g} rad was not solved", path="heading", allowed=f"one of +-{solved} rad")
 
     @property
     def excitation_force(self) -> ComplexArray:
