@@ -28,7 +28,7 @@ from moyai.breakwater.loads import steady_force
 from moyai.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.breakwater.screening import check_screening
 from moyai.breakwater.sensitivity import sensitivity_datasets
-from moyai.breakwater.statics_analysis import mooring_dataset, statics_dataset
+from moyai.breakwater.statics_analysis import mooring_dataset, moving_shapes, statics_dataset
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
@@ -174,6 +174,7 @@ def _time_steps(
     collected.checks.extend(memory.checks)
     collected.notices.extend(memory.notices)
     collected.groups[f"{root}/memory"] = memory.dataset
+    histories: list[xr.Dataset] = []
     yield
     for sea in problem.environment.sea_states:
         frequency = collected.groups[f"{root}/frequency/{sea.name}"]
@@ -185,6 +186,13 @@ def _time_steps(
         for one in answer.runs:
             collected.groups[f"{root}/time/{sea.name}/{one.name}"] = one.dataset(unit)
         collected.notices.extend(answer.notices)
+        histories.extend(collected.groups[f"{root}/time/{sea.name}/{one.name}"] for one in answer.runs)
+        shapes = moving_shapes(unit, histories)
+        if shapes is not None:
+            statics = collected.groups[f"{root}/statics"].drop_vars(("line_shape_x", "line_shape_z"), errors="ignore")
+            collected.groups[f"{root}/statics"] = statics.drop_vars(("shift_x", "shift_z"), errors="ignore").merge(
+                shapes
+            )
         if answer.status == "interrupted":
             raise KeyboardInterrupt
         if answer.status != "converged":

@@ -54,7 +54,7 @@ def check_unit(unit: FloatingUnit) -> tuple[Notice, ...]:
     """Check lines at rest and the clearance under the keel."""
     notices: list[Notice] = []
     if unit.lines:
-        found = check_line_system(unit.mooring.planar.system, path="lines")
+        found = check_line_system(unit.mooring.planar.system, path="lines", still_water=-unit.centre[1])
         notices.extend(found)
     clearance = unit.water.depth + unit.section.bottom
     if clearance < 0.1 * -unit.section.bottom:

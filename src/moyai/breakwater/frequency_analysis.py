@@ -101,6 +101,9 @@ def operators(model: FrequencyModel, omega: Array, heading: float) -> FrequencyR
     if hydro.has_far_field:
         far = far_field(hydro, motions.displacement)
         out |= _far_field_variables(far, hydro, unit, ("omega",))
+        # Operators keep the phase, for drawing the water; sea states give magnitudes
+        out["reflection_coefficient"] = ("omega", far.reflection[:, 0])
+        out["transmission_coefficient"] = ("omega", far.transmission[:, 0])
         checks = _energy(model, far, motions, hydro, unit.name)
     length = wavelengths(omega, unit)
     k = 2.0 * math.pi / length
@@ -136,6 +139,7 @@ def _energy(
 
 
 def _far_field_variables(far: FarField, hydro: Hydrodynamics, unit: FloatingUnit, dims: tuple[str, ...]) -> dict:
+    """Return magnitudes of reflection and transmission, and the drift [eq:breakwater-drift-coefficient]."""
     drift = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)
     return {
         "reflection_coefficient": (dims, np.abs(far.reflection[:, 0])),
@@ -192,7 +196,7 @@ def _solve(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, progre
 
 
 def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = silent) -> FrequencyResult:
-    """Motions, reflection, transmission, drift and tensions in regular waves, drift and stiffness solved together."""
+    """Motions, reflection, transmission, drift [eq:breakwater-drift] and tensions in regular waves, solved together."""
     import xarray as xr
 
     unit = model.unit

@@ -15,6 +15,7 @@ from moyai.breakwater.variables import labelled
 from moyai.core.validity import Notice
 from moyai.floating.drift import mean_offset
 from moyai.floating.modes import NaturalModes, natural_modes
+from moyai.mooring.lines import LineElement
 from moyai.mooring.shape import element_shape
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 LINE_POINTS = 60
+SHIFTS_X, SHIFTS_Z = 15, 7  # displacements of the fairlead for which shapes are stored
 CURVE_POINTS = 61
 
 
@@ -136,13 +138,8 @@ def _lines(unit: FloatingUnit) -> dict:
     known = np.isfinite(load)
     fairleads = np.array([line.fairlead for line in unit.lines]) + centre
     anchors = np.array([line.anchor for line in unit.lines]) + centre
-    x, z = np.full((kinds, LINE_POINTS), np.nan), np.full((kinds, LINE_POINTS), np.nan)
-    depth = unit.water.depth + unit.centre[1]
-    for index, line in enumerate(unit.lines):
-        points = element_shape(line, line.fairlead, depth).points + centre
-        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-        even = np.linspace(0.0, along[-1], LINE_POINTS)
-        x[index], z[index] = np.interp(even, along, points[:, 0]), np.interp(even, along, points[:, 2])
+    shapes = np.array([_shape(unit, line, np.zeros(3)) for line in unit.lines])
+    x, z = shapes[:, :, 0], shapes[:, :, 1]
     out |= {
         "line_count": ("line", np.array([line.count for line in unit.lines])),
         "unstretched_length": ("line", np.array([_length(line) for line in unit.breakwater.lines])),
@@ -156,6 +153,41 @@ def _lines(unit: FloatingUnit) -> dict:
         "line_z": (("line", "line_point"), z),
     }
     return out
+
+
+def _shape(unit: FloatingUnit, line: LineElement, shift: Array) -> Array:
+    """Return a line as evenly spaced points (LINE_POINTS, 2) in site axes, its fairlead moved by ``shift`` [m]."""
+    centre = np.array([unit.centre[0], 0.0, unit.centre[1]])
+    points = element_shape(line, np.asarray(line.fairlead) + shift, unit.water.depth + unit.centre[1]).points + centre
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    even = np.linspace(0.0, along[-1], LINE_POINTS)
+    return np.stack([np.interp(even, along, points[:, 0]), np.interp(even, along, points[:, 2])], axis=1)
+
+
+def moving_shapes(unit: FloatingUnit, runs: list[xr.Dataset]) -> xr.Dataset | None:
+    """Return the shapes of the lines for displacements of their fairleads, as far as time-domain runs moved them.
+
+    For drawing: a player interpolates between them. ``None`` without lines or runs.
+    """
+    import xarray as xr
+
+    if not unit.lines or not runs:
+        return None
+    moved = np.max([np.abs(run["position"].values).max(axis=0) for run in runs], axis=0)
+    arm = np.max(np.abs([line.fairlead for line in unit.lines]), axis=0)
+    least = 1e-3 * unit.breakwater.hull.beam
+    reach_x = max(1.05 * float(moved[0] + moved[2] * arm[2]), least)
+    reach_z = max(1.05 * float(moved[1] + moved[2] * arm[0]), least)
+    shift_x, shift_z = np.linspace(-reach_x, reach_x, SHIFTS_X), np.linspace(-reach_z, reach_z, SHIFTS_Z)
+    table = np.array(
+        [[[_shape(unit, line, np.array([x, 0.0, z])) for z in shift_z] for x in shift_x] for line in unit.lines]
+    )
+    dims = ("line", "shift_x", "shift_z", "line_point")
+    data = xr.Dataset(
+        {"line_shape_x": (dims, table[..., 0]), "line_shape_z": (dims, table[..., 1])},
+        coords={"line": [line.name for line in unit.lines], "shift_x": shift_x, "shift_z": shift_z},
+    )
+    return labelled(data)
 
 
 def _length(line: object) -> float:

@@ -38,6 +38,7 @@ LEAST_SETTLING_PERIODS = 20.0
 MOST_SETTLING_PERIODS = 300.0
 SETTLED = math.log(1e3)  # transients die to a thousandth
 STEADY_LIMIT = 0.01  # change of the first harmonic from one window to the next
+PEAKS_LOOKED_UP = 50
 MOST_ROWS = 120_000  # rows of a stored time series
 
 
@@ -162,6 +163,7 @@ def regular_sea(
         "maximum_tension",
         "minimum_tension",
         "mean_tension",
+        "maximum_anchor_vertical_tension",
         "reflection_coefficient",
         "transmission_coefficient",
         "dissipation",
@@ -191,7 +193,7 @@ def regular_sea(
     done = periods[: len(rows["motion_amplitude"])]
     length = wavelengths(2.0 * math.pi / done, unit) if len(done) else done
     dims = {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"} | dict.fromkeys(
-        ("maximum_tension", "minimum_tension", "mean_tension"), "line"
+        ("maximum_tension", "minimum_tension", "mean_tension", "maximum_anchor_vertical_tension"), "line"
     )
     out: dict = {
         name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
@@ -201,6 +203,12 @@ def regular_sea(
     if len(done):
         out["motion_ratio"] = (("period", "dof"), motion_ratio(unit, np.array(rows["motion_amplitude"]), sea.height))
         out["wavelength_over_beam"] = ("period", length / unit.breakwater.hull.beam)
+        for name in ("mean_drift_force", "drift_coefficient"):
+            if name in frequency:
+                out[name] = ("period", frequency[name].sel(period=done).values)
+        load = np.array([line.breaking_load for line in unit.lines])
+        largest = np.array(rows["maximum_tension"])
+        out["maximum_utilisation"] = (("period", "line"), np.where(np.isfinite(load), largest / load, np.nan))
     data = xr.Dataset(out, coords={"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines]})
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
@@ -242,6 +250,7 @@ def _one_period(
         model, cummins, forcing, expected, duration=duration, time_step=settings.time_step, progress=progress
     )
     attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular"}
+    attributes["analysis_start"] = max(duration - window, 0.0)
     notices = simulation.notices
     if simulation.status == "diverged":
         notices = (
@@ -266,6 +275,7 @@ def _summary(
         "maximum_tension": np.full(kinds, np.nan), "minimum_tension": np.full(kinds, np.nan),
         "mean_tension": np.full(kinds, np.nan), "reflection_coefficient": np.array(np.nan),
         "transmission_coefficient": np.array(np.nan), "dissipation": np.array(np.nan),
+        "maximum_anchor_vertical_tension": np.full(kinds, np.nan),
     }  # fmt: skip
     if run.status != "converged" or run.time[-1] < settings.analysed_periods * period:
         return out
@@ -278,6 +288,7 @@ def _summary(
         "maximum_tension": run.tension[window].max(axis=0),
         "minimum_tension": run.tension[window].min(axis=0),
         "mean_tension": run.tension[window].mean(axis=0),
+        "maximum_anchor_vertical_tension": anchor_uplift(model.unit, run.position[window], run.tension[window]),
     }
     hydro = model.hydro.at(np.array([2.0 * math.pi / period]), sea.heading)
     if hydro.has_far_field and sea.height > 0.0:
@@ -377,7 +388,9 @@ def irregular_sea(
     simulation = _run(
         model, cummins, forcing, expected, duration=sea.duration + ramp, time_step=settings.time_step, progress=progress
     )
-    run = TimeRun("realisation", simulation, {"kind": "irregular", "seed": sea.seed, "ramp": ramp})
+    run = TimeRun(
+        "realisation", simulation, {"kind": "irregular", "seed": sea.seed, "ramp": ramp, "analysis_start": ramp}
+    )
     status = {"converged": "converged", "diverged": "not_converged", "interrupted": "interrupted"}[simulation.status]
     notices = list(simulation.notices)
     if simulation.status == "diverged":
@@ -423,6 +436,19 @@ def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, se
     return out
 
 
+def anchor_uplift(unit: FloatingUnit, position: Array, tension: Array) -> Array:
+    """Return the largest vertical tension at the anchor of one line of each kind [N].
+
+    The exact lines are solved at the instants of the largest fairlead tensions, where uplift is largest too.
+    """
+    if not unit.lines or not len(position):
+        return np.zeros(len(unit.lines))
+    count = min(PEAKS_LOOKED_UP, len(position))
+    instants = np.unique(np.argpartition(-tension, count - 1, axis=0)[:count])
+    states = unit.mooring.planar.states(position[instants])
+    return np.array([state.vertical_tension_anchor.max() for state in states.values()])
+
+
 def _irregular_summary(
     unit: FloatingUnit, run: Simulation, sea: IrregularSea, frequency: xr.Dataset, ramp: float
 ) -> xr.Dataset:
@@ -441,6 +467,8 @@ def _irregular_summary(
             "mean_tension": ("line", tension.mean(axis=0)),
             "maximum_tension": ("line", tension.max(axis=0) if len(unit.lines) else np.zeros(0)),
             "significant_tension": ("line", _significant(run.time[keep], tension)),
+            "maximum_anchor_vertical_tension": ("line", anchor_uplift(unit, position, tension)),
+            "mean_drift_force": ((), float(frequency["mean_drift_force"])),
             "significant_height": ((), 4.0 * float(np.std(run.elevation[keep]))),
         }
         load = np.array([line.breaking_load for line in unit.lines])
