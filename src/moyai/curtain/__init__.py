@@ -1,0 +1,1 @@
+"""Silt curtains: statics, impact tension, waves, anchor loads."""

@@ -1,0 +1,1 @@
+"""Design: similarity of models, extremes, utilisation against a code."""
