@@ -8,15 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.breakwater import frequency_irregular, frequency_regular
 from moyai.breakwater.assembly import FloatingUnit, assemble
 from moyai.breakwater.checks import check_problem, check_unit, drift_check
-from moyai.breakwater.frequency_analysis import (
-    FrequencyModel,
-    irregular_sea,
-    make_model,
-    operators,
-    regular_sea,
-)
+from moyai.breakwater.frequency_model import FrequencyModel, make_model
 from moyai.breakwater.hydrodynamics import (
     CoefficientsOf,
     UnitHydrodynamics,
@@ -140,7 +135,7 @@ def _frequency_steps(
     unit, hydro = model.unit, model.hydro
     seas = problem.environment.sea_states
     main = float(seas[0].heading) if seas else 0.0
-    found = operators(model, operator_frequencies(unit, problem), main)
+    found = frequency_regular.operators(model, operator_frequencies(unit, problem), main)
     collected.groups[f"{root}/rao"] = found.dataset
     collected.checks.extend(found.checks)
     collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
@@ -148,9 +143,9 @@ def _frequency_steps(
     yield
     for sea in seas:
         if isinstance(sea, RegularSea):
-            answer = regular_sea(model, sea, progress)
+            answer = frequency_regular.regular_sea(model, sea, progress)
         else:
-            answer = irregular_sea(model, sea, spectrum_band(sea), progress)
+            answer = frequency_irregular.irregular_sea(model, sea, spectrum_band(sea), progress)
         collected.groups[f"{root}/frequency/{sea.name}"] = answer.dataset
         collected.checks.extend(answer.checks)
         collected.notices.extend(answer.notices)
@@ -166,7 +161,7 @@ def _frequency_steps(
 def _time_steps(
     problem: BreakwaterProblem, model: FrequencyModel, collected: _Collected, root: str, progress: Progress
 ) -> Iterator[None]:
-    from moyai.breakwater import time_analysis
+    from moyai.breakwater import time_irregular, time_regular
     from moyai.breakwater.memory_model import unit_memory
 
     unit = model.unit
@@ -179,9 +174,9 @@ def _time_steps(
     for sea in problem.environment.sea_states:
         frequency = collected.groups[f"{root}/frequency/{sea.name}"]
         if isinstance(sea, RegularSea):
-            answer = time_analysis.regular_sea(model, memory, sea, frequency, problem.settings.time, progress)
+            answer = time_regular.regular_sea(model, memory, sea, frequency, problem.settings.time, progress)
         else:
-            answer = time_analysis.irregular_sea(model, memory, sea, frequency, problem.settings.time, progress)
+            answer = time_irregular.irregular_sea(model, memory, sea, frequency, problem.settings.time, progress)
         collected.groups[f"{root}/time/{sea.name}"] = answer.dataset
         for one in answer.runs:
             collected.groups[f"{root}/time/{sea.name}/{one.name}"] = one.dataset(unit)

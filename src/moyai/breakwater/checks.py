@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from moyai.breakwater.assembly import FloatingUnit
-from moyai.breakwater.frequency_analysis import FrequencyModel
+from moyai.breakwater.frequency_model import FrequencyModel
 from moyai.breakwater.model import BreakwaterProblem
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.frequency import solve_motions

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
-from moyai.breakwater.frequency_analysis import FrequencyModel
+from moyai.breakwater.frequency_model import FrequencyModel
 from moyai.breakwater.hydrodynamics import damping_start
 from moyai.breakwater.model import MODES
 from moyai.breakwater.variables import labelled

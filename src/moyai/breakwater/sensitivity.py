@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit, assemble
-from moyai.breakwater.frequency_analysis import FrequencyModel, make_model, regular_sea
+from moyai.breakwater.frequency_model import FrequencyModel, make_model
+from moyai.breakwater.frequency_regular import regular_sea
 from moyai.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.breakwater.model import Breakwater, BreakwaterProblem, MooringLine, MooringSpring, RegularSea
 from moyai.breakwater.variables import labelled

@@ -1,0 +1,186 @@
+"""Irregular seas in the frequency domain: spectra and statistics of the response, transmission, mean drift."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.breakwater.frequency_model import (
+    FrequencyModel,
+    FrequencyResult,
+    solve_about_offset,
+    worst_status,
+)
+from moyai.breakwater.hydrodynamics import spread_headings
+from moyai.breakwater.model import MODES, IrregularSea
+from moyai.breakwater.responses import (
+    overtopping_share,
+    tension_transfer,
+)
+from moyai.breakwater.variables import labelled
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.damping import LinearDamping
+from moyai.floating.drift import DriftedMotions, DriftProblem, solve_irregular_with_drift
+from moyai.floating.far_field import far_field
+from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.irregular import energy_transmission, linearised_in_sea, response_statistics
+
+if TYPE_CHECKING:
+    pass
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+def irregular_sea(
+    model: FrequencyModel, sea: IrregularSea, omega: Array, progress: Progress = silent
+) -> FrequencyResult:
+    """Response spectra, significant and most probable largest values, transmission weighted by energy, mean drift."""
+    import xarray as xr
+
+    unit = model.unit
+    density = np.asarray(sea.spectrum.density_at(omega), dtype=float)
+    progress("irregular sea", 0, 1)
+    headings, share = spread_headings(sea, omega)
+    hydros = [model.hydro.at(omega, float(heading)) for heading in headings]
+    directional = density[:, None] * share
+    met = directional.sum(axis=1)
+    main = hydros[int(np.argmin(np.abs(headings - sea.heading)))]
+    solved = _irregular_mean(model, main, met)
+    stiffness = unit.statics.stiffness + solved.mooring_stiffness[0]
+    motions, notices_of_sea = _sea_motions(model, hydros, headings, stiffness, directional)
+    statistics = response_statistics(omega, motions.displacement, directional)
+    tension = tension_transfer(unit, motions, solved.offset[0])
+    tension_statistics = response_statistics(omega, tension[0], directional)
+    waves = response_statistics(omega, np.ones((len(omega), 1)), met)
+    duration = sea.duration
+    height = float(waves.significant[0])
+    out: dict = {
+        "wave_spectrum": ("omega", density),
+        "response_spectrum": (("omega", "dof"), statistics.spectrum),
+        "significant_height": ((), height),
+        "significant_motion": ("dof", statistics.significant),
+        "most_probable_maximum_motion": ("dof", statistics.most_probable_maximum(duration)),
+        "mean_zero_crossing_period": ("dof", statistics.mean_zero_crossing_period),
+        "mean_drift_force": ((), float(solved.drift_force[0])),
+        "mean_offset": ("dof", solved.offset[0]),
+        "mean_tension": ("line", tension[1]),
+        "significant_tension": ("line", tension_statistics.significant),
+        "most_probable_maximum_tension": ("line", tension[1] + tension_statistics.most_probable_maximum(duration)),
+    }
+    if main.has_far_field:
+        waves_of = [far_field(item, motions.displacement[:, [column]]) for column, item in enumerate(hydros)]
+        reflected = np.concatenate([np.abs(item.reflection) for item in waves_of], axis=1)
+        transmitted = np.concatenate([np.abs(item.transmission) for item in waves_of], axis=1)
+        coefficient = energy_transmission(omega, transmitted, directional)
+        out |= {
+            "transmission_coefficient": ((), coefficient),
+            "transmitted_significant_height": ((), coefficient * height),
+            "reflection_coefficient": ((), energy_transmission(omega, reflected, directional)),
+            "transmitted_spectrum": ("omega", np.sum(transmitted**2 * directional, axis=1)),
+        }
+    load = np.array([line.breaking_load for line in unit.lines])
+    out["maximum_utilisation"] = (
+        "line",
+        np.where(np.isfinite(load), np.asarray(out["most_probable_maximum_tension"][1]) / load, np.nan),
+    )
+    share_over, relative = overtopping_share(unit, motions, omega, headings, directional)
+    out |= {
+        "overtopping_share": ((), share_over),
+        "significant_relative_elevation": ((), relative),
+    }
+    coords = {"omega": omega, "dof": list(MODES), "line": [line.name for line in unit.lines]}
+    data = labelled(xr.Dataset(out, coords=coords))
+    data.attrs |= {
+        "kind": "irregular",
+        "heading": sea.heading,
+        "duration": duration,
+        "headings": headings.tolist(),
+        "status": worst_status(solved.status),
+    }
+    notices = [*solved.notices, *notices_of_sea]
+    lost = 1.0 - float(met.sum() / density.sum())
+    if lost > 0.01:
+        notices.append(
+            Notice(
+                "spreading-sector",
+                f"{sea.name}: {100.0 * lost:.1f} % of the wave energy travels within 15 degrees of the crest line or "
+                "away and does not meet the side of the breakwater",
+                value=lost,
+                limit=0.01,
+            )
+        )
+    if share_over > 0.01:
+        notices.append(
+            Notice(
+                "overtopping",
+                f"{unit.name}, {sea.name}: about {100.0 * share_over:.0f} % of waves may pass the seaward deck edge",
+                value=share_over,
+                limit=0.01,
+                source="Rayleigh distribution of the wall-doubled relative elevation",
+            )
+        )
+    progress("irregular sea", 1, 1)
+    return FrequencyResult(data, (), tuple(notices))
+
+
+def _irregular_mean(model: FrequencyModel, hydro: Hydrodynamics, density: Array) -> DriftedMotions:
+    if not hydro.has_far_field:
+        return solve_about_offset(model, hydro, np.full(len(hydro.omega), 1e-6), silent)
+    unit = model.unit
+    problem = DriftProblem(
+        hydrodynamics=hydro,
+        inertia=unit.inertia,
+        hydrostatic_stiffness=unit.statics.stiffness,
+        mooring=unit.mooring,
+        water=unit.water,
+        damping=model.damping,
+        quadratic=model.quadratic,
+        steady_force=model.steady,
+    )
+    return solve_irregular_with_drift(problem, density, with_drift=model.with_drift)
+
+
+def _sea_motions(
+    model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, stiffness: Array, directional: Array
+) -> tuple[Motions, tuple[Notice, ...]]:
+    """Return the motions in all headings of a sea, quadratic damping linearised for the whole of it.
+
+    The linearisation takes the radiation of the first heading for all; each heading is then solved with its own.
+    """
+    unit, damping = model.unit, model.damping
+    if model.quadratic is not None:
+        joined = _joined_headings(hydros, headings)
+        found = linearised_in_sea(
+            joined, unit.inertia, stiffness, directional, quadratic=model.quadratic, damping=model.damping
+        )
+        damping = LinearDamping(damping.matrix + found.equivalent_damping, damping.critical_fraction)
+    each = [solve_motions(item, unit.inertia, stiffness, damping=damping) for item in hydros]
+    displacement = np.concatenate([item.displacement for item in each], axis=1)
+    notices = tuple(notice for item in each for notice in item.notices)
+    return replace(each[0], heading=headings, displacement=displacement), notices
+
+
+def _joined_headings(hydros: list[Hydrodynamics], headings: Array) -> Hydrodynamics:
+    """Put one-heading coefficients side by side; radiation is that of the first (motions equal along the unit)."""
+    first = hydros[0]
+    if len(hydros) == 1:
+        return first
+
+    def beside(name: str) -> ComplexArray | None:
+        values = [getattr(item, name) for item in hydros]
+        return None if values[0] is None else np.concatenate(values, axis=1)
+
+    excitation = np.concatenate([item.excitation for item in hydros], axis=1)
+    return replace(
+        first,
+        heading=np.asarray(headings, dtype=float),
+        excitation=excitation,
+        reflection=beside("reflection"),
+        transmission=beside("transmission"),
+    )

@@ -1,0 +1,160 @@
+"""The unit as the frequency domain sees it, and what regular and irregular seas share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.breakwater.assembly import FloatingUnit
+from moyai.breakwater.hydrodynamics import UnitHydrodynamics
+from moyai.breakwater.model import MODES
+from moyai.core.progress import Progress
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.damping import LinearDamping, QuadraticDamping
+from moyai.floating.drift import DriftedMotions, DriftProblem, mean_offset, solve_with_drift
+from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, energy_check
+from moyai.floating.frequency import Motions, solve_motions
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+COEFFICIENT_ACCURACY = 1e-3  # of the solve of the section
+
+
+@dataclass(frozen=True)
+class FrequencyModel:
+    """The unit as the frequency domain sees it.
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+    hydro : UnitHydrodynamics
+    damping : LinearDamping
+    quadratic : QuadraticDamping or None
+    steady : ndarray (3,)
+        Wind and current [N, N, N m].
+    with_drift : bool
+    """
+
+    unit: FloatingUnit
+    hydro: UnitHydrodynamics
+    damping: LinearDamping
+    quadratic: QuadraticDamping | None
+    steady: Array
+    with_drift: bool
+
+    @property
+    def stiffness(self) -> Array:
+        """K_H + K_M at rest."""
+        return self.unit.statics.stiffness + self.unit.mooring_stiffness
+
+
+def make_model(
+    unit: FloatingUnit, hydro: UnitHydrodynamics, steady: Array, with_drift: bool, fraction: float | None = None
+) -> FrequencyModel:
+    """Put unit, coefficients and damping together; ``fraction`` replaces the case's fraction of critical damping."""
+    given = unit.breakwater.damping
+    zeta = given.fraction_of_critical if fraction is None else fraction
+    damping = LinearDamping.of_modes(
+        linear=np.array(given.linear), critical_fraction=[zeta if mode in given.modes else 0.0 for mode in MODES]
+    )
+    quadratic = QuadraticDamping.of_modes([0.0, 0.0, given.roll_quadratic]) if given.roll_quadratic else None
+    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift)
+
+
+@dataclass(frozen=True)
+class FrequencyResult:
+    """A labelled dataset with what it has to say for itself."""
+
+    dataset: xr.Dataset
+    checks: tuple[IdentityCheck, ...] = ()
+    notices: tuple[Notice, ...] = ()
+
+
+def solve_about_offset(
+    model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, progress: Progress
+) -> DriftedMotions:
+    """Solve motions about the mean offset; without a far field the offset is that of the steady loads."""
+    unit = model.unit
+    if hydro.has_far_field:
+        problem = DriftProblem(
+            hydrodynamics=hydro,
+            inertia=unit.inertia,
+            hydrostatic_stiffness=unit.statics.stiffness,
+            mooring=unit.mooring,
+            water=unit.water,
+            damping=model.damping,
+            quadratic=model.quadratic,
+            steady_force=model.steady,
+        )
+        return solve_with_drift(problem, amplitude, with_drift=model.with_drift, progress=progress)
+    offset = mean_offset(unit.mooring, unit.statics.stiffness, model.steady)
+    stiffness = unit.mooring.stiffness(offset.position)
+    motions = solve_motions(
+        hydro,
+        unit.inertia,
+        unit.statics.stiffness + stiffness,
+        damping=model.damping,
+        quadratic=model.quadratic,
+        wave_amplitude=amplitude[:, None],
+    )
+    count = len(hydro.omega)
+    nothing = np.full((count, 1), np.nan)
+    return DriftedMotions(
+        motions=motions,
+        far=FarField(nothing.astype(complex), nothing.astype(complex), nothing, nothing),
+        drift_force=np.zeros(count),
+        offset=np.tile(offset.position, (count, 1)),
+        mooring_stiffness=np.tile(stiffness, (count, 1, 1)),
+        iterations=np.ones(count),
+        status=(offset.status,) * count,
+        notices=(
+            Notice(
+                "no-drift-of-given-coefficients",
+                "coefficients of a 3-D program carry no far field: no reflection, transmission or drift is computed",
+                severity="information",
+            ),
+        ),
+    )
+
+
+def energy_identity(
+    model: FrequencyModel, far: FarField, motions: Motions, hydro: Hydrodynamics, where: str
+) -> tuple[IdentityCheck, ...]:
+    """Hold the loss of the moving body against the work of its damping, to the accuracy of the coefficients.
+
+    A damping lid takes energy of its own, which the solve of the section holds against its own identity.
+    """
+    if model.unit.breakwater.gap_damping_lid:
+        return ()
+    found = energy_check(far, motions, model.unit.water, hydro.length, COEFFICIENT_ACCURACY)
+    return (replace(found, name=f"{where}: energy of the moving body"),)
+
+
+def far_field_variables(far: FarField, hydro: Hydrodynamics, unit: FloatingUnit, dims: tuple[str, ...]) -> dict:
+    """Return magnitudes of reflection and transmission, and the drift [eq:breakwater-drift-coefficient]."""
+    drift = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)
+    return {
+        "reflection_coefficient": (dims, np.abs(far.reflection[:, 0])),
+        "transmission_coefficient": (dims, np.abs(far.transmission[:, 0])),
+        "dissipation": (dims, far.loss[:, 0]),
+        "drift_coefficient": (dims, far.drift_coefficient[:, 0]),
+        "mean_drift_force_per_amplitude_squared": (dims, drift[:, 0]),
+    }
+
+
+def motion_ratio(unit: FloatingUnit, amplitude: Array, height: float) -> Array:
+    """Return |x|/(H/2), |z|/(H/2) and |theta| B/H (P3 equation 6)."""
+    scale = np.array([2.0, 2.0, unit.breakwater.hull.beam])
+    return np.asarray(amplitude * scale / height if height > 0.0 else np.full_like(amplitude, np.nan))
+
+
+def worst_status(status: tuple[str, ...]) -> str:
+    return "converged" if all(item == "converged" for item in status) else "not_converged"

@@ -1,0 +1,189 @@
+"""Irregular seas in time: slow drift, nonlinear lines, statistics."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.breakwater.assembly import FloatingUnit
+from moyai.breakwater.frequency_model import FrequencyModel
+from moyai.breakwater.memory_model import UnitMemory
+from moyai.breakwater.model import MODES, IrregularSea, TimeSettings
+from moyai.breakwater.responses import (
+    anchor_uplift,
+)
+from moyai.breakwater.time_model import TimeResult, TimeRun, linear_damping, run_with_lines
+from moyai.breakwater.variables import labelled
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
+from moyai.floating.forcing import IrregularForcing
+from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.modes import natural_modes
+from moyai.floating.time import Simulation
+from moyai.sea.irregular import synthesise
+from moyai.sea.statistics import zero_crossing
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+
+def irregular_sea(
+    model: FrequencyModel,
+    memory: UnitMemory,
+    sea: IrregularSea,
+    frequency: xr.Dataset,
+    settings: TimeSettings,
+    progress: Progress = silent,
+) -> TimeResult:
+    """Simulate an irregular sea with slow drift and nonlinear lines, and take its statistics.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    memory : UnitMemory
+    sea : IrregularSea
+    frequency : xarray.Dataset
+        The same sea in the frequency domain, for the expected motions and the transmission.
+    settings : TimeSettings
+    progress : Progress
+    """
+
+    unit = model.unit
+    ramp = settings.ramp if settings.ramp is not None else 10.0 * 2.0 * math.pi / float(sea.spectrum.peak_omega)
+    components = synthesise(
+        sea.spectrum,
+        unit.water,
+        duration=sea.duration + ramp,
+        seed=sea.seed,
+        heading=sea.heading,
+        spreading=sea.spreading,
+    )
+    amplitude = components.complex_amplitude
+    if sea.spreading is None:
+        excitation = model.hydro.whole(sea.heading).excitation_at(components.omega)
+    else:
+        # What travels outside of the computed sector meets the ends of the unit and is left out, as in frequency
+        joined = _excitation_of_headings(model)
+        low, high = float(joined.heading[0]), float(joined.heading[-1])
+        amplitude = np.where((components.heading >= low) & (components.heading <= high), amplitude, 0.0)
+        excitation = joined.excitation_at(components.omega, np.clip(components.heading, low, high))
+    drift = _drift_of_components(model, components.omega, components.heading, sea)
+    law = {"ramped": "ramped", "newman": "newman", "pulsating": "newman", "none": "none"}[settings.drift]
+    if not model.with_drift or drift is None:
+        law = "none"
+    forcing = IrregularForcing(
+        omega=components.omega,
+        amplitude=amplitude,
+        excitation=excitation,
+        drift=drift,
+        steady=model.steady,
+        drift_law=law,  # type: ignore[arg-type]
+        ramp=ramp,
+    )
+    added = _natural_added_mass(model, memory.beam_sea)
+    offset = np.asarray(frequency.mean_offset.values)
+    stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
+    cummins = memory.model(model, linear_damping(model, added, stiffness))
+    expected = np.asarray(frequency.most_probable_maximum_motion.values) + np.abs(offset)
+    simulation = run_with_lines(
+        model, cummins, forcing, expected, duration=sea.duration + ramp, time_step=settings.time_step, progress=progress
+    )
+    run = TimeRun(
+        "realisation", simulation, {"kind": "irregular", "seed": sea.seed, "ramp": ramp, "analysis_start": ramp}
+    )
+    status = {"converged": "converged", "diverged": "not_converged", "interrupted": "interrupted"}[simulation.status]
+    notices = list(simulation.notices)
+    if simulation.status == "diverged":
+        notices.append(Notice("diverged", f"{unit.name}, {sea.name}: {simulation.message}", severity="error"))
+    data = _irregular_summary(unit, simulation, sea, frequency, ramp)
+    data.attrs |= {
+        "kind": "irregular",
+        "heading": sea.heading,
+        "duration": sea.duration,
+        "seed": sea.seed,
+        "status": status,
+    }
+    return TimeResult(labelled(data), (run,), tuple(notices), status)
+
+
+def _natural_added_mass(model: FrequencyModel, hydro: Hydrodynamics) -> Array:
+    """Added mass with the diagonal of each mode at that mode's own natural frequency, for the fraction of critical."""
+    modes = natural_modes(hydro, model.unit.inertia, model.stiffness)
+    omega = np.clip(np.nan_to_num(modes.omega), hydro.omega[0], hydro.omega[-1])
+    out = np.zeros((3, 3))
+    for index in range(3):
+        out[index, index] = hydro.at(np.array([omega[index]])).added_mass[0, index, index]
+    return out
+
+
+def _excitation_of_headings(model: FrequencyModel) -> Hydrodynamics:
+    """Put the wave loads of all headings side by side on the frequencies that all have."""
+    every = model.hydro.by_heading
+    low = max(float(item.omega[0]) for item in every)
+    high = min(float(item.omega[-1]) for item in every)
+    shortest = min(every, key=lambda item: len(item.omega))
+    omega = shortest.omega[(shortest.omega >= low) & (shortest.omega <= high)]
+    loads = np.concatenate([item.at(omega).excitation for item in every], axis=1)
+    first = every[0].at(omega)
+    heading = np.array([float(item.heading[0]) for item in every])
+    return replace(first, heading=heading, excitation=loads, reflection=None, transmission=None, radiated_wave=None)
+
+
+def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, sea: IrregularSea) -> Array | None:
+    """Mean drift over amplitude squared at the wave components, from the linear motions about rest."""
+    hydro = model.hydro.whole(sea.heading)
+    if not hydro.has_far_field:
+        return None
+    motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
+    far = far_field(hydro, motions.displacement)
+    per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)[
+        :, 0
+    ]
+    out = np.zeros((len(omega), 3))
+    # Directions of a spread sea take the drift of the mean heading, turned by the square of the cosine
+    turn = np.cos(heading) * np.abs(np.cos(heading)) / max(math.cos(sea.heading) ** 2, 1e-6)
+    out[:, 0] = np.interp(omega, hydro.omega, per_square) * turn
+    return out
+
+
+def _irregular_summary(
+    unit: FloatingUnit, run: Simulation, sea: IrregularSea, frequency: xr.Dataset, ramp: float
+) -> xr.Dataset:
+    import xarray as xr
+
+    keep = run.time >= ramp
+    position, tension = run.position[keep], run.tension[keep]
+    out: dict = {}
+    if keep.sum() > 100:
+        mean = position.mean(axis=0)
+        out = {
+            "mean_offset": ("dof", mean),
+            "maximum_motion": ("dof", np.max(np.abs(position - mean), axis=0)),
+            "maximum_excursion": ("dof", np.max(np.abs(position), axis=0)),
+            "significant_motion": ("dof", _significant(run.time[keep], position)),
+            "mean_tension": ("line", tension.mean(axis=0)),
+            "maximum_tension": ("line", tension.max(axis=0) if len(unit.lines) else np.zeros(0)),
+            "significant_tension": ("line", _significant(run.time[keep], tension)),
+            "maximum_anchor_vertical_tension": ("line", anchor_uplift(unit, position, tension)),
+            "mean_drift_force": ((), float(frequency["mean_drift_force"])),
+            "significant_height": ((), 4.0 * float(np.std(run.elevation[keep]))),
+        }
+        load = np.array([line.breaking_load for line in unit.lines])
+        out["maximum_utilisation"] = ("line", np.where(np.isfinite(load), out["maximum_tension"][1] / load, np.nan))
+    for name in ("transmission_coefficient", "reflection_coefficient", "transmitted_significant_height"):
+        if name in frequency:
+            out[name] = ((), float(frequency[name]))
+    return xr.Dataset(out, coords={"dof": list(MODES), "line": [line.name for line in unit.lines]})
+
+
+def _significant(time: Array, series: Array) -> Array:
+    """Return the mean of the highest third of the zero-up-crossing double amplitudes of each column."""
+    return np.array([zero_crossing(time, column).significant_height() for column in series.T])

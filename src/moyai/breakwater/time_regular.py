@@ -1,0 +1,243 @@
+"""Regular waves in time: every period run to a steady motion, its harmonics, extremes, R and T."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.breakwater.frequency_model import FrequencyModel, motion_ratio
+from moyai.breakwater.hydrodynamics import wavelengths
+from moyai.breakwater.memory_model import UnitMemory
+from moyai.breakwater.model import MODES, RegularSea, TimeSettings
+from moyai.breakwater.responses import (
+    anchor_uplift,
+)
+from moyai.breakwater.time_model import TimeResult, TimeRun, linear_damping, run_with_lines
+from moyai.breakwater.variables import labelled
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.far_field import far_field
+from moyai.floating.forcing import RegularForcing
+from moyai.floating.harmonics import Harmonics, fit_harmonics
+from moyai.floating.modes import natural_modes
+from moyai.floating.time import CumminsModel, Simulation
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+RAMP_PERIODS = 6.0  # P3: cosine ramp of six periods
+LEAST_SETTLING_PERIODS = 20.0
+MOST_SETTLING_PERIODS = 300.0
+SETTLED = math.log(1e3)  # transients die to a thousandth
+STEADY_LIMIT = 0.01  # change of the first harmonic from one window to the next
+
+
+def regular_sea(
+    model: FrequencyModel,
+    memory: UnitMemory,
+    sea: RegularSea,
+    frequency: xr.Dataset,
+    settings: TimeSettings,
+    progress: Progress = silent,
+) -> TimeResult:
+    """Simulate each period of a regular sea and analyse its steady end, R and T combined as in P3.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    memory : UnitMemory
+    sea : RegularSea
+    frequency : xarray.Dataset
+        The same sea in the frequency domain: drift force, expected motions.
+    settings : TimeSettings
+    progress : Progress
+    """
+    import xarray as xr
+
+    unit = model.unit
+    periods = np.sort(np.asarray(sea.periods, dtype=float))
+    names = (
+        "motion_amplitude",
+        "mean_offset",
+        "maximum_motion",
+        "maximum_tension",
+        "minimum_tension",
+        "mean_tension",
+        "maximum_anchor_vertical_tension",
+        "reflection_coefficient",
+        "transmission_coefficient",
+        "dissipation",
+    )
+    rows: dict[str, list] = {name: [] for name in names}
+    runs: list[TimeRun] = []
+    notices: list[Notice] = []
+    status = "converged"
+    for index, period in enumerate(periods):
+        progress(f"time domain, {unit.name}, {sea.name}", index, len(periods))
+        one = frequency.sel(period=period)
+        try:
+            run, found = _one_period(model, memory, sea, float(period), one, settings, progress)
+        except KeyboardInterrupt:
+            status = "interrupted"
+            break
+        runs.append(run)
+        notices.extend(found)
+        for name, value in _summary(model, run.simulation, sea, float(period), settings).items():
+            rows[name].append(value)
+        notices.extend(_steadiness(run.simulation, float(period), settings, f"{unit.name}, {sea.name}"))
+        if run.simulation.status != "converged":
+            status = "interrupted" if run.simulation.status == "interrupted" else "not_converged"
+            if status == "interrupted":
+                break
+    progress(f"time domain, {unit.name}, {sea.name}", len(periods), len(periods))
+    done = periods[: len(rows["motion_amplitude"])]
+    length = wavelengths(2.0 * math.pi / done, unit) if len(done) else done
+    dims = {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"} | dict.fromkeys(
+        ("maximum_tension", "minimum_tension", "mean_tension", "maximum_anchor_vertical_tension"), "line"
+    )
+    out: dict = {
+        name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
+        for name, values in rows.items()
+        if values
+    }
+    if len(done):
+        out["motion_ratio"] = (("period", "dof"), motion_ratio(unit, np.array(rows["motion_amplitude"]), sea.height))
+        out["wavelength_over_beam"] = ("period", length / unit.breakwater.hull.beam)
+        for name in ("mean_drift_force", "drift_coefficient"):
+            if name in frequency:
+                out[name] = ("period", frequency[name].sel(period=done).values)
+        load = np.array([line.breaking_load for line in unit.lines])
+        largest = np.array(rows["maximum_tension"])
+        out["maximum_utilisation"] = (("period", "line"), np.where(np.isfinite(load), largest / load, np.nan))
+    data = xr.Dataset(out, coords={"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines]})
+    data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
+    return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
+
+
+def _one_period(
+    model: FrequencyModel,
+    memory: UnitMemory,
+    sea: RegularSea,
+    period: float,
+    frequency: xr.Dataset,
+    settings: TimeSettings,
+    progress: Progress,
+) -> tuple[TimeRun, tuple[Notice, ...]]:
+    unit, omega = model.unit, 2.0 * math.pi / period
+    hydro = model.hydro.at(np.array([omega]), sea.heading)
+    drift = np.array([float(frequency.mean_drift_force), 0.0, 0.0]) if model.with_drift else np.zeros(3)
+    if settings.drift == "none":
+        drift = np.zeros(3)
+    # The damping of the frequency domain, whose stiffness is that of the mean offset, so that both are comparable
+    stiffness = unit.statics.stiffness + np.asarray(frequency.mooring_stiffness.values)
+    cummins = memory.model(model, linear_damping(model, hydro.added_mass[0], stiffness))
+    ramp = RAMP_PERIODS * period if settings.ramp is None else settings.ramp
+    window = settings.analysed_periods * period
+    duration = settings.duration
+    if duration is None:
+        duration = ramp + _settling_time(model, cummins, memory.beam_sea, period) + 2.0 * window
+    forcing = RegularForcing(
+        omega=omega,
+        wave_amplitude=0.5 * sea.height,
+        excitation=hydro.excitation[0, 0],
+        mean_drift=drift,
+        steady=model.steady,
+        drift_law="pulsating" if settings.drift == "pulsating" else "ramped",
+        ramp=ramp,
+    )
+    expected = np.abs(frequency.motion_amplitude.values) + np.abs(frequency.mean_offset.values)
+    simulation = run_with_lines(
+        model, cummins, forcing, expected, duration=duration, time_step=settings.time_step, progress=progress
+    )
+    attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular"}
+    attributes["analysis_start"] = max(duration - window, 0.0)
+    notices = simulation.notices
+    if simulation.status == "diverged":
+        notices = (
+            *notices,
+            Notice("diverged", f"{unit.name}, {sea.name}, T = {period:g} s: {simulation.message}", severity="error"),
+        )
+    return TimeRun(f"T{period:.4g}".replace(".", "p"), simulation, attributes), notices
+
+
+def _settling_time(model: FrequencyModel, cummins: CumminsModel, hydro: Hydrodynamics, period: float) -> float:
+    """Time in which transients die to a thousandth, from the damping of the natural modes [s]."""
+    modes = natural_modes(hydro, model.unit.inertia, model.stiffness, damping=cummins.linear_damping)
+    longest = LEAST_SETTLING_PERIODS * period
+    for omega, ratio in zip(modes.omega, modes.damping_ratio):
+        if np.isfinite(omega) and omega > 0.0:
+            longest = max(longest, SETTLED / (max(float(ratio), 0.005) * float(omega)))
+    return min(longest, MOST_SETTLING_PERIODS * period)
+
+
+def _harmonics(run: Simulation, period: float, settings: TimeSettings) -> Harmonics:
+    return fit_harmonics(run.time, run.position, 2.0 * math.pi / period, periods=settings.analysed_periods)
+
+
+def _summary(
+    model: FrequencyModel, run: Simulation, sea: RegularSea, period: float, settings: TimeSettings
+) -> dict[str, Array]:
+    """Return first harmonics, extremes, and R and T with these motions in the operators of the frequency domain."""
+    blank = np.full(3, np.nan)
+    kinds = run.tension.shape[1]
+    out = {
+        "motion_amplitude": blank, "mean_offset": blank, "maximum_motion": blank,
+        "maximum_tension": np.full(kinds, np.nan), "minimum_tension": np.full(kinds, np.nan),
+        "mean_tension": np.full(kinds, np.nan), "reflection_coefficient": np.array(np.nan),
+        "transmission_coefficient": np.array(np.nan), "dissipation": np.array(np.nan),
+        "maximum_anchor_vertical_tension": np.full(kinds, np.nan),
+    }  # fmt: skip
+    if run.status != "converged" or run.time[-1] < settings.analysed_periods * period:
+        return out
+    found = _harmonics(run, period, settings)
+    window = run.time > run.time[-1] - settings.analysed_periods * period
+    out |= {
+        "motion_amplitude": np.abs(found.first),
+        "mean_offset": found.mean,
+        "maximum_motion": np.max(np.abs(run.position[window]), axis=0),
+        "maximum_tension": run.tension[window].max(axis=0),
+        "minimum_tension": run.tension[window].min(axis=0),
+        "mean_tension": run.tension[window].mean(axis=0),
+        "maximum_anchor_vertical_tension": anchor_uplift(model.unit, run.position[window], run.tension[window]),
+    }
+    hydro = model.hydro.at(np.array([2.0 * math.pi / period]), sea.heading)
+    if hydro.has_far_field and sea.height > 0.0:
+        far = far_field(hydro, found.first[None, None, :] / (0.5 * sea.height))
+        out |= {
+            "reflection_coefficient": np.abs(far.reflection[0, 0]),
+            "transmission_coefficient": np.abs(far.transmission[0, 0]),
+            "dissipation": far.loss[0, 0],
+        }
+    return out
+
+
+def _steadiness(run: Simulation, period: float, settings: TimeSettings, where: str) -> tuple[Notice, ...]:
+    """Compare the last window with the one before it."""
+    window = settings.analysed_periods * period
+    if run.status != "converged" or run.time[-1] < 2.0 * window:
+        return ()
+    last = _harmonics(run, period, settings)
+    earlier = run.time <= run.time[-1] - window
+    before = fit_harmonics(
+        run.time[earlier], run.position[earlier], 2.0 * math.pi / period, periods=settings.analysed_periods
+    )
+    size = np.maximum(np.abs(last.first), 1e-3 * np.max(np.abs(last.first)) + 1e-12)
+    change = float(np.max(np.abs(np.abs(last.first) - np.abs(before.first)) / size))
+    if change <= STEADY_LIMIT:
+        return ()
+    return (
+        Notice(
+            "not-steady",
+            f"{where}, T = {period:g} s: the motion still changes by {100 * change:.1f} % between the last two windows "
+            f"of {settings.analysed_periods} periods",
+            value=change,
+            limit=STEADY_LIMIT,
+            remedy="give a longer duration; strongly nonlinear lines may never settle to one period",
+        ),
+    )
