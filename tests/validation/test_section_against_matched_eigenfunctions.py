@@ -1,5 +1,5 @@
-"""The section solver against matched eigenfunctions at random rectangles, depths, frequencies and headings; and the table
-of floating boxes found by the same method (three modes, 800 to 1600 terms, converged to 2e-4)."""
+"""The section solver against matched eigenfunctions at random rectangles, depths, frequencies, headings; and the
+table of floating boxes found by the same method (three modes, 800 to 1600 terms, converged to 2e-4)."""
 
 import math
 
