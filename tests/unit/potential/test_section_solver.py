@@ -87,6 +87,20 @@ def test_random_sections_against_a_refined_solution(seed):
     assert np.abs(plain.reflection_coefficient - fine.reflection_coefficient).max() < 1e-3
 
 
+@pytest.mark.slow
+def test_a_hundred_random_sections():
+    """One or two bodies, arcs, heel, submerged or piercing, 3 to 1000 % clearance or infinite depth, up to 80 degrees."""
+    worst, missed = np.zeros(4), []
+    for seed in range(300, 400):
+        section, water, omega, heading, scale = random_case(seed)
+        solution = solve(section, water, omega, modes=rigid_modes((0.1 * scale, -0.2 * scale)), heading=heading)
+        if solution.status != "converged":
+            missed.append((seed, solution.message))
+        worst = np.fmax(worst, [check.value for check in solution.checks[:4]])
+    print("worst identities", worst)
+    assert not missed
+
+
 def test_deep_water_and_infinite_depth_agree():
     """h = 1000 m against infinite depth for the 10 m pontoon; heave keeps a difference of order 1/(kh)^2."""
     section, modes = shapes.rectangle(10.0, 4.5).immersed(3.0), rigid_modes((0.0, -1.0))
