@@ -9,7 +9,6 @@ and memory (the least that three hours can cost with this method), so that ratio
 from __future__ import annotations
 
 import json
-import math
 import time
 
 import numpy as np
@@ -22,7 +21,6 @@ from moyai.floating.frequency import solve_motions
 from moyai.floating.hydrostatics import hydrostatics, inertia_matrix
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
-from moyai.floating.realisation import realise_memory
 from moyai.floating.time import CumminsModel, simulate
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.system import LineSystem
@@ -54,23 +52,16 @@ def lines(count: int) -> LineSystem:
 
 
 def memory_of(hydro_per_metre: Hydrodynamics) -> StateSpaceMemory:
-    """Return the memory by cosine transform and realisation; the tail of the damping falls with the third power."""
-    from scipy.interpolate import CubicSpline
+    """Return the memory of the unit by the rational fit of its damping."""
+    from moyai.potential.damping_model import fit_damping
+    from moyai.potential.memory import steady_damping
+    from moyai.potential.state_space import fit_memory
 
-    omega, damping = hydro_per_metre.omega, hydro_per_metre.radiation_damping * LENGTH
-    start = solve_rectangle(BEAM, DRAUGHT, WATER, 1e-3, centre=(0.0, CENTRE_Z)).radiation_damping * LENGTH
-    spline = CubicSpline(np.concatenate([[0.0], omega]), np.concatenate([start, damping]), axis=0)
-    grid = 0.002 * np.arange(30001)
-    inner = spline(np.minimum(grid, omega[-1]))
-    values = np.where(
-        grid[:, None, None] <= omega[-1], inner, damping[-1] * (omega[-1] / np.maximum(grid, 1.0))[:, None, None] ** 3
+    steady = LENGTH * steady_damping([0.0, BEAM, 0.0], WATER)
+    damping = hydro_per_metre.radiation_damping * LENGTH
+    return StateSpaceMemory.of(
+        fit_memory(fit_damping(hydro_per_metre.omega, damping, start="even", steady_damping=steady))
     )
-    weight = np.full(grid.size, 0.002)
-    weight[[0, -1]] *= 0.5
-    instants = 0.075 * np.arange(601)
-    flat = (2.0 / math.pi) * weight[:, None] * values.reshape(-1, 9)
-    kernel = np.array([(np.cos(grid * instant) @ flat).reshape(3, 3) for instant in instants])
-    return realise_memory(instants, kernel, tolerance=5e-4).memory
 
 
 def main() -> None:

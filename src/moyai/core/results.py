@@ -160,7 +160,9 @@ def write_result(result: Result, path: Path) -> Path:
         os.close(handle)
     except OSError as error:
         raise InputError(
-            f"cannot write {path}: {error.strerror or error}", path="output", remedy="choose a folder that can be written"
+            f"cannot write {path}: {error.strerror or error}",
+            path="output",
+            remedy="choose a folder that can be written",
         ) from error
     try:
         tree.to_netcdf(partial, engine="h5netcdf")

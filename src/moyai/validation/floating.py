@@ -8,7 +8,7 @@ solver of :mod:`moyai.potential.rectangle` and the lines by :mod:`moyai.mooring`
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -27,12 +27,15 @@ from moyai.floating.hydrostatics import Hydrostatics, hydrostatics, inertia_matr
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
-from moyai.floating.realisation import realise_memory
 from moyai.floating.time import CumminsModel, Simulation, simulate
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.system import LineSystem
 from moyai.potential import shapes
+from moyai.potential.damping_model import fit_damping
+from moyai.potential.damping_tail import wall_sided_tails
+from moyai.potential.memory import steady_damping
 from moyai.potential.rectangle import solve_rectangle
+from moyai.potential.state_space import fit_memory
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 
@@ -105,23 +108,15 @@ def period_grid(periods: tuple[float, ...] = PERIODS) -> tuple[float, ...]:
 
 @lru_cache(maxsize=1)
 def paper_memory() -> StateSpaceMemory:
-    """Return the memory: damping of the section to 60 rad/s, its exact third-power tail beyond, realised by states."""
+    """Return the memory of the section by the rational fit of its damping, with exact start and tails."""
     hydro = paper_hydrodynamics(WIDE)
-    spline = CubicSpline(WIDE, hydro.radiation_damping, axis=0)
-    grid = 0.02 * np.arange(10001)
-    damping = np.where(
-        grid[:, None, None] <= 60.0,
-        spline(np.clip(grid, WIDE[0], 60.0)),
-        hydro.radiation_damping[-1] * (60.0 / np.maximum(grid, 60.0))[:, None, None] ** 3,
+    rates = LENGTH * steady_damping([0.0, BEAM, 0.0], WATER)
+    tails = tuple(
+        replace(tail, coefficients=tuple(LENGTH * item for item in tail.coefficients))
+        for tail in wall_sided_tails(WATER, CENTRE_Z)
     )
-    time = 0.025 * np.arange(361)
-    weight = np.full(grid.size, 0.02)
-    weight[[0, -1]] *= 0.5
-    kernel = np.empty((time.size, 3, 3))
-    flat = (2.0 / math.pi) * weight[:, None] * damping.reshape(-1, 9)
-    for index, instant in enumerate(time):
-        kernel[index] = (np.cos(grid * instant) @ flat).reshape(3, 3)
-    return realise_memory(time, kernel, tolerance=2e-4).memory
+    model = fit_damping(WIDE, hydro.radiation_damping, start="even", steady_damping=rates, tail_theory=tails)
+    return StateSpaceMemory.of(fit_memory(model))
 
 
 @lru_cache(maxsize=16)

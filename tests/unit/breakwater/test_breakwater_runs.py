@@ -188,12 +188,13 @@ def test_impossible_units_are_refused(pontoon_problem, breakwater, environment, 
 
 
 def test_infinite_depth_with_springs(pontoon_problem):
+    round_unit = {"hull": circle(0.2), "mass": None, "draught": 0.2, "centre_of_gravity": (0.0, 0.15)}
     problem = changed(
         pontoon_problem,
-        breakwater={"hull": circle(0.2), "mass": None, "draught": 0.2, "centre_of_gravity": (0.0, 0.15), "lines": springs(100.0)},
+        breakwater=round_unit | {"lines": springs(100.0)},
         environment={"water": Water(math.inf, 1000.0, 9.81)},
         settings={"time": TimeSettings(analysed_periods=5)},
-    )  # fmt: skip
+    )
     result = run(problem)
     assert result.status == "converged", result.message
     assert np.all(np.isfinite(result.tree["SWL/time/waves"].to_dataset().motion_amplitude.values))

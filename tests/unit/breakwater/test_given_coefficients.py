@@ -29,8 +29,10 @@ def test_same_motions_as_the_section_without_drift(pontoon_problem):
     given = run(problem, coefficients=without_far_field(problem)).tree
     for group in ("SWL/frequency/waves", "SWL/time/waves"):
         ours, theirs = section[group].to_dataset(), given[group].to_dataset()
-        assert theirs.motion_amplitude.values == pytest.approx(ours.motion_amplitude.values, rel=2e-3, abs=1e-9)
-        assert theirs.maximum_tension.values == pytest.approx(ours.maximum_tension.values, rel=2e-3)
+        # in time the damping of a 3-D body is taken to vanish at zero frequency, which that of a section does not
+        within = 1e-6 if "frequency" in group else 5e-3
+        assert theirs.motion_amplitude.values == pytest.approx(ours.motion_amplitude.values, rel=within, abs=1e-9)
+        assert theirs.maximum_tension.values == pytest.approx(ours.maximum_tension.values, rel=within)
     assert "reflection_coefficient" not in given["SWL/frequency/waves"]
 
 
