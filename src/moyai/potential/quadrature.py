@@ -289,7 +289,7 @@ def add_rankine(
 
 
 _EULER = 0.5772156649015329
-# Trapezoidal rule of K_n(z) = int exp(-z cosh t) cosh(nt) dt; for |arg z| <= pi/4 and 2 < |z| < 16 its relative error is
+# Trapezoidal rule of K_n(z) = int exp(-z cosh t) cosh(nt) dt; its relative error for |arg z| <= pi/4, 2 < |z| < 16 is
 # about exp(-pi^2 / (2 step) + |z| / 5)
 _BESSEL_STEP = 0.14
 _BESSEL_LARGE = 16.0
