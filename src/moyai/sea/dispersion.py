@@ -205,7 +205,8 @@ def _spread(kernel: Any, *arguments: Array) -> Any:
     """Broadcast the arguments, run a compiled loop over them, give the shape back (scalars as float)."""
     arrays = np.broadcast_arrays(*arguments)
     shape = arrays[0].shape
-    flat = [np.ascontiguousarray(array, dtype=np.float64).reshape(-1) for array in arrays]
+    # copies: numba warns of arrays that broadcasting made, which share their memory
+    flat = [np.array(array, dtype=np.float64).reshape(-1) for array in arrays]
     out = np.empty(flat[0].size)
     kernel(*flat, out)
     return float(out[0]) if shape == () else out.reshape(shape)
