@@ -26,6 +26,7 @@ from moyai.breakwater.sensitivity import sensitivity_datasets
 from moyai.breakwater.statics_analysis import mooring_dataset, moving_shapes, statics_dataset
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, Status, make_provenance
+from moyai.core.store import DatasetStore
 from moyai.core.validity import IdentityCheck, Notice
 
 if TYPE_CHECKING:
@@ -43,8 +44,20 @@ class _Collected:
     interrupted: bool = False
 
 
+@dataclass(frozen=True)
+class _Sources:
+    """Where coefficients may come from beside the solver."""
+
+    coefficients: CoefficientsOf | None
+    store: DatasetStore | None
+
+
 def run(
-    problem: BreakwaterProblem, progress: Progress = silent, *, coefficients: CoefficientsOf | None = None
+    problem: BreakwaterProblem,
+    progress: Progress = silent,
+    *,
+    coefficients: CoefficientsOf | None = None,
+    store: DatasetStore | None = None,
 ) -> Result:
     """Run all analyses of a breakwater case.
 
@@ -55,6 +68,8 @@ def run(
         Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
     coefficients : callable or None
         Planar coefficients per metre of the unit from a 3-D program in place of the section.
+    store : DatasetStore or None
+        Where coefficients that took long are kept and looked for.
 
     Returns
     -------
@@ -68,7 +83,7 @@ def run(
     """
     collected = _Collected()
     collected.notices.extend(check_problem(problem))
-    steps = _steps(problem, collected, coefficients, progress)
+    steps = _steps(problem, collected, _Sources(coefficients, store), progress)
     try:
         for _ in steps:
             pass
@@ -77,16 +92,14 @@ def run(
     return _result(problem, collected)
 
 
-def _steps(
-    problem: BreakwaterProblem, collected: _Collected, coefficients: CoefficientsOf | None, progress: Progress
-) -> Iterator[None]:
+def _steps(problem: BreakwaterProblem, collected: _Collected, sources: _Sources, progress: Progress) -> Iterator[None]:
     analyses = problem.settings.analyses
     levels = problem.environment.water_levels
     # Every level is assembled before any long work starts, so that an impossible one is told at once
     units = [assemble(problem, name, level) for name, level in levels]
     for index, unit in enumerate(units):
         progress("water levels", index, len(units))
-        yield from _level_steps(problem, unit, collected, coefficients, progress, analyses)
+        yield from _level_steps(problem, unit, collected, sources, progress, analyses)
     progress("water levels", len(units), len(units))
 
 
@@ -94,7 +107,7 @@ def _level_steps(
     problem: BreakwaterProblem,
     unit: FloatingUnit,
     collected: _Collected,
-    coefficients: CoefficientsOf | None,
+    sources: _Sources,
     progress: Progress,
     analyses: tuple[str, ...],
 ) -> Iterator[None]:
@@ -105,7 +118,7 @@ def _level_steps(
     dynamic = "frequency" in analyses or "time" in analyses
     hydro: UnitHydrodynamics | None = None
     if dynamic or "statics" in analyses:
-        hydro = solve_unit(unit, problem, coefficients=coefficients, progress=progress)
+        hydro = solve_unit(unit, problem, coefficients=sources.coefficients, store=sources.store, progress=progress)
         collected.groups[f"{root}/hydrodynamics"] = hydro.per_metre
         if hydro.oblique_per_metre is not None:
             collected.groups[f"{root}/hydrodynamics_oblique"] = hydro.oblique_per_metre

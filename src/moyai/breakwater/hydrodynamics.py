@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,10 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai import __version__
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
+from moyai.core.store import DatasetStore, key_of
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.potential.damping_model import Start
@@ -148,6 +151,7 @@ def solve_unit(
     problem: BreakwaterProblem,
     *,
     coefficients: CoefficientsOf | None = None,
+    store: DatasetStore | None = None,
     progress: Progress = silent,
 ) -> UnitHydrodynamics:
     """Compute the coefficients of the unit for everything that the case asks for.
@@ -158,12 +162,14 @@ def solve_unit(
     problem : BreakwaterProblem
     coefficients : callable or None
         Coefficients of a 3-D program in place of the section.
+    store : DatasetStore or None
+        Where coefficients that took long are kept and looked for.
     progress : Progress
     """
     if coefficients is not None:
         return _given(coefficients(unit), unit, problem)
     wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
-    modes, lid, length = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None, unit.breakwater.length
+    length = unit.breakwater.length
     # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
     normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
     headings = headings_of(problem)
@@ -173,11 +179,9 @@ def solve_unit(
     if len(oblique):
         # An oblique heading has matrices of its own at every frequency: only what the case asks for
         chosen = oblique_frequencies(problem, wanted)
-        found = solve(unit.section, unit.water, chosen, modes=modes, heading=oblique, lid=lid, progress=progress)
-        turned = found.dataset
+        turned, found_checks = _oblique(unit, chosen, oblique, store, progress)
         by_heading.extend(item.scaled_to(length) for item in _headings_of(turned, 1.0))
-        checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found.checks)
-        notices.extend(found.notices)
+        checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found_checks)
     if normal.status == "interrupted":
         raise KeyboardInterrupt
     return UnitHydrodynamics(
@@ -189,6 +193,40 @@ def solve_unit(
         checks=tuple(checks),
         notices=tuple(notices),
     )
+
+
+def _oblique(
+    unit: FloatingUnit, omega: Array, headings: Array, store: DatasetStore | None, progress: Progress
+) -> tuple[xr.Dataset, tuple[IdentityCheck, ...]]:
+    """Solve oblique headings, or take them from the store: they cost a hundred times the normal one."""
+    modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
+    key = _key(unit, omega, headings)
+    data = None if store is None else store.get(key)
+    if data is None:
+        found = solve(unit.section, unit.water, omega, modes=modes, heading=headings, lid=lid, progress=progress)
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
+        data = found.dataset
+        if store is not None:
+            store.put(key, data)
+    checks = tuple(
+        IdentityCheck(
+            item["name"],
+            math.nan if item["value"] is None else float(item["value"]),
+            float(item["tolerance"]),
+            item.get("meaning", ""),
+        )
+        for item in json.loads(data.attrs["checks"])
+    )
+    return data, checks
+
+
+def _key(unit: FloatingUnit, omega: Array, headings: Array) -> str:
+    """Return the key of a solve: geometry, position, water, frequencies, headings, lid, version."""
+    outlines = [part for outline in unit.section.outlines for part in (outline.vertices, outline.bulges)]
+    position = (unit.section.draught, unit.section.heel, unit.centre, unit.breakwater.gap_damping_lid)
+    water = (unit.water.depth, unit.water.density, unit.water.gravity)
+    return key_of(__version__, *outlines, position, water, omega, headings)
 
 
 def oblique_frequencies(problem: BreakwaterProblem, wanted: Array) -> Array:

@@ -97,7 +97,7 @@ def make_provenance(**entries: Any) -> dict[str, Any]:
     }
 
 
-def _split_complex(dataset: xr.Dataset) -> xr.Dataset:
+def split_complex(dataset: xr.Dataset) -> xr.Dataset:
     """Store complex variables along Capytaine's ``complex = re, im`` dimension, which every reader accepts."""
     import xarray as xr
 
@@ -113,7 +113,7 @@ def _split_complex(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def join_complex(dataset: xr.Dataset) -> xr.Dataset:
-    """Undo :func:`_split_complex`: give complex variables back as complex."""
+    """Undo :func:`split_complex`: give complex variables back as complex."""
     if "complex" not in dataset.dims:
         return dataset
     out = {}
@@ -148,7 +148,7 @@ def write_result(result: Result, path: Path) -> Path:
         "notices": json.dumps([notice.as_dict() for notice in result.notices]),
         "provenance": json.dumps(dict(result.provenance), default=str),
     }
-    tree = _map_tree(result.tree, _split_complex)
+    tree = _map_tree(result.tree, split_complex)
     root = tree.to_dataset(inherit=False)
     root.attrs.update(header)
     groups = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}

@@ -13,6 +13,7 @@ from moyai.breakwater.assembly import assemble
 from moyai.breakwater.model import Damping, IrregularSea, MooringSpring, RegularSea, TimeSettings, Wind
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
+from moyai.core.store import DatasetStore
 from moyai.potential.shapes import circle, pi_type, rectangle, trapezoid, twin_pontoon
 from moyai.sea.current import uniform
 from moyai.sea.spectra import jonswap
@@ -223,3 +224,23 @@ def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     result = run(problem)
     assert result.status == "converged", result.message
     assert any("gap" in notice.code for notice in result.notices) == (lid == 0.0)
+
+
+def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path, monkeypatch):
+    problem = changed(
+        pontoon_problem,
+        environment={"sea_states": (RegularSea("waves", 0.02, (0.9,), 0.4),)},
+        settings={"analyses": ("statics", "frequency")},
+    )
+    store = DatasetStore(tmp_path)
+    first = run(problem, store=store)
+    calls = []
+    from moyai.breakwater import hydrodynamics
+
+    solve = hydrodynamics.solve
+    monkeypatch.setattr(hydrodynamics, "solve", lambda *a, **k: calls.append(k.get("heading")) or solve(*a, **k))
+    second = run(problem, store=store)
+    assert calls == [None]
+    ours, theirs = (result.tree["SWL/frequency/waves"].to_dataset() for result in (first, second))
+    assert np.array_equal(ours.motion_amplitude.values, theirs.motion_amplitude.values)
+    assert [check.name for check in first.checks] == [check.name for check in second.checks]
