@@ -24,6 +24,7 @@ ComplexArray = NDArray[np.complex128]
 
 PHASES = 72  # instants of a cycle at which the nonlinear lines are looked up along the linear orbit
 PEAKS_LOOKED_UP = 50
+SNAP_RATIO = 5.0  # largest over mean tension beyond which a quasi-static peak is not to be trusted alone
 
 
 def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArray) -> dict[str, Array]:
@@ -85,6 +86,36 @@ def anchor_uplift(unit: FloatingUnit, position: Array, tension: Array) -> Array:
     instants = np.unique(np.argpartition(-tension, count - 1, axis=0)[:count])
     states = unit.mooring.planar.states(position[instants])
     return np.array([state.vertical_tension_anchor.max() for state in states.values()])
+
+
+def snap_notices(where: str, names: list[str], largest: Array, mean: Array) -> tuple[Notice, ...]:
+    """Warn of lines whose largest tension leaves the mean far behind: they go taut, and are taken to be at rest.
+
+    Parameters
+    ----------
+    where : str
+        Level and sea.
+    names : list of str
+        Lines.
+    largest, mean : ndarray (..., lines)
+        Tensions [N]; the worst over the leading axes counts.
+    """
+    if not names or not np.size(largest):
+        return ()
+    ratio = np.where(mean > 0.0, largest / np.where(mean > 0.0, mean, 1.0), 0.0).reshape(-1, len(names))
+    worst = np.nan_to_num(ratio).max(axis=0)
+    return tuple(
+        Notice(
+            "quasi-static-snap",
+            f"{where}: line {name} reaches {value:.1f} times its mean tension; lines are at rest at every instant here, so "
+            "that drag, inertia and the shock of a line going taut are not in this peak",
+            value=float(value),
+            limit=SNAP_RATIO,
+            remedy="slacken or lengthen the line, or take the peak as a lower bound and use a dynamic line model",
+        )
+        for name, value in zip(names, worst)
+        if value > SNAP_RATIO
+    )
 
 
 def deck_relative_elevation(unit: FloatingUnit, motions: Motions, k: Array, heading: float) -> Array:

@@ -104,6 +104,10 @@ def irregular_sea(
     if simulation.status == "diverged":
         notices.append(Notice("diverged", f"{unit.name}, {sea.name}: {simulation.message}", severity="error"))
     data = _irregular_summary(unit, simulation, sea, frequency, ramp)
+    if "maximum_tension" in data:
+        names = [line.name for line in unit.lines]
+        where = f"{unit.name}, {sea.name}, time domain"
+        notices.extend(snap_notices(where, names, data.maximum_tension.values, data.mean_tension.values))
     data.attrs |= {
         "kind": "irregular",
         "heading": sea.heading,

@@ -116,6 +116,12 @@ def regular_sea(
         largest = np.array(rows["maximum_tension"])
         out["maximum_utilisation"] = (("period", "line"), np.where(np.isfinite(load), largest / load, np.nan))
     data = xr.Dataset(out, coords={"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines]})
+    if len(done):
+        names_of_lines = [line.name for line in unit.lines]
+        where = f"{unit.name}, {sea.name}, time domain"
+        notices.extend(
+            snap_notices(where, names_of_lines, np.array(rows["maximum_tension"]), np.array(rows["mean_tension"]))
+        )
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
 
