@@ -107,8 +107,8 @@ def snap_notices(where: str, names: list[str], largest: Array, mean: Array) -> t
     return tuple(
         Notice(
             "quasi-static-snap",
-            f"{where}: line {name} reaches {value:.1f} times its mean tension; lines are at rest at every instant here, so "
-            "that drag, inertia and the shock of a line going taut are not in this peak",
+            f"{where}: line {name} reaches {value:.1f} times its mean tension; lines are at rest at every instant here, "
+            "so that drag, inertia and the shock of a line going taut are not in this peak",
             value=float(value),
             limit=SNAP_RATIO,
             remedy="slacken or lengthen the line, or take the peak as a lower bound and use a dynamic line model",

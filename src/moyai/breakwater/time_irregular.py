@@ -15,6 +15,7 @@ from moyai.breakwater.memory_model import UnitMemory
 from moyai.breakwater.model import MODES, IrregularSea, TimeSettings
 from moyai.breakwater.responses import (
     anchor_uplift,
+    snap_notices,
 )
 from moyai.breakwater.time_model import TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
