@@ -107,7 +107,7 @@ def snap_notices(where: str, names: list[str], largest: Array, mean: Array) -> t
     return tuple(
         Notice(
             "quasi-static-snap",
-            f"{where}: line {name} reaches {value:.1f} times its mean tension; lines are at rest at every instant here, "
+            f"{where}: line {name} reaches {value:.1f} times its mean tension; lines are at rest at every instant, "
             "so that drag, inertia and the shock of a line going taut are not in this peak",
             value=float(value),
             limit=SNAP_RATIO,
