@@ -255,7 +255,7 @@ def _sample(current: CurrentProfile, heading: float, low: float, high: float, de
 
 def _steps(skirt: Skirt, largest: float) -> int:
     """Steps along the skirt: enough for the radius W/q of its bend at the toe."""
-    return int(min(20_000, 100 * (2 + math.ceil(largest * skirt.length / skirt.toe_load))))
+    return int(min(20_000, 60 * (2 + math.ceil(largest * skirt.length / skirt.toe_load))))
 
 
 class _Problem:
@@ -304,17 +304,22 @@ class _Problem:
         z = np.linspace(self.top - self.skirt.length, self.top, 200)
         values = np.interp(z, self.pressure.low + self.pressure.step * np.arange(_SAMPLES), self.pressure.values)
         straight = hold = drag * float(np.mean(values * (self.top - z)))
-        a, b = straight - limit, straight + limit
-        for _ in range(60):
+        a, b, lean_a, lean_b = straight - limit, straight + limit, math.nan, math.nan
+        for _ in range(100):
             path, miss = self.solve(drag, hold)
             # the top lies at path[-1, 0] from the toe: upstream of it (negative) while the hold is too small
-            if path[-1, 0] > 0.0 if math.isfinite(miss) else hold > straight:
-                b = hold
+            lean = float(path[-1, 0]) if math.isfinite(miss) else math.copysign(math.inf, hold - straight)
+            if lean > 0.0:
+                b, lean_b = hold, lean
             else:
-                a = hold
-            if b - a <= 1e-13 * limit:
+                a, lean_a = hold, lean
+            if abs(lean) <= 1e-12 * self.skirt.length or b - a <= 1e-14 * limit:
                 break
             hold = 0.5 * (a + b)
+            if math.isfinite(lean_a) and math.isfinite(lean_b):
+                # secant between the ends, each kept off them so that both sides close in
+                share = min(max(lean_a / (lean_a - lean_b), 0.02), 0.98) if lean_a != 0.0 else 0.5
+                hold = a + share * (b - a)
         return path, miss, hold
 
 

@@ -1,0 +1,362 @@
+"""How far a curtain holds: utilisation of each component, largest current, largest wave in a current, spacings.
+
+Everything is found by bisection on the same statics that a user sees; a state that has no solution counts as beyond the
+limit. The wave part comes from the energy model of Tabata et al. and acts on anchor line and anchor.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.curtain.anchor_energy import EnergyModel
+from moyai.curtain.squared_velocity import DirectionRule, effective_height
+from moyai.curtain.statics import CurtainStatics, HangingCurtain, solve_statics
+from moyai.sea.breaking import breaking_limit
+from moyai.sea.current import CurrentProfile
+from moyai.sea.water import Water
+
+_STEPS = 40
+
+
+@dataclass(frozen=True)
+class Strength:
+    """What a component bears, and the safety factor asked of it.
+
+    Parameters
+    ----------
+    capacity : float
+        Breaking load [N], of the sheet per width [N/m].
+    safety_factor : float
+        [-].
+    """
+
+    capacity: float
+    safety_factor: float
+
+    def __post_init__(self) -> None:
+        if not (self.capacity > 0.0 and self.safety_factor >= 1.0 and math.isfinite(self.safety_factor)):
+            raise InputError(
+                f"capacity {self.capacity:g} with safety factor {self.safety_factor:g}",
+                path="strength",
+                allowed="capacity greater than 0, factor at least 1",
+            )
+
+    def utilisation(self, load: float) -> float:
+        """Return load times safety factor over capacity [-]."""
+        return load * self.safety_factor / self.capacity
+
+
+@dataclass(frozen=True)
+class Requirements:
+    """Strengths of the components and what the curtain must keep.
+
+    Parameters
+    ----------
+    upper_cable, lower_cable, sheet, anchor_line, anchor : Strength
+        Cables [N], sheet [N/m], line [N], horizontal holding force of the anchor [N].
+    least_reserve : float
+        Share of the buoyancy that must be left [-].
+    least_depth : float
+        Effective depth that must be kept [m].
+    """
+
+    upper_cable: Strength
+    lower_cable: Strength
+    sheet: Strength
+    anchor_line: Strength
+    anchor: Strength
+    least_reserve: float
+    least_depth: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.least_reserve < 1.0 or not self.least_depth >= 0.0:
+            raise InputError(
+                f"least reserve {self.least_reserve:g}, least depth {self.least_depth:g} m",
+                path="requirements",
+                allowed="reserve from 0 to below 1, depth at least 0",
+            )
+
+
+def utilisation(statics: CurtainStatics, required: Requirements, wave_tension: float) -> dict[str, float]:
+    """Return the utilisation of each component, 1 at its limit.
+
+    Parameters
+    ----------
+    statics : CurtainStatics
+        Steady state.
+    required : Requirements
+        Strengths.
+    wave_tension : float
+        Fluctuating tension of the anchor line [N].
+    """
+    slope = math.cos(statics.curtain.anchor_slope)
+    return {
+        "upper cable": required.upper_cable.utilisation(statics.upper_tension),
+        "lower cable": required.lower_cable.utilisation(statics.lower_tension),
+        "sheet": required.sheet.utilisation(statics.section.sheet_tension),
+        "anchor line": required.anchor_line.utilisation(statics.anchor_line_tension + wave_tension),
+        "anchor": required.anchor.utilisation(statics.anchor_force + wave_tension * slope),
+        "floats": (1.0 - statics.reserve_ratio) / (1.0 - required.least_reserve),
+        "effective depth": required.least_depth / statics.section.effective_depth,
+    }
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit and what sets it.
+
+    Parameters
+    ----------
+    value : float
+        Largest speed [m/s], significant height [m] or span [m]; 0 when even the smallest is too much.
+    governing : str
+        Component at its limit, ``no equilibrium``, ``breaking`` or ``not reached``.
+    """
+
+    value: float
+    governing: str
+
+
+@dataclass(frozen=True)
+class Site:
+    """Where the curtain hangs, with a family of currents.
+
+    Parameters
+    ----------
+    water : Water
+        Depth and density.
+    current : callable
+        Profile of a given surface speed [m/s].
+    flow_heading, chord_normal : float
+        Of the flow and of the downstream normal of the span [rad].
+    passing_fraction : float
+        Share of the held flow that goes under the toe [-].
+    """
+
+    water: Water
+    current: Callable[[float], CurrentProfile]
+    flow_heading: float
+    chord_normal: float
+    passing_fraction: float
+
+    def statics(self, curtain: HangingCurtain, speed: float) -> CurtainStatics:
+        """Return the curtain at rest at a surface speed [m/s]."""
+        return solve_statics(
+            curtain,
+            self.current(speed),
+            self.flow_heading,
+            self.chord_normal,
+            self.water,
+            passing_fraction=self.passing_fraction,
+        )
+
+
+@dataclass(frozen=True)
+class WaveLoad:
+    """Wave part of the anchor load.
+
+    Parameters
+    ----------
+    model : EnergyModel
+        With M, m_B, K.
+    period : callable
+        Period [s] of a significant height [m].
+    angle : float
+        Of the waves from the normal of the curtain [rad].
+    rule : {"paper", "normal", "none"}
+        Direction rule.
+    height_ratio : float
+        H_max / H_1/3 [-].
+    """
+
+    model: EnergyModel
+    period: Callable[[float], float]
+    angle: float
+    rule: DirectionRule
+    height_ratio: float
+
+    def tension(self, significant_height: float, speed: float, pretension: float, water: Water) -> float:
+        """Return the fluctuating tension of the anchor line [N] in a current [m/s] along the load."""
+        if significant_height <= 0.0:
+            return 0.0
+        height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
+        float_speed = self.model.float_speed(height, self.period(significant_height), speed, water)
+        return float(self.model.fluctuating_tension(float_speed, pretension))
+
+
+def _bisect(worst: Callable[[float], tuple[float, str]], high: float, at_end: str) -> Limit:
+    """Return the largest value whose worst utilisation is at most 1, by bisection below ``high``."""
+    top, name = worst(high)
+    if top <= 1.0:
+        return Limit(high, at_end)
+    low = 0.0
+    for _ in range(_STEPS):
+        middle = 0.5 * (low + high)
+        value, which = worst(middle)
+        if value <= 1.0:
+            low = middle
+        else:
+            high, name = middle, which
+    return Limit(low, name)
+
+
+def _worst(parts: dict[str, float]) -> tuple[float, str]:
+    name = max(parts, key=lambda key: parts[key])
+    return parts[name], name
+
+
+def speed_limit(
+    curtain: HangingCurtain, site: Site, required: Requirements, *, highest: float, wave_tension: float = 0.0
+) -> Limit:
+    """Return the largest surface speed [m/s] that every component bears, with what sets it.
+
+    Parameters
+    ----------
+    curtain, site, required
+        What hangs where and must bear what.
+    highest : float
+        Speed up to which the limit is sought [m/s].
+    wave_tension : float
+        Fluctuating tension of the anchor line that acts along with it [N].
+    """
+
+    def worst(speed: float) -> tuple[float, str]:
+        try:
+            return _worst(utilisation(site.statics(curtain, speed), required, wave_tension))
+        except InputError:
+            return math.inf, "no equilibrium"
+
+    return _bisect(worst, highest, "not reached")
+
+
+def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> float:
+    """Return the surface speed [m/s] at which the float reserve is used up, infinite when not below ``highest``.
+
+    Raises
+    ------
+    InputError
+        When the floats do not even carry the curtain in still water.
+    """
+    if curtain.net_weight >= curtain.floats.buoyancy:
+        raise InputError(
+            f"floats of {curtain.floats.buoyancy:g} N/m under {curtain.net_weight:g} N/m",
+            path="floats.buoyancy",
+            allowed=f"more than {curtain.net_weight:g} N/m",
+            remedy="give larger floats or a lighter toe",
+        )
+
+    def worst(speed: float) -> tuple[float, str]:
+        try:
+            return 1.0 - site.statics(curtain, speed).reserve_ratio, "floats"
+        except InputError:
+            return math.inf, "no equilibrium"
+
+    limit = _bisect(worst, highest, "not reached")
+    return math.inf if limit.governing == "not reached" else limit.value
+
+
+def height_limit(
+    curtain: HangingCurtain, site: Site, required: Requirements, waves: WaveLoad, *, speed: float, highest: float
+) -> Limit:
+    """Return the largest significant height [m] that every component bears in a current.
+
+    Parameters
+    ----------
+    curtain, site, required, waves
+        What hangs where, must bear what, and how waves load it.
+    speed : float
+        Surface speed of the current [m/s].
+    highest : float
+        Height up to which the limit is sought [m]; the highest wave, ratio times H, may not break.
+    """
+    try:
+        statics = site.statics(curtain, speed)
+    except InputError:
+        return Limit(0.0, "no equilibrium")
+    pretension = statics.anchor_line_tension
+
+    def worst(height: float) -> tuple[float, str]:
+        if height > 0.0 and waves.height_ratio * height > breaking_limit(waves.period(height), site.water).height:
+            return math.inf, "breaking"
+        rise = waves.tension(height, speed, pretension, site.water)
+        return _worst(utilisation(statics, required, rise))
+
+    still, name = worst(0.0)
+    if still > 1.0:
+        return Limit(0.0, name)
+    return _bisect(worst, highest, "not reached")
+
+
+def operating_limits(
+    curtain: HangingCurtain,
+    site: Site,
+    required: Requirements,
+    waves: WaveLoad,
+    *,
+    speeds: Sequence[float],
+    highest: float,
+    progress: Progress = silent,
+) -> tuple[tuple[float, Limit], ...]:
+    """Return the operating-limit table: for each surface speed [m/s] the largest significant height and what sets it.
+
+    Other arguments as :func:`height_limit`. Interrupted by the listener it returns the rows that are there.
+    """
+    table: list[tuple[float, Limit]] = []
+    try:
+        for count, speed in enumerate(speeds):
+            progress("operating limits", count, len(speeds))
+            table.append((speed, height_limit(curtain, site, required, waves, speed=speed, highest=highest)))
+        progress("operating limits", len(speeds), len(speeds))
+    except KeyboardInterrupt:
+        # what is there is handed back; the caller sees that rows are missing
+        pass
+    return tuple(table)
+
+
+def anchor_spacing(
+    curtain: HangingCurtain, site: Site, required: Requirements, *, speed: float, longest: float, wave_tension: float
+) -> Limit:
+    """Return the largest distance of the anchors [m] at the same ratio of span to length, with what sets it.
+
+    Parameters
+    ----------
+    curtain, site, required
+        What hangs where and must bear what; anchors at each support.
+    speed : float
+        Surface speed [m/s].
+    longest : float
+        Distance up to which the limit is sought [m].
+    wave_tension : float
+        Fluctuating tension of the anchor line [N].
+    """
+    ratio = curtain.length / curtain.span
+
+    def worst(span: float) -> tuple[float, str]:
+        try:
+            statics = site.statics(replace(curtain, span=span, length=ratio * span), speed)
+        except InputError:
+            return math.inf, "no equilibrium"
+        return _worst(utilisation(statics, required, wave_tension))
+
+    return _bisect(worst, longest, "not reached")
+
+
+def joint_spacing(tension_per_length: float, joint: Strength) -> float:
+    """Return the largest distance of the joints [m] between curtain units [eq:curtain-joint-spacing].
+
+    Each joint of the top load line hands on what its unit collects.
+
+    Parameters
+    ----------
+    tension_per_length : float
+        Load of the current per length of curtain [N/m], the section's load.
+    joint : Strength
+        Of the connection [N].
+    """
+    if not tension_per_length > 0.0:
+        raise InputError(f"load is {tension_per_length:g} N/m", path="load", allowed="greater than 0")
+    return joint.capacity / (joint.safety_factor * tension_per_length)
