@@ -24,7 +24,7 @@ _FRONT_DOOR = {
     "read_result": "moyai.core.results",
 }
 
-__all__ = ["__version__", "load_case", "read_result", "run", "write_report"]  # noqa: F822 (resolved below)
+__all__ = ["__version__", "load_case", "read_result", "run", "write_report"]
 
 
 def __getattr__(name: str) -> Any:

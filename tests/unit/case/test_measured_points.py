@@ -1,5 +1,5 @@
 """Measured points: names and units in the header, faults with row and column."""
-# ruff: noqa: E501  (one variation a line reads best)
+
 
 import math
 
