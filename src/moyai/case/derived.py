@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +42,8 @@ class Number:
     @property
     def text(self) -> str:
         """The value in its unit, as shown."""
+        if not math.isfinite(self.value):
+            return "infinite" if self.value > 0.0 else str(self.value)
         shown = parse_unit(self.unit).from_si(self.value) if self.unit else self.value
         text = f"{shown:.{self.digits}g}"
         return f"{float(text):.0f}" if "e+" in text and abs(float(text)) < 1e7 else text

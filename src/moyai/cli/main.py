@@ -160,7 +160,7 @@ def run(
             for warning in case.warnings:
                 tell(f"warning: {warning}")
         with progress_bars(quiet) as progress:
-            result = run_case(case, progress)
+            result = run_case(case, progress, keep=folder / "coefficients")
         files = [result.write(folder / "results.nc")]
         if report:
             from moyai.report.writer import write_report
@@ -174,7 +174,7 @@ def run(
         if as_json:
             print_json(_run_record(case, result, files, seconds, key_figures(result)))
         elif not quiet:
-            print_summary(rich_console(), result, files, seconds)
+            print_summary(rich_console(), result, files, seconds, [fault.message for fault in case.warnings])
         elif result.status != "converged":
             tell(f"{result.status}: {result.message}")
         failed = any(not identity.passed for identity in result.checks)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,10 +14,8 @@ if TYPE_CHECKING:
     from moyai.case.reader import Case
     from moyai.core.results import Result
 
-_ANALYSES = {"breakwater": "moyai.breakwater.analysis"}
 
-
-def run(case: Case, progress: Progress = silent) -> Result:
+def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) -> Result:
     """Run all analyses that a case names.
 
     Parameters
@@ -27,6 +24,8 @@ def run(case: Case, progress: Progress = silent) -> Result:
         From :func:`moyai.load_case`.
     progress : Progress
         Listener told of every step. KeyboardInterrupt ends the run with what there is, status ``interrupted``.
+    keep : Path or None
+        Folder where coefficients that took long are kept under their hash and looked for by the next run.
 
     Returns
     -------
@@ -38,24 +37,30 @@ def run(case: Case, progress: Progress = silent) -> Result:
         When the case is impossible.
     """
     from moyai.case.builder import build
+    from moyai.case.structures import part
 
     problem = build(case)
-    analysis = import_module(_ANALYSES[case.kind])
-    result: Result = analysis.run(problem, progress, **_extras(case, problem))
+    analyse = part(case.kind, "run")
+    result: Result = analyse(problem, progress, **_extras(case, problem, keep))
     told = {notice.message for notice in result.notices}
     warnings = [
-        Notice("case", f"{fault.path}: {fault.message}" if fault.path else fault.message, remedy=fault.remedy)
+        Notice("case", fault.message, remedy=fault.remedy, source=fault.path)
         for fault in case.warnings
         if fault.message not in told
     ]
     return result.with_notices(*warnings) if warnings else result
 
 
-def _extras(case: Case, problem: Any) -> dict[str, Any]:
-    """Return what the structure's package may not fetch itself: coefficients out of other programs' files."""
-    if case.kind == "breakwater" and problem.breakwater.coefficients_file is not None:
-        return {"coefficients": _planar_coefficients(problem)}
-    return {}
+def _extras(case: Case, problem: Any, keep: Path | None) -> dict[str, Any]:
+    """Return what the structure's package may not fetch itself: coefficients out of files."""
+    from moyai.core.store import DatasetStore
+
+    extras: dict[str, Any] = {}
+    if case.kind == "breakwater":
+        extras["store"] = None if keep is None else DatasetStore(keep)
+        if problem.breakwater.coefficients_file is not None:
+            extras["coefficients"] = _planar_coefficients(problem)
+    return extras
 
 
 def _planar_coefficients(problem: Any) -> Any:

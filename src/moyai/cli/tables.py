@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -55,8 +55,10 @@ def key_figures(result: Result) -> list[Any]:
     return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
 
 
-def print_summary(console: Console, result: Result, files: Sequence[Path], seconds: float) -> None:
-    """Print what a run gave: governing numbers, notices, failed checks, files."""
+def print_summary(
+    console: Console, result: Result, files: Sequence[Path], seconds: float, told: Collection[str] = ()
+) -> None:
+    """Print what a run gave: governing numbers, notices that were not ``told`` before, failed checks, files."""
     figures = key_figures(result)
     if figures:
         table = _table(("", "left"), ("", "right"), ("", "left"))
@@ -64,7 +66,8 @@ def print_summary(console: Console, result: Result, files: Sequence[Path], secon
             table.add_row(item.label, item.text, item.detail)
         console.print(table)
     for notice in result.notices:
-        if notice.severity != "information":
+        known = any(notice.message.endswith(message) for message in told)
+        if notice.severity != "information" and not known:
             console.print(f"{notice.severity}: {notice.message}", markup=False, soft_wrap=True)
     failed = [check for check in result.checks if not check.passed]
     for check in failed:
