@@ -201,7 +201,7 @@ def test_bad_input_makes_no_folder(case, tmp_path):
     ],
 )
 def test_whatever_goes_wrong_is_one_message_without_traceback(case, tmp_path, monkeypatch, error, code, words):
-    def fail(*arguments):
+    def fail(*arguments, **options):
         raise error
 
     monkeypatch.setattr("moyai.cli.runner.run", fail)
@@ -213,7 +213,7 @@ def test_whatever_goes_wrong_is_one_message_without_traceback(case, tmp_path, mo
 
 
 def test_debug_shows_the_traceback(case, tmp_path, monkeypatch):
-    def fail(*arguments):
+    def fail(*arguments, **options):
         raise RuntimeError("odd")
 
     monkeypatch.setattr("moyai.cli.runner.run", fail)
@@ -229,8 +229,8 @@ def test_a_result_that_did_not_converge_ends_with_one(case, tmp_path, monkeypatc
 
     whole = runs.run
 
-    def worse(*arguments):
-        return replace(whole(*arguments), status="not_converged", message="residual 0.1")
+    def worse(*arguments, **options):
+        return replace(whole(*arguments, **options), status="not_converged", message="residual 0.1")
 
     monkeypatch.setattr(runs, "run", worse)
     arguments = ["run", str(case), "--output", str(tmp_path / "out"), "--no-report", "--quiet"]
