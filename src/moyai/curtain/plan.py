@@ -23,7 +23,11 @@ from moyai.sea.water import Water
 Array = NDArray[np.float64]
 
 _WIDEST = math.radians(85.0)
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(48)
+# sixteen points in each of twelve pieces of (-1, 1): the curve of sections is smooth in pieces only
+_PIECES = 12
+_INNER, _SHARES = np.polynomial.legendre.leggauss(16)
+_POINTS = ((np.arange(_PIECES)[:, None] * 2.0 + 1.0 + _INNER) / _PIECES - 1.0).ravel()
+_WEIGHTS = np.tile(_SHARES / _PIECES, _PIECES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,15 +110,28 @@ def section_load(
     chord_normal : float
         Heading of the downstream normal of the line between the supports [rad].
     count : int
-        Sections between -85 and 85 degrees.
+        Sections between -85 and 85 degrees, odd.
     """
     angle = np.linspace(-_WIDEST, _WIDEST, count)
-    load = np.array(
-        [
-            solve_section(skirt, current, flow_heading - turn, water, drag, law=law, toe=toe, top_depth=top_depth).load
-            for turn in angle
-        ]
-    )
+
+    def loads(turns: Array) -> Array:
+        settings = {"law": law, "toe": toe, "top_depth": top_depth}
+        return np.array(
+            [
+                solve_section(skirt, current, flow_heading - turn, water, drag, **settings).load  # type: ignore[arg-type]
+                for turn in turns
+            ]
+        )
+
+    heights = np.linspace(-min(water.depth, top_depth + 2.0 * skirt.length), -top_depth, 60)
+    if np.max(np.abs(current.component(heights, flow_heading + 0.5 * math.pi))) <= 1e-12 * np.max(
+        current.speed(heights), initial=1e-300
+    ):
+        # a current of one direction loads both sides alike
+        half = loads(angle[count // 2 :])
+        load = np.concatenate([half[:0:-1], half])
+    else:
+        load = loads(angle)
     middle = float(load[count // 2])
     # span along y, downstream x: the second support lies at the heading of the normal plus a right angle
     return PlanLoad(middle, flow_heading - chord_normal, angle, load / (middle * np.cos(angle) ** 2))

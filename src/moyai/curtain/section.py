@@ -59,7 +59,7 @@ def _climb(
     toe_height: float,
     hold: float,
     toe_load: float,
-    length: float,
+    nodes: Array,
     low: float,
     step: float,
     pressure: Array,
@@ -68,10 +68,10 @@ def _climb(
 ) -> None:
     """Follow the skirt from the toe at x = 0 to its top by Runge and Kutta's fourth order; fills ``path`` (n+1, 4)."""
     count = path.shape[0] - 1
-    h = length / count
     k1, k2, k3, k4, trial = np.empty(4), np.empty(4), np.empty(4), np.empty(4), np.empty(4)
     path[0, 0], path[0, 1], path[0, 2], path[0, 3] = 0.0, toe_height, hold, toe_load
     for i in range(count):
+        h = nodes[i + 1] - nodes[i]
         state = path[i]
         _slopes(state, k1, low, step, pressure, data)
         for j in range(4):
@@ -93,7 +93,7 @@ def _hang(
     reach: float,
     hold: float,
     toe_load: float,
-    length: float,
+    nodes: Array,
     low: float,
     step: float,
     pressure: Array,
@@ -102,9 +102,10 @@ def _hang(
 ) -> float:
     """Find the height of the toe whose skirt ends at ``top_height``; returns the miss [m], NaN without a solution."""
     a, b = top_height - reach, top_height
-    _climb(a, hold, toe_load, length, low, step, pressure, data, path)
+    length = nodes[nodes.size - 1]
+    _climb(a, hold, toe_load, nodes, low, step, pressure, data, path)
     fa = path[-1, 1] - top_height
-    _climb(b, hold, toe_load, length, low, step, pressure, data, path)
+    _climb(b, hold, toe_load, nodes, low, step, pressure, data, path)
     fb = path[-1, 1] - top_height
     if not (fa <= 0.0 <= fb):
         return math.nan
@@ -114,7 +115,7 @@ def _hang(
         c = (fa * b - fb * a) / (fa - fb)
         if not a < c < b:
             c = 0.5 * (a + b)
-        _climb(c, hold, toe_load, length, low, step, pressure, data, path)
+        _climb(c, hold, toe_load, nodes, low, step, pressure, data, path)
         f = path[-1, 1] - top_height
         if abs(f) <= 1e-13 * length or b - a <= 1e-15 * length:
             break
@@ -184,6 +185,8 @@ class SectionShape:
     ----------
     skirt : Skirt
         What hangs.
+    arc : ndarray
+        Unstretched length of skirt from the top [m].
     x, z : ndarray
         Downstream of the top and height above still water [m].
     tension : ndarray
@@ -201,6 +204,7 @@ class SectionShape:
     """
 
     skirt: Skirt
+    arc: Array
     x: Array
     z: Array
     tension: Array
@@ -253,9 +257,17 @@ def _sample(current: CurrentProfile, heading: float, low: float, high: float, de
     return _Pressure(low, float(z[1] - z[0]), np.ascontiguousarray(values))
 
 
-def _steps(skirt: Skirt, largest: float) -> int:
-    """Steps along the skirt: enough for the radius W/q of its bend at the toe."""
-    return int(min(20_000, 60 * (2 + math.ceil(largest * skirt.length / skirt.toe_load))))
+def _nodes(skirt: Skirt, largest: float) -> Array:
+    """Return unstretched lengths from the toe: steps follow the bend, whose radius grows from W/q at the toe.
+
+    Under the load of the normal velocity the slope grows as s q/W, so even steps of arsinh(s q/W) turn evenly.
+    """
+    bend = max(largest * skirt.length / skirt.toe_load, 1e-3)
+    turn = math.asinh(bend)
+    count = 70 * (3 + math.ceil(turn))
+    nodes = np.sinh(np.linspace(0.0, turn, count + 1)) * (skirt.length / bend)
+    nodes[-1] = skirt.length
+    return nodes
 
 
 class _Problem:
@@ -271,11 +283,16 @@ class _Problem:
         self.pressure = _sample(current, heading, low, self.top, water.density)
         self.largest = float(np.max(np.abs(self.pressure.values)))
 
+    def nodes(self, drag: float) -> Array:
+        """Return the steps of a solution, from the toe."""
+        return _nodes(self.skirt, drag * self.largest)
+
     def solve(self, drag: float, hold: float) -> tuple[Array, float]:
         """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
         skirt, pressure = self.skirt, self.pressure
         data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.uniform])
-        path = np.empty((_steps(skirt, drag * self.largest) + 1, 4))
+        nodes = self.nodes(drag)
+        path = np.empty((nodes.size, 4))
         most = math.hypot(
             skirt.toe_load + abs(skirt.submerged_weight) * skirt.length,
             abs(hold) + drag * self.largest * skirt.length * 2.0,
@@ -286,7 +303,7 @@ class _Problem:
             reach,
             hold,
             skirt.toe_load,
-            skirt.length,
+            nodes,
             pressure.low,
             pressure.step,
             pressure.values,
@@ -388,16 +405,20 @@ def solve_section(
     path, miss, hold = solve(coefficient)
     if finite and len(drag.blockage) > 1:
         # a deeper curtain is loaded more and reaches less deep: one crossing
+        lean_low, lean_high = high, math.nan
         for _ in range(60):
             blockage = 0.5 * (low + high)
+            if math.isfinite(lean_high):
+                share = lean_low / (lean_low - lean_high)
+                blockage = low + min(max(share, 0.02), 0.98) * (high - low)
             coefficient = drag.coefficient(blockage)
             path, miss, hold = solve(coefficient)
             reached = (path[-1, 1] - path[0, 1]) / water.depth if math.isfinite(miss) else 0.0
             if reached > blockage:
-                low = blockage
+                low, lean_low = blockage, reached - blockage
             else:
-                high = blockage
-            if high - low < 1e-12:
+                high, lean_high = blockage, reached - blockage
+            if abs(reached - blockage) < 1e-13 or high - low < 1e-13:
                 break
     down = path[::-1]
     angle = np.unwrap(np.arctan2(-down[::-1, 2], down[::-1, 3]))[::-1]
@@ -421,6 +442,7 @@ def solve_section(
     depth = float(down[0, 1] - down[-1, 1])
     return SectionShape(
         skirt=skirt,
+        arc=skirt.length - problem.nodes(coefficient)[::-1],
         x=down[:, 0] - down[0, 0],
         z=down[:, 1].copy(),
         tension=np.hypot(down[:, 2], down[:, 3]),

@@ -114,12 +114,12 @@ def test_section_is_in_equilibrium_as_a_whole() -> None:
         for _ in range(6):
             skirt, current, water = random_case(rng)
             found = solve_section(skirt, current, 0.0, water, DRAG, toe=toe)
-            x, z, angle = found.x, found.z, found.angle
-            ds = skirt.length / (x.size - 1)
+            s, z, angle = found.arc, found.z, found.angle
+            assert s[0] == 0.0 and s[-1] == skirt.length
             stretch = 1.0 + found.tension / skirt.stiffness
             load = 1.5 * sample_pressure(current, 0.0, z, water.density) * np.cos(angle) ** 2 * stretch
-            across = np.trapezoid(load * np.cos(angle), dx=ds)
-            up = np.trapezoid(load * np.sin(angle), dx=ds)
+            across = np.trapezoid(load * np.cos(angle), s)
+            up = np.trapezoid(load * np.sin(angle), s)
             assert found.load == pytest.approx(across, rel=2e-4)
             weight = skirt.toe_load + skirt.submerged_weight * skirt.length
             assert found.top_pull == pytest.approx(weight - up, rel=2e-4)
@@ -131,7 +131,7 @@ def test_fourth_order_of_the_integration() -> None:
     ends = []
     for count in (10, 20, 40, 80, 1280):
         path = np.empty((count + 1, 4))
-        _climb(-5.0, 0.0, 120.0, 5.0, -10.0, 3.0, pressure, data, path)
+        _climb(-5.0, 0.0, 120.0, np.linspace(0.0, 5.0, count + 1), -10.0, 3.0, pressure, data, path)
         ends.append(path[-1].copy())
     errors = [np.linalg.norm(end - ends[-1]) for end in ends[:-1]]
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
