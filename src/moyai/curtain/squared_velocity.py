@@ -7,6 +7,7 @@ wave. It is neither a mean in time (which has half of the wave part and no cross
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -49,7 +50,8 @@ def effective_height(
     Notes
     -----
     With the paper's rule the squared velocity goes with cos^4 where there is no current, while the paper states that
-    tension goes with cos^2, which is what ``normal`` gives [eq:curtain-effective-height].
+    tension goes with cos^2, which is what ``normal`` gives [eq:curtain-effective-height]; see
+    :func:`check_direction_rule`.
     """
     height, beta = np.asarray(significant_height, dtype=np.float64), np.asarray(angle, dtype=np.float64)
     if rule not in _RULES:
@@ -139,6 +141,73 @@ def surface_speed(height: ArrayLike, period: ArrayLike, water: Water) -> Array:
     depth = water.depth if math.isfinite(water.depth) else 1.0
     omega, _, _, coth = _factors(period, depth, water)
     return 0.5 * np.asarray(height) * omega * coth
+
+
+@dataclass(frozen=True)
+class ProportionalFit:
+    """Tension in proportion to the squared velocity, T = c u2.
+
+    Parameters
+    ----------
+    factor : float
+        c [N s2/m2].
+    standard_error : float
+        Of the factor [N s2/m2].
+    determination : float
+        R^2 about the mean [-]; negative when a constant would fit better.
+    """
+
+    factor: float
+    standard_error: float
+    determination: float
+
+
+def fit_proportional(squared: ArrayLike, tension: ArrayLike) -> ProportionalFit:
+    """Fit tensions [N] by a line through the origin over squared velocities [m2/s2] [eq:curtain-proportional].
+
+    Raises
+    ------
+    InputError
+        For fewer than three pairs, or squared velocities that are all zero.
+    """
+    x, y = np.asarray(squared, dtype=np.float64), np.asarray(tension, dtype=np.float64)
+    if x.ndim != 1 or x.shape != y.shape or x.size < 3 or not np.any(x):
+        raise InputError(
+            f"{x.size} and {y.size} values", path="squared", allowed="equal lists of at least 3, not all 0"
+        )
+    total = float(x @ x)
+    factor = float(x @ y) / total
+    left = float(np.sum((y - factor * x) ** 2))
+    spread = float(np.sum((y - y.mean()) ** 2))
+    error = math.sqrt(left / (x.size - 1) / total)
+    return ProportionalFit(factor, error, 1.0 - left / spread if spread > 0.0 else math.nan)
+
+
+def check_direction_rule(rule: DirectionRule, measure: Literal["squared_velocity", "energy"]) -> tuple[Notice, ...]:
+    """Tell where a direction rule contradicts the paper's finding that tension goes with cos^2.
+
+    Parameters
+    ----------
+    rule : {"paper", "normal", "none"}
+        In use.
+    measure : {"squared_velocity", "energy"}
+        What the tension is taken from: in proportion to the squared velocity, or by the energy model, linear in height.
+    """
+    power = _RULES[rule] * (2 if measure == "squared_velocity" else 1)
+    if power == 2:
+        return ()
+    better = "normal" if measure == "squared_velocity" else "paper"
+    return (
+        Notice(
+            "curtain-direction-rule",
+            f"direction rule '{rule}': without current tension goes with cos^{power} of the angle; cos^2 was observed",
+            float(power),
+            2.0,
+            "information",
+            f"rule '{better}' gives cos^2 here",
+            _SOURCE,
+        ),
+    )
 
 
 def check_squared_velocity(height: float, period: float, current: float, water: Water) -> tuple[Notice, ...]:

@@ -17,8 +17,10 @@ from moyai.curtain.anchor_energy import (
     product_needed,
 )
 from moyai.curtain.squared_velocity import (
+    check_direction_rule,
     check_squared_velocity,
     effective_height,
+    fit_proportional,
     mean_squared_velocity,
     squared_velocity,
     surface_speed,
@@ -144,3 +146,29 @@ def test_notices_of_the_energy_model() -> None:
     assert check_energy_model(EnergyModel(0.2, 518.0, 890e3, 2.0, 1.0, 1.0), 7.0) == ()
     slow = check_energy_model(EnergyModel(1.5, 518.0, 1e3, 2.0, 1.0, 1.0), 7.0)
     assert {notice.code for notice in slow} == {"curtain-energy-response", "curtain-energy-factor"}
+
+
+def test_proportional_fit() -> None:
+    """Result 4 of the field paper: slope, its error and R^2 against numpy's least squares and planted scatter."""
+    rng = np.random.default_rng(61)
+    inside = 0
+    for _ in range(400):
+        x = rng.uniform(0.1, 5.0, 40)
+        y = 2.5e3 * x + 600.0 * rng.standard_normal(40)
+        fit = fit_proportional(x, y)
+        inside += abs(fit.factor - 2.5e3) < 2.023 * fit.standard_error
+    slope, left, *_ = np.linalg.lstsq(x[:, None], y, rcond=None)
+    assert fit.factor == pytest.approx(slope[0], rel=1e-12)
+    assert fit.determination == pytest.approx(1.0 - left[0] / np.sum((y - y.mean()) ** 2), rel=1e-12)
+    # Student's 95 % for 39 degrees of freedom
+    assert 365 <= inside <= 395
+    assert fit_proportional(x, 3.0 * x).determination == pytest.approx(1.0, rel=1e-14)
+    with pytest.raises(InputError, match="at least 3"):
+        fit_proportional([1.0, 2.0], [1.0, 2.0])
+
+
+def test_direction_rule_that_contradicts_the_paper_is_named() -> None:
+    assert check_direction_rule("normal", "squared_velocity") == ()
+    assert check_direction_rule("paper", "energy") == ()
+    assert check_direction_rule("paper", "squared_velocity")[0].value == 4.0
+    assert "'paper'" in check_direction_rule("none", "energy")[0].remedy
