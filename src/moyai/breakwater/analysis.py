@@ -10,7 +10,7 @@ import numpy as np
 
 from moyai.breakwater import frequency_irregular, frequency_regular
 from moyai.breakwater.assembly import FloatingUnit, assemble
-from moyai.breakwater.checks import check_problem, check_unit, drift_check
+from moyai.breakwater.checks import check_problem, check_unit, drift_check, strength_notices
 from moyai.breakwater.frequency_model import FrequencyModel, make_model
 from moyai.breakwater.hydrodynamics import (
     CoefficientsOf,
@@ -162,6 +162,7 @@ def _frequency_steps(
         collected.groups[f"{root}/frequency/{sea.name}"] = answer.dataset
         collected.checks.extend(answer.checks)
         collected.notices.extend(answer.notices)
+        collected.notices.extend(strength_notices(f"{unit.name}, {sea.name}, frequency domain", answer.dataset))
         if answer.dataset.attrs["status"] != "converged":
             collected.unsettled.append(f"{unit.name}/frequency/{sea.name}")
         yield
@@ -194,6 +195,7 @@ def _time_steps(
         for one in answer.runs:
             collected.groups[f"{root}/time/{sea.name}/{one.name}"] = one.dataset(unit)
         collected.notices.extend(answer.notices)
+        collected.notices.extend(strength_notices(f"{unit.name}, {sea.name}, time domain", answer.dataset))
         histories.extend(collected.groups[f"{root}/time/{sea.name}/{one.name}"] for one in answer.runs)
         shapes = moving_shapes(unit, histories)
         if shapes is not None:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 MOST_POLES = 32
-CAUSAL = ("Kramers-Kronig", "Ogilvie")
+CAUSAL = ("Kramers-Kronig", "Ogilvie", "lambda is the integral of K", "frequencies resolve the damping")
 LEAST_STEPS, MOST_STEPS = 400, 4000  # of the time grid on which the kernels are stored
 STATE_TOLERANCE = 1e-3
 

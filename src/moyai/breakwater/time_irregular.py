@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,6 +105,8 @@ def irregular_sea(
     if simulation.status == "diverged":
         notices.append(Notice("diverged", f"{unit.name}, {sea.name}: {simulation.message}", severity="error"))
     data = _irregular_summary(unit, simulation, sea, frequency, ramp)
+    if sea.spreading is None and "mean_offset" in data:
+        data = data.assign(_transmission(model, simulation, sea, ramp))
     if "maximum_tension" in data:
         names = [line.name for line in unit.lines]
         where = f"{unit.name}, {sea.name}, time domain"
@@ -183,10 +185,48 @@ def _irregular_summary(
         }
         load = np.array([line.breaking_load for line in unit.lines])
         out["maximum_utilisation"] = ("line", np.where(np.isfinite(load), out["maximum_tension"][1] / load, np.nan))
-    for name in ("transmission_coefficient", "reflection_coefficient", "transmitted_significant_height"):
-        if name in frequency:
-            out[name] = ((), float(frequency[name]))
     return xr.Dataset(out, coords={"dof": list(MODES), "line": [line.name for line in unit.lines]})
+
+
+def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ramp: float) -> dict[str, Any]:
+    """Return transmission and reflection of the sea with the motions of the time domain.
+
+    The combined method of P3 carried over to spectra: the wave that passes the body held fixed plus the waves that the
+    simulated motions radiate, frequency by frequency of the record [eq:breakwater-combined]. Slow drift radiates
+    nothing and is left out with everything outside the band of the waves. Long-crested seas only.
+    """
+    hydro = model.hydro.whole(sea.heading)
+    if hydro.reflection is None or hydro.transmission is None or hydro.radiated_wave is None:
+        return {}
+    keep = run.time >= ramp
+    window = np.hanning(int(keep.sum()))
+    step = float(run.time[1] - run.time[0])
+    omega = 2.0 * math.pi * np.fft.rfftfreq(len(window), step)
+    low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-4, 1.0 - 1e-3])))
+    band = (omega >= max(low, hydro.omega[0])) & (omega <= min(high, hydro.omega[-1]))
+
+    def spectrum(series: Array) -> NDArray[np.complex128]:
+        # The convention is exp(-i omega t): the conjugate of the transform
+        return np.asarray(np.conj(np.fft.rfft(series * window)))[band]
+
+    wave = spectrum(run.elevation[keep])
+    at = hydro.at(omega[band])
+    if at.reflection is None or at.transmission is None or at.radiated_wave is None:
+        return {}
+    position = run.position[keep] - run.position[keep].mean(axis=0)
+    velocity = -1j * omega[band][:, None] * np.stack([spectrum(column) for column in position.T], axis=1)
+    radiated = np.einsum("nm,nms->ns", velocity, at.radiated_wave)
+    incident = float(np.sum(np.abs(wave) ** 2))
+    if incident == 0.0:
+        return {}
+    reflected = math.sqrt(float(np.sum(np.abs(at.reflection[:, 0] * wave + radiated[:, 0]) ** 2)) / incident)
+    passed = math.sqrt(float(np.sum(np.abs(at.transmission[:, 0] * wave + radiated[:, 1]) ** 2)) / incident)
+    height = 4.0 * float(np.std(run.elevation[keep]))
+    return {
+        "transmission_coefficient": ((), passed),
+        "reflection_coefficient": ((), reflected),
+        "transmitted_significant_height": ((), passed * height),
+    }
 
 
 def _significant(time: Array, series: Array) -> Array:

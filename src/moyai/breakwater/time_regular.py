@@ -36,6 +36,7 @@ RAMP_PERIODS = 6.0  # P3: cosine ramp of six periods
 LEAST_SETTLING_PERIODS = 20.0
 MOST_SETTLING_PERIODS = 300.0
 SETTLED = math.log(1e3)  # transients die to a thousandth
+LEAST_LOSS = 0.005  # of the incident energy
 STEADY_LIMIT = 0.01  # change of the first harmonic from one window to the next
 
 
@@ -123,6 +124,7 @@ def regular_sea(
         notices.extend(
             snap_notices(where, names_of_lines, np.array(rows["maximum_tension"]), np.array(rows["mean_tension"]))
         )
+    notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
 
@@ -246,5 +248,25 @@ def _steadiness(run: Simulation, period: float, settings: TimeSettings, where: s
             value=change,
             limit=STEADY_LIMIT,
             remedy="give a longer duration; strongly nonlinear lines may never settle to one period",
+        ),
+    )
+
+
+def _created_energy(data: xr.Dataset, where: str) -> tuple[Notice, ...]:
+    """Warn when the combined R and T of P3 carry more energy than came in."""
+    if "dissipation" not in data:
+        return ()
+    least = float(data["dissipation"].min(skipna=True))
+    if not least < -LEAST_LOSS:
+        return ()
+    return (
+        Notice(
+            "energy-created",
+            f"{where}, time domain: reflected and transmitted waves carry {-100.0 * least:.1f} % more energy than came "
+            "in; motions of nonlinear lines, or of the memory of normal incidence in oblique waves, do not fit the "
+            "operators of the frequency domain",
+            value=-least,
+            limit=LEAST_LOSS,
+            remedy="take reflection and transmission of the frequency domain",
         ),
     )

@@ -48,6 +48,13 @@ def _check_needs(model: BreakwaterCase, findings: Findings) -> None:
         )
     if "time" in model.analyses and not model.waves:
         findings.fault(("analyses",), "the analysis 'time' needs 'waves'", remedy="give a sea state")
+    pushed = model.settings.drift or model.wind is not None or model.current is not None
+    if not model.lines and pushed and model.waves and {"frequency", "time"} & set(model.analyses):
+        findings.fault(
+            ("analyses",),
+            "nothing holds the unit in sway against drift, wind or current",
+            remedy="give 'lines', or set 'settings.drift: false' and leave 'wind' and 'current' out",
+        )
     if "mooring" in model.analyses and not model.lines:
         findings.warn(("analyses",), "the analysis 'mooring' has no 'lines' to work on")
     if math.isinf(model.site.water_depth):

@@ -10,6 +10,11 @@ from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PowerLaw, RegularWaves, SpectrumFile, SpeedTable, Tma, sea_names
 from moyai.case.yaml_reader import KeyPath
 
+#: Beyond it waves run along the structure and reflection and transmission lose their meaning
+LARGEST_HEADING_DEG = 89.5
+#: [m/s]; strongest gust and strongest tidal stream on record are near 113 and 10 m/s
+LARGEST_SPEED = {"wind": 113.0, "current": 10.0}
+
 
 def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
     """Check water levels, headings, sea states and current against each other."""
@@ -28,6 +33,21 @@ def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
         if isinstance(state, SpectrumFile):
             check_file(wave_path(findings, index, "file"), state.file, folder, findings)
     _check_current(model, findings)
+    for name in model.site.water_levels:
+        _check_name(("site", "water_levels", name), name, findings)
+    for index, name in enumerate(sea_names(model.waves)):
+        _check_name(wave_path(findings, index, "name"), name, findings)
+    for key in ("wind", "current"):
+        entry = getattr(model, key)
+        speed = getattr(entry, "speed", None)
+        if speed is not None and abs(speed) > LARGEST_SPEED[key]:
+            findings.warn((key, "speed"), f"{speed:g} m/s is more than has been measured")
+
+
+def _check_name(path: KeyPath, name: str, findings: Findings) -> None:
+    """Refuse names that cannot stand as a group of the results file."""
+    if "/" in name or name.strip() in ("", ".", ".."):
+        findings.fault(path, f"'{name}' cannot name a group of results", allowed="words without '/'")
 
 
 def wave_path(findings: Findings, index: int, *keys: str) -> KeyPath:
@@ -106,12 +126,27 @@ def _check_current(model: Any, findings: Findings) -> None:
             )
 
 
+def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings) -> None:
+    """Check that waves meet the structure from the side of negative x, as the two-dimensional theory takes them."""
+    degrees = math.degrees(math.remainder(heading, 2.0 * math.pi))
+    if abs(degrees) <= LARGEST_HEADING_DEG:
+        return
+    key = "from_bearing_deg" if getattr(state, "from_bearing_deg", None) is not None else "heading_deg"
+    findings.fault(
+        (*path, key),
+        f"the waves travel at {degrees:.4g} degrees to +x, along the structure or towards -x",
+        allowed=f"-{LARGEST_HEADING_DEG} to {LARGEST_HEADING_DEG} degrees",
+        remedy="turn the x axis so that waves come from -x, mirroring lines and section",
+    )
+
+
 def check_waves(model: Any, problem: Any, findings: Findings) -> None:
     """Hold every sea state against breaking and the limits of its theory, at every water level."""
     from moyai.sea.validity import check_spectrum, check_wave
 
     environment = problem.environment
     for index, (state, sea) in enumerate(zip(model.waves, environment.sea_states)):
+        _check_heading(state, sea.heading, wave_path(findings, index), findings)
         said: set[str] = set()
         for name, level in environment.water_levels:
             water = environment.water_at(level)

@@ -5,6 +5,7 @@ Imports of the numerical packages stand inside the commands, so that ``moyai --h
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 import time
@@ -27,6 +28,11 @@ from moyai.cli.console import (
     say,
     tell,
 )
+
+# Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
+# commands, reads these at its import; whoever sets them keeps his own.
+for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_threads, "1")
 
 app = typer.Typer(
     name="moyai",

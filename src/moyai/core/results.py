@@ -6,6 +6,7 @@ import json
 import math
 import os
 import platform
+import shutil
 import sys
 import tempfile
 from collections.abc import Mapping
@@ -131,6 +132,38 @@ def _map_tree(tree: xr.DataTree, change: Any) -> xr.DataTree:
     return xr.DataTree.from_dict({node.path: change(node.to_dataset(inherit=False)) for node in tree.subtree})
 
 
+def require_space(folder: Path, size: int) -> None:
+    """Refuse to start a file that the disk has no room for: the HDF5 library does not survive a disk that fills up.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the file will stand.
+    size : int
+        Bytes of the data.
+
+    Raises
+    ------
+    InputError
+        With what is needed and what is free.
+    """
+    needed = 1.2 * size + 2_000_000
+    free = shutil.disk_usage(folder).free
+    if free < needed:
+        raise InputError(
+            f"{folder} has {free / 1e6:.1f} MB free and the results need about {needed / 1e6:.1f} MB",
+            path="output",
+            remedy="free some space or choose another folder",
+        )
+
+
+def give_usual_rights(file: Path) -> None:
+    """Give a file made under a temporary name the rights that a new file has here."""
+    mask = os.umask(0)
+    os.umask(mask)
+    file.chmod(0o666 & ~mask)
+
+
 def write_result(result: Result, path: Path) -> Path:
     """Write a result; see :meth:`Result.write`."""
     import xarray as xr
@@ -156,6 +189,7 @@ def write_result(result: Result, path: Path) -> Path:
     tree = xr.DataTree.from_dict(groups)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        require_space(path.parent, sum(node.nbytes for node in tree.subtree))
         handle, partial = tempfile.mkstemp(prefix=path.name + ".", suffix=".partial", dir=path.parent)
         os.close(handle)
     except OSError as error:
@@ -166,6 +200,7 @@ def write_result(result: Result, path: Path) -> Path:
         ) from error
     try:
         tree.to_netcdf(partial, engine="h5netcdf")
+        give_usual_rights(Path(partial))
         os.replace(partial, path)
     except OSError as error:
         raise InputError(f"cannot write {path}: {error.strerror or error}", path="output") from error

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.results import join_complex, split_complex
+from moyai.core.errors import InputError
+from moyai.core.results import join_complex, require_space, split_complex
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -66,9 +67,10 @@ class DatasetStore:
         """Keep a dataset; a folder that cannot be written keeps nothing and harms nothing."""
         try:
             self.directory.mkdir(parents=True, exist_ok=True)
+            require_space(self.directory, dataset.nbytes)
             handle, partial = tempfile.mkstemp(prefix=key, suffix=".partial", dir=self.directory)
             os.close(handle)
-        except OSError:
+        except (OSError, InputError):
             return
         try:
             split_complex(dataset).to_netcdf(partial, engine="h5netcdf")

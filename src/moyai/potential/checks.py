@@ -95,17 +95,21 @@ def gap_notices(section: Section, water: Water, omega: FloatArray, lid: float) -
         length = draught + width / math.pi * (1.5 + math.log(max(whole / (2.0 * width), math.exp(-1.5))))
         resonance = math.sqrt(water.gravity / length)
         inside = bool(omega.min() <= resonance <= omega.max())
-        if inside and lid == 0.0:
+        if inside:
+            without = " without damping" if lid == 0.0 else f"; the damping lid of {lid:g} decides what stays of it"
             notices.append(
                 Notice(
                     code="gap-resonance",
+                    severity="warning" if lid == 0.0 else "information",
                     message=(
                         f"The water in the gap of {width:.3g} m at x = {left:.3g} to {right:.3g} m resonates near "
-                        f"{resonance:.3g} rad/s (period {2.0 * math.pi / resonance:.3g} s) without damping"
+                        f"{resonance:.3g} rad/s (period {2.0 * math.pi / resonance:.3g} s){without}"
                     ),
                     value=resonance,
                     limit=float(omega.max()),
-                    remedy="give lid, the damping of the enclosed surface as a fraction (0.01 to 0.1 is usual)",
+                    remedy="give lid, the damping of the enclosed surface as a fraction (0.01 to 0.1 is usual)"
+                    if lid == 0.0
+                    else "hold the lid against a measured gap elevation",
                     source="Molin (2001), J. Fluid Mech. 430, 27-50, piston mode of a moonpool",
                 )
             )

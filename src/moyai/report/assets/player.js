@@ -174,8 +174,9 @@ class SideView {
     }
     for (const line of this.lines) {
       const now = this.tensionAt(line, place);
-      const used = Number.isFinite(line.breaking) && line.breaking ? ` (${MOYAI.number((100 * now) / line.breaking, 2)} % of breaking load)` : "";
-      rows.push({ label: line.name, value: `${MOYAI.number(now * line.factor)} ${line.unit}`, extreme: `max ${MOYAI.number(line.maximum * line.factor)}${used}`, colour: MOYAI.loadColour(now / this.scale) });
+      const used = (load) => Number.isFinite(line.breaking) && line.breaking ? ` (${MOYAI.number((100 * load) / line.breaking, 2)} %)` : "";
+      const said = (load) => `${MOYAI.number(load * line.factor)} ${line.unit}${used(load)}`;
+      rows.push({ label: line.name, value: said(now), extreme: `max ${said(line.maximum)}`, colour: MOYAI.loadColour(now / this.scale) });
     }
     return rows;
   }
