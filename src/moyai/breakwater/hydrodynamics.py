@@ -113,13 +113,17 @@ def sea_frequencies(problem: BreakwaterProblem) -> Array:
     return np.unique(np.concatenate(parts))
 
 
-def spectrum_band(sea: IrregularSea, count: int = 80) -> Array:
+def spectrum_band(sea: IrregularSea, count: int = 200) -> Array:
     """Return frequencies [rad/s] over all but 1e-3 of the energy of a spectrum, half of them crowded by energy."""
     low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-5, 1.0 - ENERGY_LEFT_OUT])))
     by_energy = sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2))
     grid = np.unique(np.concatenate([np.linspace(low, high, count // 2), np.asarray(by_energy, dtype=float)]))
-    # Points closer than a thousandth of the band carry no information and spoil splines
-    return np.asarray(grid[np.concatenate([[True], np.diff(grid) > 1e-3 * (high - low)])], dtype=float)
+    # Points closer than a thousandth of the band to the last one kept carry no information and spoil splines
+    kept = [grid[0]]
+    for frequency in grid[1:]:
+        if frequency - kept[-1] > 1e-3 * (high - low):
+            kept.append(frequency)
+    return np.array(kept, dtype=float)
 
 
 def headings_of(problem: BreakwaterProblem) -> Array:

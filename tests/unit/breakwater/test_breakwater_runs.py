@@ -263,5 +263,16 @@ def test_transmission_of_an_irregular_sea_in_time_is_that_of_frequency_with_spri
     tree = run(problem).tree
     time, frequency = (tree[f"SWL/{name}/storm"].to_dataset() for name in ("time", "frequency"))
     for name in ("transmission_coefficient", "reflection_coefficient"):
-        assert float(time[name]) == pytest.approx(float(frequency[name]), rel=0.015)
+        assert float(time[name]) == pytest.approx(float(frequency[name]), rel=0.03)
         assert float(time[name]) != float(frequency[name])
+
+
+@pytest.mark.parametrize("count", [60, 200, 900])
+def test_frequencies_of_a_spectrum_carry_its_energy(count):
+    # points crowd at the peak; thinning them must leave no gap there
+    from moyai.breakwater.hydrodynamics import spectrum_band
+
+    sea = IrregularSea("storm", jonswap(1.0, 5.0, 7.0))
+    omega = spectrum_band(sea, count)
+    energy = np.trapezoid(sea.spectrum.density_at(omega), omega)
+    assert 4.0 * math.sqrt(energy) == pytest.approx(1.0, rel=6e-3)
