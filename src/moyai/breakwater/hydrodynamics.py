@@ -186,8 +186,6 @@ def solve_unit(
         turned, found_checks = _oblique(unit, chosen, oblique, store, progress)
         by_heading.extend(item.scaled_to(length) for item in _headings_of(turned, 1.0))
         checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found_checks)
-    if normal.status == "interrupted":
-        raise KeyboardInterrupt
     return UnitHydrodynamics(
         per_metre=normal.dataset,
         oblique_per_metre=turned,
@@ -292,9 +290,11 @@ def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Radiati
     grid = distinct(omega)
     for _ in range(MOST_REFINEMENTS):
         found = solve(unit.section, unit.water, grid, modes=modes, lid=lid, progress=progress)
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
         damping = found.normal.radiation_damping
         more = refine_frequencies(grid, damping, start=damping_start(unit), tolerance=REFINEMENT_TOLERANCE)
-        if found.status == "interrupted" or not len(more) or len(grid) > MOST_FREQUENCIES:
+        if not len(more) or len(grid) > MOST_FREQUENCIES:
             break
         grid = distinct(np.concatenate([grid, more]))
     return found
