@@ -179,3 +179,38 @@ def march(
         out[n, 2] = speed
         out[n, 3] = load
         out[n, 4] = tension
+
+
+@njit(cache=True, error_model="numpy")
+def slack_taut(
+    span: float, length: float, stiffness: float, mass: float, drag: float, flow: Array, step: float, out: Array
+) -> None:
+    """March the slack and taut curtain by the classical Runge-Kutta scheme [eq:impact-slack-taut].
+
+    ``flow`` (2 n + 1, 2) holds velocity and acceleration of the water at every half step, ``drag`` is rho C_D d / 2;
+    rows of ``out`` (n + 1, 3): position and speed of mid-span, tension. The first row is the start.
+    """
+    ratio = span / length
+    taut = taut_shape(ratio)
+    loose = 0.5 * span * _sag(taut)
+    y, v = out[0, 0], out[0, 1]
+    for n in range(out.shape[0]):
+        side = abs(y) - loose
+        out[n, 0] = y
+        out[n, 1] = v
+        out[n, 2] = spring(side, span, ratio, taut, stiffness)[1]
+        if n + 1 == out.shape[0]:
+            break
+        place, speed, sum_y, sum_v = y, v, 0.0, 0.0
+        for stage in range(4):
+            at = 2 * n + (0 if stage == 0 else 2 if stage == 3 else 1)
+            load = spring(abs(place) - loose, span, ratio, taut, stiffness)[0]
+            relative = flow[at, 0] - speed
+            rate = flow[at, 1] + (drag * relative * abs(relative) - math.copysign(load, place)) / mass
+            weight = 1.0 if stage in (0, 3) else 2.0
+            sum_y += weight * speed
+            sum_v += weight * rate
+            ahead = step if stage == 2 else 0.5 * step
+            place, speed = y + ahead * speed, v + ahead * rate
+        y += step * sum_y / 6.0
+        v += step * sum_v / 6.0
