@@ -10,16 +10,8 @@ import math
 import numpy as np
 import pytest
 
-from moyai.curtain.impact import (
-    Impact,
-    closed_form,
-    edge_impact,
-    impact_numbers,
-    iterate_first_step,
-    march_impact,
-    peak_by_energy,
-    speed_factor,
-)
+from moyai.curtain.impact import Impact, closed_form, edge_impact, impact_numbers, peak_by_energy, speed_factor
+from moyai.curtain.impact_march import iterate_first_step, march_impact
 from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, skirt_impact
 from moyai.sea.water import Water
 

@@ -8,7 +8,8 @@ from typing import get_args
 
 from moyai.core.validity import Notice
 from moyai.curtain.added_mass import flat_skirt_mass
-from moyai.curtain.impact import Impact, check_impact, closed_form, edge_impact, march_impact, peak_by_energy
+from moyai.curtain.impact import Impact, check_impact, closed_form, edge_impact, peak_by_energy
+from moyai.curtain.impact_march import march_impact
 from moyai.curtain.impact_skirt import Skirt, Variant, cable_and_skirt_impact, skirt_impact
 
 

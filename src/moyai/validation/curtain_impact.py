@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from moyai.core.validation import ValidationCase
-from moyai.curtain.impact import Impact, edge_impact, march_impact, peak_by_energy, speed_factor
+from moyai.curtain.impact import Impact, edge_impact, peak_by_energy, speed_factor
+from moyai.curtain.impact_march import march_impact
 from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, skirt_impact
 from moyai.sea.water import Water
 

@@ -14,13 +14,13 @@ from moyai.curtain.impact import (
     closed_form,
     edge_impact,
     impact_numbers,
-    march_impact,
     peak_by_energy,
     speed_factor,
     sweep_peaks,
 )
 from moyai.curtain.impact_compare import compare_models
 from moyai.curtain.impact_kernels import spring, taut_shape
+from moyai.curtain.impact_march import march_impact
 from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, skirt_impact
 from moyai.sea.water import Water
 
