@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from moyai.breakwater.frequency_model import (
     FrequencyModel,
     FrequencyResult,
+    drift_problem,
     solve_about_offset,
     worst_status,
 )
@@ -25,7 +26,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping
-from moyai.floating.drift import DriftedMotions, DriftProblem, solve_irregular_with_drift
+from moyai.floating.drift import DriftedMotions, solve_irregular_with_drift
 from moyai.floating.far_field import far_field
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.floating.irregular import energy_transmission, linearised_in_sea, response_statistics
@@ -132,17 +133,7 @@ def irregular_sea(
 def _irregular_mean(model: FrequencyModel, hydro: Hydrodynamics, density: Array) -> DriftedMotions:
     if not hydro.has_far_field:
         return solve_about_offset(model, hydro, np.full(len(hydro.omega), 1e-6), silent)
-    unit = model.unit
-    problem = DriftProblem(
-        hydrodynamics=hydro,
-        inertia=unit.inertia,
-        hydrostatic_stiffness=unit.statics.stiffness,
-        mooring=unit.mooring,
-        water=unit.water,
-        damping=model.damping,
-        quadratic=model.quadratic,
-        steady_force=model.steady,
-    )
+    problem = drift_problem(model, hydro)
     return solve_irregular_with_drift(problem, density, with_drift=model.with_drift)
 
 

@@ -78,22 +78,28 @@ class FrequencyResult:
     notices: tuple[Notice, ...] = ()
 
 
+def drift_problem(model: FrequencyModel, hydro: Hydrodynamics) -> DriftProblem:
+    """Return what the loop of drift and stiffness holds fixed."""
+    unit = model.unit
+    return DriftProblem(
+        hydrodynamics=hydro,
+        inertia=unit.inertia,
+        hydrostatic_stiffness=unit.statics.stiffness,
+        mooring=unit.mooring,
+        water=unit.water,
+        damping=model.damping,
+        quadratic=model.quadratic,
+        steady_force=model.steady,
+    )
+
+
 def solve_about_offset(
     model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, progress: Progress
 ) -> DriftedMotions:
     """Solve motions about the mean offset; without a far field the offset is that of the steady loads."""
     unit = model.unit
     if hydro.has_far_field:
-        problem = DriftProblem(
-            hydrodynamics=hydro,
-            inertia=unit.inertia,
-            hydrostatic_stiffness=unit.statics.stiffness,
-            mooring=unit.mooring,
-            water=unit.water,
-            damping=model.damping,
-            quadratic=model.quadratic,
-            steady_force=model.steady,
-        )
+        problem = drift_problem(model, hydro)
         return solve_with_drift(problem, amplitude, with_drift=model.with_drift, progress=progress)
     offset = mean_offset(unit.mooring, unit.statics.stiffness, model.steady)
     stiffness = unit.mooring.stiffness(offset.position)
