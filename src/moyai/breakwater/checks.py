@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import FrequencyModel
-from moyai.breakwater.model import BreakwaterProblem
+from moyai.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.frequency import solve_motions
 from moyai.mooring.checks import check_line_system
@@ -43,12 +43,18 @@ def check_problem(problem: BreakwaterProblem) -> tuple[Notice, ...]:
                 )
             )
         if sea.heading != 0.0 and "time" in problem.settings.analyses:
+            regular = isinstance(sea, RegularSea)
             notices.append(
                 Notice(
                     "oblique-time-domain",
-                    f"{sea.name}: in the time domain the wave load is that of the oblique wave on the section, the "
-                    "memory that of a motion equal all along the unit",
-                    severity="information",
+                    f"{sea.name}: in the time domain "
+                    + (
+                        "radiation is that of the wave's own frequency and heading, without memory of other frequencies"
+                        if regular
+                        else "the wave load is that of the oblique wave, the memory that of normal incidence: motions "
+                        "may be off by tens of per cent far from the normal; the frequency domain is consistent"
+                    ),
+                    severity="information" if regular else "warning",
                 )
             )
     return tuple(notices)

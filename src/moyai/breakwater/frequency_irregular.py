@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import (
     FrequencyModel,
     FrequencyResult,
-    drift_problem,
-    solve_about_offset,
-    worst_status,
 )
 from moyai.breakwater.hydrodynamics import spread_headings
 from moyai.breakwater.model import MODES, IrregularSea
@@ -26,16 +24,18 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping
-from moyai.floating.drift import DriftedMotions, solve_irregular_with_drift
-from moyai.floating.far_field import far_field
+from moyai.floating.drift import mean_offset
+from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.irregular import energy_transmission, linearised_in_sea, response_statistics
+from moyai.floating.irregular import energy_transmission, integration_weights, linearised_in_sea, response_statistics
 
 if TYPE_CHECKING:
     pass
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+MOST_TURNS = 60  # of the loop of drift and stiffness
 
 
 def irregular_sea(
@@ -51,12 +51,10 @@ def irregular_sea(
     hydros = [model.hydro.at(omega, float(heading)) for heading in headings]
     directional = density[:, None] * share
     met = directional.sum(axis=1)
-    main = hydros[int(np.argmin(np.abs(headings - sea.heading)))]
-    solved = _irregular_mean(model, main, met)
-    stiffness = unit.statics.stiffness + solved.mooring_stiffness[0]
-    motions, notices_of_sea = _sea_motions(model, hydros, headings, stiffness, directional)
+    settled = _settle(model, hydros, headings, directional)
+    motions, offset = settled.motions, settled.offset
     statistics = response_statistics(omega, motions.displacement, directional)
-    tension = tension_transfer(unit, motions, solved.offset[0])
+    tension = tension_transfer(unit, motions, offset)
     tension_statistics = response_statistics(omega, tension[0], directional)
     waves = response_statistics(omega, np.ones((len(omega), 1)), met)
     duration = sea.duration
@@ -68,13 +66,13 @@ def irregular_sea(
         "significant_motion": ("dof", statistics.significant),
         "most_probable_maximum_motion": ("dof", statistics.most_probable_maximum(duration)),
         "mean_zero_crossing_period": ("dof", statistics.mean_zero_crossing_period),
-        "mean_drift_force": ((), float(solved.drift_force[0])),
-        "mean_offset": ("dof", solved.offset[0]),
+        "mean_drift_force": ((), settled.force),
+        "mean_offset": ("dof", offset),
         "mean_tension": ("line", tension[1]),
         "significant_tension": ("line", tension_statistics.significant),
         "most_probable_maximum_tension": ("line", tension[1] + tension_statistics.most_probable_maximum(duration)),
     }
-    if main.has_far_field:
+    if hydros[0].has_far_field:
         waves_of = [far_field(item, motions.displacement[:, [column]]) for column, item in enumerate(hydros)]
         reflected = np.concatenate([np.abs(item.reflection) for item in waves_of], axis=1)
         transmitted = np.concatenate([np.abs(item.transmission) for item in waves_of], axis=1)
@@ -102,9 +100,9 @@ def irregular_sea(
         "heading": sea.heading,
         "duration": duration,
         "headings": headings.tolist(),
-        "status": worst_status(solved.status),
+        "status": settled.status,
     }
-    notices = [*solved.notices, *notices_of_sea]
+    notices = list(settled.notices)
     lost = 1.0 - float(met.sum() / density.sum())
     if lost > 0.01:
         notices.append(
@@ -130,11 +128,51 @@ def irregular_sea(
     return FrequencyResult(data, (), tuple(notices))
 
 
-def _irregular_mean(model: FrequencyModel, hydro: Hydrodynamics, density: Array) -> DriftedMotions:
-    if not hydro.has_far_field:
-        return solve_about_offset(model, hydro, np.full(len(hydro.omega), 1e-6), silent)
-    problem = drift_problem(model, hydro)
-    return solve_irregular_with_drift(problem, density, with_drift=model.with_drift)
+@dataclass(frozen=True)
+class _Settled:
+    """Motions about the offset of their own drift, all headings of a sea together."""
+
+    motions: Motions
+    force: float
+    offset: Array
+    status: str
+    notices: tuple[Notice, ...]
+
+
+def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, directional: Array) -> _Settled:
+    """Find the mean drift of the whole sea, every heading with its own, and the offset and stiffness that go with it.
+
+    The loop of P3 for a sea: drift moves the unit, the moved lines are stiffer, the stiffer unit drifts differently.
+    The drift is the sum over frequencies and headings of twice the spectrum times the drift per amplitude squared.
+    """
+    unit, force = model.unit, 0.0
+    weights = integration_weights(hydros[0].omega)
+    drifting = model.with_drift and hydros[0].has_far_field
+    status: str = "not_converged"
+    for _ in range(MOST_TURNS):
+        mean = mean_offset(unit.mooring, unit.statics.stiffness, model.steady + np.array([force, 0.0, 0.0]))
+        offset = mean.position if mean.status == "converged" else np.zeros(3)
+        stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
+        motions, notices = _sea_motions(model, hydros, headings, stiffness, directional)
+        if not drifting:
+            status = str(mean.status)
+            break
+        before, force = force, _drift(unit, hydros, motions, directional, weights)
+        if abs(force - before) <= 1e-6 * max(abs(force), 1e-12):
+            status = str(mean.status)
+            break
+    return _Settled(motions, force, offset, status, notices)
+
+
+def _drift(
+    unit: FloatingUnit, hydros: list[Hydrodynamics], motions: Motions, directional: Array, weights: Array
+) -> float:
+    total = 0.0
+    for column, hydro in enumerate(hydros):
+        far = far_field(hydro, motions.displacement[:, [column]])
+        square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)[:, 0]
+        total += float(np.sum(2.0 * weights * directional[:, column] * square))
+    return total
 
 
 def _sea_motions(

@@ -36,6 +36,7 @@ CoefficientsOf = Callable[[FloatingUnit], "xr.Dataset"]
 SHORTEST_WAVE_OVER_BEAM = 1.0  # operators are drawn from L/B = 1, where a floating breakwater lets nothing pass,
 LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
 OPERATOR_FREQUENCIES = 60
+SECTOR = math.radians(75.0)  # headings to either side of the normal that meet the side of the unit
 MOST_REFINEMENTS = 6
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
@@ -135,19 +136,30 @@ def headings_of(problem: BreakwaterProblem) -> Array:
     return np.unique(np.asarray(headings if headings else [0.0]))
 
 
-def spread_headings(sea: IrregularSea, omega: Array, count: int = 11) -> tuple[Array, Array]:
+def spread_headings(sea: IrregularSea, omega: Array, count: int = 15) -> tuple[Array, Array]:
     """Return headings [rad] of a spread sea that meet the breakwater, and the share of energy (n, h) of each.
 
-    Gauss-Legendre points over the sector within 75 degrees of the normal; what travels outside of it meets the ends
-    rather than the side and is left out: the shares sum to less than one by that part.
+    Even cells over the headings that carry all but 1e-3 of the energy, within 75 degrees of the normal. The share of a
+    cell is the exact integral of the spreading over it, so that the energy is kept however narrow the sea. What travels
+    outside of the sector meets the ends rather than the side and is left out: the shares sum to less than one by that.
     """
-    limit = math.radians(75.0)
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    heading = limit * nodes
     if sea.spreading is None:
         return np.array([sea.heading]), np.ones((len(omega), 1))
-    share = limit * weights * np.asarray(sea.spreading.density((heading - sea.heading)[None, :], omega[:, None]))
-    return heading, share
+    peaks = np.asarray(sea.spectrum.quantile(np.array([0.02, 0.5, 0.98])), dtype=float)
+    ends = np.asarray(sea.spreading.quantile(np.array([[5e-4], [1.0 - 5e-4]]), peaks[None, :]))
+    low = max(sea.heading + float(ends[0].min()), -SECTOR)
+    high = min(sea.heading + float(ends[1].max()), SECTOR)
+    if not low < high:
+        raise InputError(
+            f"{sea.name}: hardly any wave of this sea travels within 75 degrees of the normal of the unit",
+            path="waves.heading_deg",
+            remedy="turn the sea towards the unit or leave it out",
+        )
+    edges = np.linspace(low, high, count + 1)
+    below = np.asarray(sea.spreading.cumulative(np.clip(edges - sea.heading, -np.pi, np.pi)[None, :], omega[:, None]))
+    share = np.diff(np.broadcast_to(below, (len(omega), count + 1)), axis=1)
+    # Rounded, so that the middle of a sea straight on is normal incidence and mirrored headings share one solve
+    return np.round(0.5 * (edges[1:] + edges[:-1]), 12), share
 
 
 def solve_unit(

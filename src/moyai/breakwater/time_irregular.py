@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import FrequencyModel
+from moyai.breakwater.hydrodynamics import SECTOR
 from moyai.breakwater.memory_model import UnitMemory
 from moyai.breakwater.model import MODES, IrregularSea, TimeSettings
 from moyai.breakwater.responses import (
@@ -74,7 +75,7 @@ def irregular_sea(
         # What travels outside of the computed sector meets the ends of the unit and is left out, as in frequency
         joined = _excitation_of_headings(model)
         low, high = float(joined.heading[0]), float(joined.heading[-1])
-        amplitude = np.where((components.heading >= low) & (components.heading <= high), amplitude, 0.0)
+        amplitude = np.where(np.abs(components.heading) <= SECTOR, amplitude, 0.0)
         excitation = joined.excitation_at(components.omega, np.clip(components.heading, low, high))
     drift = _drift_of_components(model, components.omega, components.heading, sea)
     law = {"ramped": "ramped", "newman": "newman", "pulsating": "newman", "none": "none"}[settings.drift]
@@ -104,8 +105,10 @@ def irregular_sea(
     notices = list(simulation.notices)
     if simulation.status == "diverged":
         notices.append(Notice("diverged", f"{unit.name}, {sea.name}: {simulation.message}", severity="error"))
-    data = _irregular_summary(unit, simulation, sea, frequency, ramp)
-    if sea.spreading is None and "mean_offset" in data:
+    applied = float(forcing.mean_drift()[0])
+    data = _irregular_summary(unit, simulation, sea, applied, ramp)
+    # In oblique waves the memory is that of another problem than the operators: no transmission is combined from them
+    if sea.spreading is None and sea.heading == 0.0 and "mean_offset" in data:
         data = data.assign(_transmission(model, simulation, sea, ramp))
     if "maximum_tension" in data:
         names = [line.name for line in unit.lines]
@@ -146,23 +149,29 @@ def _excitation_of_headings(model: FrequencyModel) -> Hydrodynamics:
 
 def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, sea: IrregularSea) -> Array | None:
     """Mean drift over amplitude squared at the wave components, from the linear motions about rest."""
-    hydro = model.hydro.whole(sea.heading)
-    if not hydro.has_far_field:
+    every = model.hydro.by_heading if sea.spreading is not None else (model.hydro.whole(sea.heading),)
+    if not every[0].has_far_field:
         return None
-    motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
-    far = far_field(hydro, motions.displacement)
-    per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)[
-        :, 0
-    ]
+    rows = []
+    for hydro in every:
+        motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
+        far = far_field(hydro, motions.displacement)
+        square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)
+        rows.append(np.interp(omega, hydro.omega, square[:, 0]))
+    table, known = np.array(rows), np.array([float(hydro.heading[0]) for hydro in every])
     out = np.zeros((len(omega), 3))
-    # Directions of a spread sea take the drift of the mean heading, turned by the square of the cosine
-    turn = np.cos(heading) * np.abs(np.cos(heading)) / max(math.cos(sea.heading) ** 2, 1e-6)
-    out[:, 0] = np.interp(omega, hydro.omega, per_square) * turn
+    if len(known) == 1:
+        out[:, 0] = table[0]
+        return out
+    right = np.clip(np.searchsorted(known, heading), 1, len(known) - 1)
+    weight = np.clip((heading - known[right - 1]) / (known[right] - known[right - 1]), 0.0, 1.0)
+    columns = np.arange(len(omega))
+    out[:, 0] = (1.0 - weight) * table[right - 1, columns] + weight * table[right, columns]
     return out
 
 
 def _irregular_summary(
-    unit: FloatingUnit, run: Simulation, sea: IrregularSea, frequency: xr.Dataset, ramp: float
+    unit: FloatingUnit, run: Simulation, sea: IrregularSea, drift_force: float, ramp: float
 ) -> xr.Dataset:
     import xarray as xr
 
@@ -180,7 +189,7 @@ def _irregular_summary(
             "maximum_tension": ("line", tension.max(axis=0) if len(unit.lines) else np.zeros(0)),
             "significant_tension": ("line", _significant(run.time[keep], tension)),
             "maximum_anchor_vertical_tension": ("line", anchor_uplift(unit, position, tension)),
-            "mean_drift_force": ((), float(frequency["mean_drift_force"])),
+            "mean_drift_force": ((), float(drift_force)),
             "significant_height": ((), 4.0 * float(np.std(run.elevation[keep]))),
         }
         load = np.array([line.breaking_load for line in unit.lines])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +25,7 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.far_field import far_field
 from moyai.floating.forcing import RegularForcing
 from moyai.floating.harmonics import Harmonics, fit_harmonics
+from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
 from moyai.floating.time import CumminsModel, Simulation
 
@@ -145,7 +147,16 @@ def _one_period(
         drift = np.zeros(3)
     # The damping of the frequency domain, whose stiffness is that of the mean offset, so that both are comparable
     stiffness = unit.statics.stiffness + np.asarray(frequency.mooring_stiffness.values)
-    cummins = memory.model(model, linear_damping(model, hydro.added_mass[0], stiffness))
+    damping = linear_damping(model, hydro.added_mass[0], stiffness)
+    cummins = memory.model(model, damping)
+    if sea.heading != 0.0:
+        # In oblique waves the motion runs along the structure with the wave: radiation of that one frequency, no memory
+        cummins = replace(
+            cummins,
+            inertia=unit.inertia + hydro.added_mass[0],
+            linear_damping=damping + hydro.radiation_damping[0],
+            memory=StateSpaceMemory.none(3),
+        )
     ramp = RAMP_PERIODS * period if settings.ramp is None else settings.ramp
     window = settings.analysed_periods * period
     duration = settings.duration

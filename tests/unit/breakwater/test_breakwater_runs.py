@@ -276,3 +276,72 @@ def test_frequencies_of_a_spectrum_carry_its_energy(count):
     omega = spectrum_band(sea, count)
     energy = np.trapezoid(sea.spectrum.density_at(omega), omega)
     assert 4.0 * math.sqrt(energy) == pytest.approx(1.0, rel=6e-3)
+
+
+@pytest.mark.parametrize("exponent", [2.0, 30.0, 400.0])
+@pytest.mark.parametrize("heading", [0.0, -0.2, 0.7])
+def test_spreading_keeps_the_energy_however_narrow(exponent, heading):
+    from moyai.breakwater.hydrodynamics import spread_headings
+    from moyai.sea.directional import CosineTwoS
+
+    spreading = CosineTwoS(exponent)
+    sea = IrregularSea("spread", jonswap(1.0, 5.0, 3.3), heading=heading, spreading=spreading)
+    headings, share = spread_headings(sea, np.array([1.0, 1.3]))
+    limit = math.radians(75.0)
+    inside = np.diff(spreading.cumulative(np.array([-limit - heading, limit - heading]), np.array([1.3])))[0]
+    assert share.sum(axis=1) == pytest.approx(float(inside), abs=1.5e-3)
+    assert np.all(share >= 0.0) and np.all(np.diff(headings) > 0.0)
+
+
+@pytest.mark.slow
+def test_mean_drift_of_a_spread_sea_is_the_sum_over_its_waves(pontoon_problem):
+    # springs, so that the offset changes nothing: the drift must be that of regular waves summed over the sea
+    from moyai.sea.directional import CosineTwoS
+
+    spreading = CosineTwoS(12.0)
+    sea = IrregularSea("spread", jonswap(0.02, 1.0, 3.3), heading=-0.3, spreading=spreading)
+    base = changed(
+        pontoon_problem,
+        breakwater={"lines": springs(150.0), "mass": None, "damping": Damping(0.0, linear=(20.0, 60.0, 0.5))},
+        settings={"analyses": ("statics", "frequency")},
+    )
+    spread = run(changed(base, environment={"sea_states": (sea,)})).tree["SWL/frequency/spread"].to_dataset()
+    periods = tuple(2.0 * np.pi / np.concatenate([np.linspace(4.0, 12.0, 33), np.linspace(12.5, 33.0, 20)]))
+    angles = np.linspace(-1.2, 1.2, 13)
+    seas = tuple(RegularSea(f"h{index}", 0.002, periods, float(angle)) for index, angle in enumerate(angles))
+    tree = run(changed(base, environment={"sea_states": seas})).tree
+    total = 0.0
+    omega = 2.0 * np.pi / tree["SWL/frequency/h0"].to_dataset().period.values
+    order = np.argsort(omega)
+    density = sea.spectrum.density_at(omega[order])
+    for index, angle in enumerate(angles):
+        force = tree[f"SWL/frequency/h{index}"].to_dataset().mean_drift_force.values[order] / 0.001**2
+        directional = spreading.density(angle - sea.heading, omega[order])
+        total += float(np.trapezoid(2.0 * density * directional * force, omega[order])) * (angles[1] - angles[0])
+    assert float(spread.mean_drift_force) == pytest.approx(total, rel=0.03)
+
+
+def test_oblique_regular_waves_in_time_are_those_of_frequency_with_springs(pontoon_problem):
+    sea = RegularSea("oblique", 0.003, (0.8, 1.1), -0.7)
+    problem = changed(
+        pontoon_problem, breakwater={"lines": springs(150.0), "mass": None}, environment={"sea_states": (sea,)}
+    )
+    tree = run(problem).tree
+    time, frequency = (tree[f"SWL/{name}/oblique"].to_dataset() for name in ("time", "frequency"))
+    assert time.motion_amplitude.values == pytest.approx(frequency.motion_amplitude.values, rel=4e-3, abs=1e-7)
+    assert time.transmission_coefficient.values == pytest.approx(frequency.transmission_coefficient.values, abs=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("hull", "draught"), [(trapezoid(0.8, 0.4, 0.3), 0.2), (circle(0.2), 0.26), (circle(0.2), 0.33)]
+)
+def test_sections_that_narrow_upwards_have_a_memory(pontoon_problem, hull, draught):
+    problem = changed(
+        pontoon_problem,
+        breakwater={"hull": hull, "mass": None, "draught": draught, "centre_of_gravity": (0.0, 0.1)},
+        environment={"water": Water(0.8, 1000.0, 9.81), "sea_states": (RegularSea("waves", 0.002, (1.0,)),)},
+    )
+    problem = changed(problem, breakwater={"lines": springs(150.0)})
+    result = run(problem)
+    assert result.status in ("converged", "outside_validity"), result.message
+    assert all(check.passed for check in result.checks), [check for check in result.checks if not check.passed]
