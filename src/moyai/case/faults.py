@@ -192,9 +192,10 @@ class Translator:
         if kind == "missing":
             return self._missing(path)
         if kind == "union_tag_invalid":
-            key = context["discriminator"].strip("'")
-            choices = [choice.strip(" '") for choice in context["expected_tags"].split(",")]
-            return self._not_among((*path, key), context["tag"], choices)
+            # A form chosen by a function, not by a key of the schema, is chosen by 'kind' all the same
+            key = "kind" if "()" in context["discriminator"] else context["discriminator"].strip("'")
+            choices = [choice.strip(" '<>") for choice in context["expected_tags"].split(",")]
+            return self._not_among((*path, key), context["tag"].strip("<>"), choices)
         if kind == "union_tag_not_found":
             key = context["discriminator"].strip("'")
             if isinstance(value, dict):

@@ -26,6 +26,7 @@ from moyai.case.schema_types import (
     SignedSpeed,
     Speed,
     SpreadAngle,
+    holds_key,
     refuse,
 )
 
@@ -251,7 +252,7 @@ class SpeedTable(Block):
 
 def _profile_form(value: Any) -> str:
     if isinstance(value, dict):
-        return "<table>" if "table" in value and "power_law" not in value else "<power_law>"
+        return "<table>" if holds_key(value, "table") and not holds_key(value, "power_law") else "<power_law>"
     if isinstance(value, SpeedTable):
         return "<table>"
     return "<power_law>" if isinstance(value, PowerLaw) else "<word>"

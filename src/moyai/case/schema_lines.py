@@ -25,6 +25,7 @@ from moyai.case.schema_types import (
     Volume,
     WeightPerLength,
     Whole,
+    holds_key,
     refuse,
 )
 
@@ -101,7 +102,7 @@ class ClumpEntry(Block):
 
 def _segment_form(value: Any) -> str:
     if isinstance(value, dict):
-        return next((f"<{form}>" for form in ("catalogue", "clump") if form in value), "<own>")
+        return next((f"<{form}>" for form in ("catalogue", "clump") if holds_key(value, form)), "<own>")
     if isinstance(value, CatalogueSegment):
         return "<catalogue>"
     return "<clump>" if isinstance(value, ClumpEntry) else "<own>"
@@ -154,7 +155,7 @@ class SpringLine(Block):
 
 def _line_form(value: Any) -> str:
     if isinstance(value, dict):
-        return "<spring>" if value.get("kind") == "spring" else "<catenary>"
+        return f"<{value.get('kind', 'catenary')}>"
     return "<spring>" if isinstance(value, SpringLine) else "<catenary>"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 from dataclasses import dataclass
@@ -276,6 +277,11 @@ class Block(BaseModel):
 def _either(group: tuple[str, ...]) -> str:
     quoted = [f"'{key}'" for key in group]
     return quoted[0] if len(quoted) == 1 else ", ".join(quoted[:-1]) + " or " + quoted[-1]
+
+
+def holds_key(block: dict[str, Any], key: str) -> bool:
+    """Whether a block holds ``key``, perhaps misspelt: tells which form of a block its writer meant."""
+    return key in block or bool(difflib.get_close_matches(key, map(str, block), n=1, cutoff=0.75))
 
 
 class Range(Block):

@@ -1,6 +1,5 @@
 """Measured points: names and units in the header, faults with row and column."""
 
-
 import math
 
 import pytest
