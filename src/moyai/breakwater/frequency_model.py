@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.hydrodynamics import UnitHydrodynamics
+from moyai.breakwater.line_drag import line_drag_rows
 from moyai.breakwater.model import MODES
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
@@ -65,7 +66,11 @@ def make_model(
     damping = LinearDamping.of_modes(
         linear=np.array(given.linear), critical_fraction=[zeta if mode in given.modes else 0.0 for mode in MODES]
     )
-    quadratic = QuadraticDamping.of_modes([0.0, 0.0, given.roll_quadratic]) if given.roll_quadratic else None
+    rows, coefficients = line_drag_rows(unit)
+    if given.roll_quadratic:
+        rows = np.vstack([rows, [0.0, 0.0, 1.0]])
+        coefficients = np.append(coefficients, given.roll_quadratic)
+    quadratic = QuadraticDamping(rows, coefficients) if len(coefficients) else None
     return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift)
 
 

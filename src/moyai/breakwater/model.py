@@ -165,6 +165,8 @@ class MooringLine:
         Weights or buoys between segments.
     bed_friction : float
         Coulomb coefficient of the line on the bed.
+    drag_width : float
+        Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out.
     """
 
     name: str
@@ -174,6 +176,7 @@ class MooringLine:
     segments: tuple[Segment, ...]
     clumps: tuple[Clump, ...] = ()
     bed_friction: float = 0.0
+    drag_width: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -138,7 +138,7 @@ def _lines(unit: FloatingUnit) -> dict:
     known = np.isfinite(load)
     fairleads = np.array([line.fairlead for line in unit.lines]) + centre
     anchors = np.array([line.anchor for line in unit.lines]) + centre
-    shapes = np.array([_shape(unit, line, np.zeros(3)) for line in unit.lines])
+    shapes = np.array([line_points(unit, line, np.zeros(3)) for line in unit.lines])
     x, z = shapes[:, :, 0], shapes[:, :, 1]
     out |= {
         "line_count": ("line", np.array([line.count for line in unit.lines])),
@@ -155,7 +155,7 @@ def _lines(unit: FloatingUnit) -> dict:
     return out
 
 
-def _shape(unit: FloatingUnit, line: LineElement, shift: Array) -> Array:
+def line_points(unit: FloatingUnit, line: LineElement, shift: Array) -> Array:
     """Return a line as evenly spaced points (LINE_POINTS, 2) in site axes, its fairlead moved by ``shift`` [m]."""
     centre = np.array([unit.centre[0], 0.0, unit.centre[1]])
     points = element_shape(line, np.asarray(line.fairlead) + shift, unit.water.depth + unit.centre[1]).points + centre
@@ -180,7 +180,7 @@ def moving_shapes(unit: FloatingUnit, runs: list[xr.Dataset]) -> xr.Dataset | No
     reach_z = max(1.05 * float(moved[1] + moved[2] * arm[0]), least)
     shift_x, shift_z = np.linspace(-reach_x, reach_x, SHIFTS_X), np.linspace(-reach_z, reach_z, SHIFTS_Z)
     table = np.array(
-        [[[_shape(unit, line, np.array([x, 0.0, z])) for z in shift_z] for x in shift_x] for line in unit.lines]
+        [[[line_points(unit, line, np.array([x, 0.0, z])) for z in shift_z] for x in shift_x] for line in unit.lines]
     )
     dims = ("line", "shift_x", "shift_z", "line_point")
     data = xr.Dataset(

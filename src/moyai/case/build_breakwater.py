@@ -230,7 +230,9 @@ def line_of(entry: LineEntry, index: int, water: Water) -> MooringLine | Mooring
         else:
             segments.append(_segment(part, f"lines[{index}].segments[{number}]", number, entry, water))
     anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
-    return MooringLine(entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction)
+    return MooringLine(
+        entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction, entry.drag_width
+    )
 
 
 def _segment(part: CatalogueSegment | OwnSegment, path: str, number: int, entry: CatenaryLine, water: Water) -> Segment:

@@ -15,7 +15,7 @@ from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
-    from moyai.breakwater.model import BreakwaterProblem
+    from moyai.breakwater.model import Breakwater, BreakwaterProblem, Environment
     from moyai.case.schema_breakwater import BreakwaterCase
     from moyai.potential.sections import Hull
 
@@ -31,8 +31,6 @@ def check(model: BreakwaterCase, findings: Findings, folder: Path) -> None:
         draught = _check_floating(model, hull, findings)
         _check_places_of_lines(model, hull, draught, findings)
     _check_catalogue(model, findings)
-    if findings.faults:
-        return
     _check_by_statics(model, findings, folder)
 
 
@@ -265,18 +263,32 @@ def _check_catalogue(model: BreakwaterCase, findings: Findings) -> None:
 
 
 def _check_by_statics(model: BreakwaterCase, findings: Findings, folder: Path) -> None:
-    """Build the problem and put it into its water: lines at rest, waves against breaking, balance."""
-    from moyai.case.build_breakwater import build_problem
+    """Build what is sound and put it into its water: waves against breaking, lines at rest, balance."""
+    from moyai.case.build_breakwater import breakwater_of, build_problem, environment_of
+    from moyai.sea.water import Water
 
-    try:
-        problem = build_problem(model, folder)
-    except InputError as error:
-        findings.raised(error, ("structure",))
-        return
-    check_waves(model, problem, findings)
-    _check_lines_at_rest(model, problem, findings)
-    if findings.faults:
-        return
+    water = Water(model.site.water_depth, model.site.density, model.site.gravity)
+    environment = None
+    if findings.sound("site", "waves", "wind", "current", "settings"):
+        try:
+            environment = environment_of(model, water, folder)
+        except InputError as error:
+            findings.raised(error, ("waves",))
+        else:
+            check_waves(model, environment, findings)
+    if environment is not None and findings.sound("site", "structure", "lines"):
+        try:
+            unit = breakwater_of(model, water, folder)
+        except InputError as error:
+            findings.raised(error, ("structure",))
+        else:
+            _check_lines_at_rest(model, unit, environment, findings)
+    if not findings.faults:
+        _check_balance(build_problem(model, folder), findings)
+
+
+def _check_balance(problem: BreakwaterProblem, findings: Findings) -> None:
+    """Find the rest of the unit at every water level and tell what is odd about it."""
     from moyai.breakwater.assembly import assemble
 
     said: set[str] = set()
@@ -305,14 +317,13 @@ _LINE_PLACES = {
 }
 
 
-def _check_lines_at_rest(model: BreakwaterCase, problem: BreakwaterProblem, findings: Findings) -> None:
+def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: Environment, findings: Findings) -> None:
     """Hold each line of the upright unit against its strength and its slack, at every water level."""
     from moyai.breakwater.assembly import site_lines
     from moyai.floating.hydrostatics import body_to_site
     from moyai.mooring.checks import check_line_system
     from moyai.mooring.system import LineSystem
 
-    unit, environment = problem.breakwater, problem.environment
     if not unit.lines:
         return
     draught = unit.draught or _draught_of_mass(model, unit.hull, findings)

@@ -140,11 +140,10 @@ def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings
     )
 
 
-def check_waves(model: Any, problem: Any, findings: Findings) -> None:
+def check_waves(model: Any, environment: Any, findings: Findings) -> None:
     """Hold every sea state against breaking and the limits of its theory, at every water level."""
     from moyai.sea.validity import check_spectrum, check_wave
 
-    environment = problem.environment
     for index, (state, sea) in enumerate(zip(model.waves, environment.sea_states)):
         _check_heading(state, sea.heading, wave_path(findings, index), findings)
         said: set[str] = set()

@@ -27,6 +27,10 @@ class Findings:
         """Record what is odd but allowed."""
         self.warnings.append(self.document.fault(path, message, allowed=allowed, remedy=remedy))
 
+    def sound(self, *keys: str) -> bool:
+        """Whether no fault was found under any of these keys of the root."""
+        return not any(_STEP.findall(fault.path)[0][0] in keys for fault in self.faults if fault.path)
+
     def raised(self, error: InputError, default: KeyPath) -> None:
         """Record an error that another room raised, at the path that it names."""
         fault = error.fault

@@ -139,6 +139,13 @@ class CatenaryLine(Block):
     bed_friction: NonNegativeNumber = Field(
         default=0.0, description="Coulomb coefficient of the line on the bed. Default: 0."
     )
+    drag_width: NonNegativeLength = Field(
+        default=0.0,
+        description=(
+            "Drag coefficient across the line times its drag diameter, for the damping that the drag of the line gives "
+            "the unit; chain about 2.4 nominal diameters. Default: 0, none."
+        ),
+    )
 
 
 class SpringLine(Block):

@@ -345,3 +345,33 @@ def test_sections_that_narrow_upwards_have_a_memory(pontoon_problem, hull, draug
     result = run(problem)
     assert result.status in ("converged", "outside_validity"), result.message
     assert all(check.passed for check in result.checks), [check for check in result.checks if not check.passed]
+
+
+def test_drag_of_a_taut_line_is_that_of_a_rod_hinged_at_its_foot(pontoon_problem):
+    # velocity across grows evenly from the anchor: the integral of s^3 gives a quarter of the full drag
+    from moyai.breakwater.line_drag import line_drag_rows
+    from moyai.breakwater.model import MooringLine
+    from moyai.mooring.lines import LineType, Segment
+
+    rope = LineType("rope", 1e-3, 5e3)
+    line = MooringLine("tether", 3, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (Segment(rope, 0.26),), drag_width=0.02)
+    problem = changed(pontoon_problem, breakwater={"lines": (line,), "mass": None})
+    unit = assemble(problem, "SWL", 0.0)
+    rows, coefficients = line_drag_rows(unit)
+    length = 0.38 - 0.113
+    whole = 0.5 * 1000.0 * 0.02 * 3 * length
+    assert coefficients.sum() == pytest.approx(whole, rel=1e-3)
+    assert float(np.sum(coefficients * np.abs(rows[:, 0]) ** 3)) == pytest.approx(whole / 4.0, rel=0.01)
+
+
+def test_line_drag_damps_in_both_domains(pontoon_problem):
+    dragged = tuple(replace(line, drag_width=0.05) for line in pontoon_problem.breakwater.lines)
+    bare, with_drag = (
+        run(changed(pontoon_problem, breakwater={"lines": lines, "damping": Damping(0.02)})).tree
+        for lines in (pontoon_problem.breakwater.lines, dragged)
+    )
+    for domain in ("frequency", "time"):
+        before, after = (
+            tree[f"SWL/{domain}/waves"].to_dataset().dissipation.sel(period=1.0) for tree in (bare, with_drag)
+        )
+        assert float(after) > float(before) * 1.02
