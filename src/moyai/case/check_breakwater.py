@@ -269,9 +269,10 @@ def _check_by_statics(model: BreakwaterCase, findings: Findings, folder: Path) -
 
     water = Water(model.site.water_depth, model.site.density, model.site.gravity)
     environment = None
-    if findings.sound("site", "waves", "wind", "current", "settings"):
+    if findings.sound("site", "waves", "settings"):
+        calm = model.model_copy(update={"wind": None, "current": None})
         try:
-            environment = environment_of(model, water, folder)
+            environment = environment_of(calm, water, folder)
         except InputError as error:
             findings.raised(error, ("waves",))
         else:

@@ -143,6 +143,19 @@ def test_checks_between_keys_still_run_beside_misspelt_keys_and_bad_options():
     assert len(found.split("\n")) == 4
 
 
+def test_physics_of_sound_parts_is_judged_beside_faults_of_others():
+    text = changed(
+        ("height: 0.6 m", "height: 9 m"),
+        ("significant_height: 1.0 m", "significant_height: 12 m"),
+        ("draught: 3 m", "draught: 4.5 m"),
+        ("  wind_drag_coefficient: 1.2\n", ""),
+    )
+    found = faults(text)
+    assert [fault.split(": ")[1] for fault in found[:2]] == ["waves[0].height", "waves[1].significant_height"]
+    assert any("'wind' needs" in fault for fault in found)
+    assert any("the draught of 4.5 m is not less" in fault for fault in found)
+
+
 def test_a_single_sea_state_needs_no_list_and_its_faults_no_index():
     start = CASE.index("waves:")
     end = CASE.index("wind:")
