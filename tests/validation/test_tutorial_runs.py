@@ -32,3 +32,15 @@ def test_variation_of_the_tutorial_is_understood(tmp_path):
     file = tmp_path / "harbour.yaml"
     file.write_text(case + variation, encoding="utf-8")
     assert load_case(file).kind == "breakwater"
+
+
+def test_case_of_the_tutorial_without_lines_has_a_report(tmp_path):
+    import moyai
+
+    text = next(block for block in blocks("yaml") if block.startswith("moyai: 1"))
+    text = text[: text.index("lines:")] + "analyses: [statics, frequency]\nsettings: {drift: false}\n"
+    file = tmp_path / "harbour.yaml"
+    file.write_text(text, encoding="utf-8")
+    result = moyai.run(moyai.load_case(file))
+    assert result.status == "converged", result.message
+    assert moyai.write_report(result, tmp_path / "report")

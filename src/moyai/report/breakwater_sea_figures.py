@@ -123,7 +123,10 @@ def _regular_figure(
     axes, panels, series = _curves(level, sea, wanted, measured)
     if not series:
         return None
-    keys = set.intersection(*(set(entry.x) for entry in series if entry.label != MEASURED_WORDS))
+    computed = [set(entry.x) for entry in series if entry.label != MEASURED_WORDS]
+    if not computed:
+        return None
+    keys = set.intersection(*computed)
     axes = tuple(axis for axis in axes if axis.key in keys)
     return Figure(
         key(level, sea.name, name),
@@ -241,6 +244,8 @@ def regular_tension(level: Level, sea: Sea) -> Figure | None:
                     "dash" if in_time else "solid",
                 )
             )
+    if not series:
+        return None
     marks = breaking_marks(level, tables[0][1].labels("line"), np.concatenate([e[3] for e in tables]), factor, 0)
     keys = set.intersection(*(set(entry.x) for entry in series))
     return Figure(
