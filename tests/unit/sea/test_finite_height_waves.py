@@ -156,7 +156,8 @@ def test_own_solver_agrees_with_raschii(case):
         nonlinear_wave("stream_function", height=height, wavelength=length, water=water, order=14, solver=solver)
         for solver in ("newton", "raschii")
     )
-    assert own.celerity == pytest.approx(other.celerity, rel=1e-7)
+    # raschii ends its iteration by a tolerance of its own: 2e-7 of the celerity was seen
+    assert own.celerity == pytest.approx(other.celerity, rel=1e-6)
     np.testing.assert_allclose(own.elevation_harmonics, other.elevation_harmonics, atol=1e-6 * height)
     np.testing.assert_allclose(own.crest_velocities, other.crest_velocities, atol=1e-6 * own.crest_velocities[0])
 
