@@ -6,6 +6,7 @@ import os
 import re
 import tempfile
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 from moyai.core.errors import InputError
@@ -16,15 +17,16 @@ from moyai.report.encoding import slug, table_csv
 Composer = Callable[[Result], Document]
 
 
+# Who turns the result of a structure into pages; a kind that is absent gets a plain listing of all groups
+COMPOSERS = {
+    "breakwater": "moyai.report.breakwater_page:compose",
+}
+
+
 def _composer(structure: str) -> Composer:
-    """Return the composer of a structure's pages; a plain listing of all groups where there is none."""
-    if structure == "breakwater":
-        from moyai.report.breakwater_page import compose
-
-        return compose
-    from moyai.report.general_page import compose as compose_general
-
-    return compose_general
+    module, name = COMPOSERS.get(structure, "moyai.report.general_page:compose").split(":")
+    composer: Composer = getattr(import_module(module), name)
+    return composer
 
 
 def compose_document(result: Result) -> Document:
