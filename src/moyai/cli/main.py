@@ -28,6 +28,7 @@ from moyai.cli.console import (
     say,
     tell,
 )
+from moyai.cli.measuring import measure
 
 # Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
 # commands, reads these at its import; whoever sets them keeps his own.
@@ -42,6 +43,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="How moored floating and flexible coastal structures answer waves and currents.",
 )
+app.add_typer(measure)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]

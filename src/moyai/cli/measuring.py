@@ -1,0 +1,12 @@
+"""The ``moyai measure`` commands: from records and pictures to statistics and coefficients."""
+
+from __future__ import annotations
+
+import typer
+
+measure = typer.Typer(
+    name="measure",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Turn records and pictures into statistics and coefficients.",
+)
