@@ -101,6 +101,37 @@ def case_of(document: Document, path: Path) -> Case:
     return Case(model, document, path, tuple(_in_order(found.warnings)), case_hash(model, path.parent))
 
 
+def read_block(document: Document, root: type[Block]) -> Any:
+    """Return the content of a file by a schema that is not that of a case: of a study, of measurements.
+
+    Parameters
+    ----------
+    document : Document
+        The file as read.
+    root : type of Block
+        Its schema.
+
+    Returns
+    -------
+    Block
+        Of the type ``root``.
+
+    Raises
+    ------
+    CaseError
+        With every fault of the file at once, each with line and column.
+    """
+    if not isinstance(document.data, dict):
+        keys = ", ".join(root.key_names())
+        raise CaseError([document.fault((), "the file is no block of keys", remedy=f"it starts with the keys {keys}")])
+    empty = _empty_values(document.data, (), document)
+    model, faults, _ = _validate(document, root)
+    faults = [*empty, *(fault for fault in faults if fault.path not in {known.path for known in empty})]
+    if faults or model is None:
+        raise CaseError(_in_order(faults))
+    return model
+
+
 def _in_order(faults: list[Fault]) -> list[Fault]:
     return sorted(dict.fromkeys(faults), key=lambda fault: (fault.line, fault.column))
 
