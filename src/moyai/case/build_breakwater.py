@@ -12,26 +12,21 @@ from moyai.breakwater.model import (
     CoefficientsFile,
     Damping,
     Environment,
-    IrregularSea,
     MeasuredPoints,
     MooringLine,
     MooringSpring,
-    RegularSea,
-    SeaState,
     Sensitivity,
     Settings,
     TimeSettings,
     Wind,
 )
 from moyai.case import schema_breakwater as schema
-from moyai.case import schema_environment as surroundings
+from moyai.case.build_sea import current_of, sea_state_of
 from moyai.case.headings import heading_of
 from moyai.case.measured import read_points
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, LineEntry, OwnSegment, SpringLine
 from moyai.core.errors import InputError
 from moyai.mooring.lines import Clump, LineType, Segment
-from moyai.sea import current as currents
-from moyai.sea import directional, spectra
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type
 
@@ -84,71 +79,11 @@ def environment_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> 
         water=water,
         water_levels=tuple((name, levels[name]) for name in names),
         sea_states=tuple(
-            _sea_state(state, index, model, water, folder, bearing) for index, state in enumerate(model.waves)
+            sea_state_of(state, index, model.waves, water, folder, bearing) for index, state in enumerate(model.waves)
         ),
         wind=wind,
-        current=_current(model.current, water, bearing),
+        current=current_of(model.current, water, bearing),
     )
-
-
-def _sea_state(
-    state: Any, index: int, model: schema.BreakwaterCase, water: Water, folder: Path, bearing: float | None
-) -> SeaState:
-    path = f"waves[{index}]"
-    name = surroundings.sea_names(model.waves)[index]
-    heading = heading_of(state, bearing, path)
-    if isinstance(state, surroundings.RegularWaves):
-        return RegularSea(name, state.height, state.all_periods(), heading)
-    spectrum = spectrum_of(state, water, folder, path)
-    spreading = None if state.spreading is None else _spreading(state.spreading, spectrum)
-    return IrregularSea(name, spectrum, heading, spreading, state.duration, state.seed)
-
-
-def spectrum_of(state: Any, water: Water, folder: Path, path: str) -> spectra.Spectrum:
-    """Return the spectrum of an irregular sea state."""
-    if isinstance(state, surroundings.Jonswap):
-        peak = state.peak_period
-        if peak is None:
-            peak = spectra.goda_peak_period(state.significant_period or math.nan, state.peak_enhancement)
-        return spectra.jonswap(state.significant_height, peak, state.peak_enhancement)
-    if isinstance(state, surroundings.PiersonMoskowitz):
-        return spectra.pierson_moskowitz(state.significant_height, state.peak_period)
-    if isinstance(state, surroundings.BretschneiderMitsuyasu):
-        return spectra.bretschneider_mitsuyasu(state.significant_height, state.significant_period)
-    if isinstance(state, surroundings.Tma):
-        return spectra.tma(state.significant_height, state.peak_period, state.peak_enhancement, water)
-    try:
-        return spectra.from_file(
-            folder / state.file, frequency_column=state.frequency_column, density_column=state.density_column
-        )
-    except InputError as error:
-        fault = error.fault
-        raise InputError(
-            f"{state.file}: {fault.message}", path=f"{path}.file", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
-
-
-def _spreading(entry: Any, spectrum: spectra.Spectrum) -> directional.Spreading:
-    if isinstance(entry, surroundings.CosineTwoS):
-        return directional.CosineTwoS(entry.exponent)
-    if isinstance(entry, surroundings.MitsuyasuSpreading):
-        return directional.Mitsuyasu(entry.maximum_exponent, 2.0 * math.pi / spectrum.peak_period)
-    if isinstance(entry, surroundings.CosinePower):
-        return directional.CosinePower(entry.exponent)
-    return directional.WrappedNormal(math.radians(entry.standard_deviation_deg))
-
-
-def _current(entry: surroundings.Current | None, water: Water, bearing: float | None) -> currents.CurrentProfile | None:
-    if entry is None:
-        return None
-    heading = heading_of(entry, bearing, "current")
-    if isinstance(entry.profile, surroundings.SpeedTable):
-        heights, speeds = zip(*entry.profile.table)
-        return currents.table(heights, speeds, heading)
-    speed = entry.speed or 0.0
-    if isinstance(entry.profile, surroundings.PowerLaw):
-        return currents.power_law(speed, entry.profile.power_law, heading, water)
-    return currents.uniform(speed, heading)
 
 
 def breakwater_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> Breakwater:

@@ -1,0 +1,95 @@
+"""From the waves and the current of a case to :mod:`moyai.sea`, the same for every structure."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from moyai.case import schema_environment as surroundings
+from moyai.case.headings import heading_of
+from moyai.core.errors import InputError
+from moyai.sea import current as currents
+from moyai.sea import directional, spectra
+from moyai.sea.states import IrregularSea, RegularSea, SeaState
+from moyai.sea.water import Water
+
+
+def sea_state_of(
+    state: Any, index: int, states: tuple[Any, ...], water: Water, folder: Path, bearing: float | None
+) -> SeaState:
+    """Return one sea state of a case.
+
+    Parameters
+    ----------
+    state : Block
+        Entry ``index`` of ``states``.
+    index : int
+        Its place, for messages.
+    states : tuple of Block
+        All sea states, which are named together.
+    water : Water
+        At datum.
+    folder : Path
+        Folder that file names refer to.
+    bearing : float or None
+        Compass bearing of +x [deg].
+    """
+    path = f"waves[{index}]"
+    name = surroundings.sea_names(states)[index]
+    heading = heading_of(state, bearing, path)
+    if isinstance(state, surroundings.RegularWaves):
+        return RegularSea(name, state.height, state.all_periods(), heading)
+    spectrum = spectrum_of(state, water, folder, path)
+    spreading = None if state.spreading is None else _spreading(state.spreading, spectrum)
+    return IrregularSea(name, spectrum, heading, spreading, state.duration, state.seed)
+
+
+def spectrum_of(state: Any, water: Water, folder: Path, path: str) -> spectra.Spectrum:
+    """Return the spectrum of an irregular sea state."""
+    if isinstance(state, surroundings.Jonswap):
+        peak = state.peak_period
+        if peak is None:
+            peak = spectra.goda_peak_period(state.significant_period or math.nan, state.peak_enhancement)
+        return spectra.jonswap(state.significant_height, peak, state.peak_enhancement)
+    if isinstance(state, surroundings.PiersonMoskowitz):
+        return spectra.pierson_moskowitz(state.significant_height, state.peak_period)
+    if isinstance(state, surroundings.BretschneiderMitsuyasu):
+        return spectra.bretschneider_mitsuyasu(state.significant_height, state.significant_period)
+    if isinstance(state, surroundings.Tma):
+        return spectra.tma(state.significant_height, state.peak_period, state.peak_enhancement, water)
+    try:
+        return spectra.from_file(
+            folder / state.file, frequency_column=state.frequency_column, density_column=state.density_column
+        )
+    except InputError as error:
+        fault = error.fault
+        raise InputError(
+            f"{state.file}: {fault.message}", path=f"{path}.file", allowed=fault.allowed, remedy=fault.remedy
+        ) from None
+
+
+def _spreading(entry: Any, spectrum: spectra.Spectrum) -> directional.Spreading:
+    if isinstance(entry, surroundings.CosineTwoS):
+        return directional.CosineTwoS(entry.exponent)
+    if isinstance(entry, surroundings.MitsuyasuSpreading):
+        return directional.Mitsuyasu(entry.maximum_exponent, 2.0 * math.pi / spectrum.peak_period)
+    if isinstance(entry, surroundings.CosinePower):
+        return directional.CosinePower(entry.exponent)
+    return directional.WrappedNormal(math.radians(entry.standard_deviation_deg))
+
+
+def current_of(
+    entry: surroundings.Current | None, water: Water, bearing: float | None
+) -> currents.CurrentProfile | None:
+    """Return the current of a case, ``None`` where it gives none."""
+    if entry is None:
+        return None
+    heading = heading_of(entry, bearing, "current")
+    if isinstance(entry.profile, surroundings.SpeedTable):
+        heights, speeds = zip(*entry.profile.table)
+        return currents.table(heights, speeds, heading)
+    speed = entry.speed or 0.0
+    if isinstance(entry.profile, surroundings.PowerLaw):
+        return currents.power_law(speed, entry.profile.power_law, heading, water)
+    return currents.uniform(speed, heading)
