@@ -29,6 +29,7 @@ from moyai.cli.console import (
     tell,
 )
 from moyai.cli.measuring import measure
+from moyai.cli.scale import scale
 
 # Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
 # commands, reads these at its import; whoever sets them keeps his own.
@@ -44,6 +45,7 @@ app = typer.Typer(
     help="How moored floating and flexible coastal structures answer waves and currents.",
 )
 app.add_typer(measure)
+app.command()(scale)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]

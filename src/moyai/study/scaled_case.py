@@ -1,0 +1,450 @@
+"""A case file in another size: every quantity scaled by its dimension, the text otherwise kept as it was written."""
+
+from __future__ import annotations
+
+import math
+import re
+import types
+import typing
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import yaml
+
+from moyai.case.reader import Case, case_of
+from moyai.case.schema_lines import CatalogueSegment
+from moyai.case.schema_types import Block, QuantityOf
+from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
+from moyai.core.errors import CaseError, InputError
+from moyai.core.quantities import LENGTH, Kind, parse_quantity
+from moyai.core.units import parse_unit
+from moyai.design.model_numbers import Motion
+from moyai.design.similarity import Scale, ScaledQuantity
+from moyai.sea.dispersion import wave_number
+from moyai.study.scaled_text import Edits, number_text, without_remarks, written_in
+from moyai.tables.lines import line_type
+
+# Keys that tell how large a structure is across the flow
+_SIZES = ("draught", "skirt_length", "skirt_depth", "depth", "beam", "bottom_beam", "pontoon_beam", "radius")
+_SIZE_IN_TITLE = re.compile(r" \((?:model|prototype of) 1:[0-9.e+]+\)$")
+_SHOWN = ("m", "s", "m/s", "kg", "N", "N/m", "kg/m", "Pa", "N m", "kg m2")
+
+
+@dataclass(frozen=True)
+class ScaledCase:
+    """A case file in another size.
+
+    Parameters
+    ----------
+    text : str
+        The new case file.
+    rows : tuple of ScaledQuantity
+        Every quantity that changed, named by its path in the file; ``prototype`` and ``model`` in its unit.
+    case : Case
+        The new file as it was read again, with its warnings.
+    from_model : bool
+        Whether the file given was that of the model.
+    scale : Scale
+        Ratios of prototype to model.
+    """
+
+    text: str
+    rows: tuple[ScaledQuantity, ...]
+    case: Case
+    from_model: bool
+    scale: Scale
+
+
+@dataclass(frozen=True)
+class _Leaf:
+    """A value of the file with its kind and its place in the text."""
+
+    path: KeyPath
+    kind: Kind
+    data: Any
+    node: Any
+
+
+def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: int = 7) -> ScaledCase:
+    """Return a case in another size by Froude with the Cauchy number kept [eq:similarity-ratio].
+
+    Units, order and comments stay; each changed line tells the value and the factor it comes from. Lines of the
+    catalogue become lines with figures of their own, since stretch and strength of a thinner chain would not follow
+    the scale. Lengths, times and the like that were left to a default are written out.
+
+    Parameters
+    ----------
+    case : Case
+        As read, of any structure.
+    scale : Scale
+        Ratios of prototype to model; ``density`` sets the water of the new file.
+    from_model : bool
+        Whether ``case`` is that of the model.
+    digits : int
+        Significant digits of the new figures.
+
+    Raises
+    ------
+    InputError
+        A file is named whose figures would not follow, or one figure is shared between quantities.
+    CaseError
+        The new figures are out of the range of the schema.
+    """
+    if not 3 <= digits <= 17:
+        raise InputError(f"{digits} significant digits", path="digits", allowed="3 to 17")
+    _refuse_files(case)
+    given = without_remarks(case.text)
+    root = yaml.compose(given, Loader=yaml.SafeLoader)
+    edits = Edits(given)
+    rows: list[ScaledQuantity] = []
+    for leaf in _leaves(case.model, type(case.model), case.document.data, root, ()):
+        row = _scaled(leaf, scale, from_model)
+        if row is None:
+            continue
+        new = row.prototype if from_model else row.model
+        old = row.model if from_model else row.prototype
+        text = _as_written(leaf.data, new, row.unit, digits)
+        _replace(edits, leaf, text, f"{written_in(old, row.unit)} ({_factor(row.ratio, from_model)})")
+        rows.append(row)
+    for block, node, path in _blocks(case.model, case.document.data, root, ()):
+        if isinstance(block, CatalogueSegment):
+            rows += _own_segment(edits, block, node, path, case, scale, from_model, digits)
+        else:
+            rows += _defaults(edits, block, node, path, scale, from_model, digits)
+    _rename(edits, root, case.title, scale, from_model)
+    text = _header(case, scale, from_model) + edits.text()
+    name = f"{case.path.name} scaled"
+    return ScaledCase(text, tuple(rows), _read_again(text, name, case.path.parent), from_model, scale)
+
+
+def _read_again(text: str, name: str, folder: Path) -> Case:
+    try:
+        return case_of(parse_yaml(text, name), folder / name)
+    except CaseError as error:
+        first = error.faults[0]
+        raise InputError(
+            f"the scaled case is refused: {first.message}",
+            path=first.path,
+            allowed=first.allowed,
+            remedy="choose another scale, or mend the figure in the file given",
+        ) from None
+
+
+def _refuse_files(case: Case) -> None:
+    """Stop at files whose figures belong to the size given."""
+    found = list(_named_files(case.document.data, ()))
+    if not found:
+        return
+    path, name = found[0]
+    raise InputError(
+        f"'{name}' holds figures of the size given; they do not follow the scale of the case",
+        path=dotted(path),
+        remedy="scale without this block, and add a file of the new size afterwards",
+    )
+
+
+def _named_files(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
+    entries: Any = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in entries:
+        if key in ("file", "path") and isinstance(value, str):
+            yield (*path, key), value
+        else:
+            yield from _named_files(value, (*path, key))
+
+
+def _child(node: Any, key: str) -> Any:
+    """Return the value node of a key, own keys before merged ones."""
+    merged: list[Any] = []
+    for name, value in node.value:
+        if name.value == key:
+            return value
+        if name.value == "<<":
+            merged += value.value if isinstance(value, yaml.SequenceNode) else [value]
+    return next((found for source in merged if (found := _child(source, key)) is not None), None)
+
+
+def _leaves(model: Any, annotation: Any, data: Any, node: Any, path: KeyPath) -> Iterator[_Leaf]:
+    """Yield every scalar of the file that the schema reads as a quantity."""
+    if isinstance(model, Block):
+        if isinstance(model, CatalogueSegment):
+            return
+        for name, field in type(model).model_fields.items():
+            key = field.alias or name
+            if not (isinstance(data, dict) and key in data):
+                continue
+            inner: Any = field.annotation
+            for entry in field.metadata:
+                inner = Annotated[inner, entry] if isinstance(entry, QuantityOf) else inner
+            yield from _leaves(getattr(model, name), inner, data[key], _child(node, key), (*path, key))
+        return
+    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is Annotated:
+        quantity = next((entry for entry in arguments[1:] if isinstance(entry, QuantityOf)), None)
+        if quantity is None:
+            yield from _leaves(model, arguments[0], data, node, path)
+        elif isinstance(data, (int, float, str)) and not (
+            isinstance(data, str) and data.strip() in dict(quantity.words)
+        ):
+            yield _Leaf(path, quantity.kind, data, node)
+    elif origin in (typing.Union, types.UnionType):
+        fitting = next((member for member in arguments if _fits(member, data)), None)
+        if fitting is not None:
+            yield from _leaves(model, fitting, data, node, path)
+    elif origin is tuple:
+        if isinstance(data, dict):  # one block where a list may stand
+            yield from _leaves(model[0], arguments[0], data, node, path)
+            return
+        for index, value in enumerate(data):
+            member = arguments[0] if arguments[-1] is Ellipsis else arguments[index]
+            yield from _leaves(model[index], member, value, node.value[index], (*path, index))
+    elif origin is dict:
+        for key, value in data.items():
+            yield from _leaves(model.get(key), arguments[1], value, _child(node, key), (*path, key))
+
+
+def _fits(annotation: Any, data: Any) -> bool:
+    """Whether data may be read by one form of a union; blocks are known by their model and not asked here."""
+    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is Annotated:
+        quantity = next((entry for entry in arguments[1:] if isinstance(entry, QuantityOf)), None)
+        if quantity is not None:
+            return isinstance(data, (int, float)) or (isinstance(data, str) and not _is_word(data, quantity))
+        return _fits(arguments[0], data)
+    if origin in (typing.Union, types.UnionType):
+        return any(_fits(member, data) for member in arguments)
+    if origin is tuple:
+        return isinstance(data, list)
+    if origin is dict:
+        return isinstance(data, dict)
+    if origin is Literal:
+        return data in arguments
+    return isinstance(annotation, type) and issubclass(annotation, Block) and isinstance(data, dict)
+
+
+def _is_word(text: str, quantity: QuantityOf) -> bool:
+    return text.strip()[:1].isalpha() and text.strip() not in dict(quantity.words)
+
+
+def _blocks(model: Any, data: Any, node: Any, path: KeyPath) -> Iterator[tuple[Block, Any, KeyPath]]:
+    """Yield every block of the file with its place."""
+    if isinstance(model, Block) and isinstance(data, dict):
+        yield model, node, path
+        for name, field in type(model).model_fields.items():
+            key = field.alias or name
+            if key in data:
+                yield from _blocks(getattr(model, name), data[key], _child(node, key), (*path, key))
+    elif isinstance(model, tuple):
+        if isinstance(data, dict):
+            yield from _blocks(model[0], data, node, path)
+        elif isinstance(data, list):
+            for index, value in enumerate(data):
+                yield from _blocks(model[index], value, node.value[index], (*path, index))
+    elif isinstance(model, dict) and isinstance(data, dict):
+        for key, value in data.items():
+            yield from _blocks(model.get(key), value, _child(node, key), (*path, key))
+
+
+def _scaled(leaf: _Leaf, scale: Scale, from_model: bool) -> ScaledQuantity | None:
+    """Return a value in both sizes in the unit it was written in, ``None`` where it stays."""
+    if isinstance(leaf.data, str):
+        quantity = parse_quantity(leaf.data)
+        unit, value = quantity.unit.symbol or leaf.kind.unit, float(quantity.number)
+    else:
+        unit, value = leaf.kind.unit, float(leaf.data)
+    ratio = scale.ratio(unit)
+    if ratio == 1.0 or value == 0.0:
+        return None
+    prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
+    return ScaledQuantity(dotted(leaf.path), unit, prototype, model, ratio)
+
+
+def _as_written(data: Any, value: float, unit: str, digits: int) -> str:
+    """Return the new value as the old one was written: plain, or with a unit that suits it."""
+    if isinstance(data, str) and parse_quantity(data).unit.symbol:
+        return written_in(value, unit, digits)
+    return number_text(value, digits)
+
+
+def _factor(ratio: float, from_model: bool) -> str:
+    shown = f"{ratio if ratio >= 1.0 else 1.0 / ratio:.5g}"
+    multiplied = (ratio >= 1.0) == from_model
+    return f"times {shown}" if multiplied else f"1/{shown}"
+
+
+def _replace(edits: Edits, leaf: _Leaf, text: str, remark: str) -> None:
+    if not edits.replace(leaf.node, text, remark):
+        raise InputError(
+            "one figure stands for quantities that scale differently (a YAML alias)",
+            path=dotted(leaf.path),
+            remedy="write the figure out at each place",
+        )
+
+
+def _own_segment(
+    edits: Edits,
+    block: CatalogueSegment,
+    node: Any,
+    path: KeyPath,
+    case: Case,
+    scale: Scale,
+    from_model: bool,
+    digits: int,
+) -> list[ScaledQuantity]:
+    """Write a line of the catalogue as a line with figures of its own."""
+    found = line_type(block.catalogue, block.diameter)
+    site = case.model.site
+    figures = {
+        "length": (block.length, "m"),
+        "submerged_weight": (found.submerged_weight_per_length(site.density, site.gravity), "N/m"),
+        "mass": (found.mass_per_length, "kg/m"),
+        "axial_stiffness": (found.axial_stiffness, "N"),
+        "breaking_load": (found.breaking_load, "N"),
+        "diameter": (block.diameter, "m"),
+    }
+    rows = []
+    for key, (value, unit) in figures.items():
+        if not math.isfinite(value):
+            continue
+        ratio = scale.ratio(unit)
+        prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
+        rows.append(ScaledQuantity(dotted((*path, key)), unit, prototype, model, ratio))
+    parts = [
+        f"{row.name.rsplit('.', 1)[-1]}: {written_in(row.prototype if from_model else row.model, row.unit, digits)}"
+        for row in rows
+    ]
+    what = f"{block.catalogue} of {written_in(block.diameter, LENGTH.unit)}, {written_in(block.length, LENGTH.unit)}"
+    remark = f"{what}, in the other size; a thinner one of the catalogue is too stiff"
+    edits.replace_block(node, "{" + ", ".join([*parts, f"name: {block.catalogue}"]) + "}", remark)
+    return rows
+
+
+def _defaults(
+    edits: Edits, block: Block, node: Any, path: KeyPath, scale: Scale, from_model: bool, digits: int
+) -> list[ScaledQuantity]:
+    """Write out the quantities of a block that were left to a default other than zero."""
+    rows: list[ScaledQuantity] = []
+    text = _default_keys(block, path, scale, from_model, digits, rows, given=block.model_fields_set)
+    if text:
+        edits.add_keys(node, text, "left to its default in the file given")
+    return rows
+
+
+def _default_keys(
+    block: Block,
+    path: KeyPath,
+    scale: Scale,
+    from_model: bool,
+    digits: int,
+    rows: list[ScaledQuantity],
+    given: set[str],
+) -> list[str]:
+    keys = []
+    for name, field in type(block).model_fields.items():
+        if name in given:
+            continue
+        key, value = field.alias or name, getattr(block, name)
+        if isinstance(value, Block):
+            inner = _default_keys(value, (*path, key), scale, from_model, digits, rows, value.model_fields_set)
+            if inner:
+                keys.append(f"{key}: {{{', '.join(inner)}}}")
+            continue
+        quantity = _quantity_of(field)
+        if quantity is None or not isinstance(value, float) or not math.isfinite(value) or value == 0.0:
+            continue
+        unit, ratio = quantity.kind.unit, scale.ratio(quantity.kind.unit)
+        if ratio == 1.0:
+            continue
+        prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
+        rows.append(ScaledQuantity(dotted((*path, key)), unit, prototype, model, ratio))
+        keys.append(f"{key}: {written_in(prototype if from_model else model, unit, digits)}")
+    return keys
+
+
+def _quantity_of(field: Any) -> QuantityOf | None:
+    """Return the quantity that a field reads, also where the key may be absent."""
+
+    def inside(annotation: Any) -> QuantityOf | None:
+        for entry in getattr(annotation, "__metadata__", ()):
+            if isinstance(entry, QuantityOf):
+                return entry
+        if typing.get_origin(annotation) in (typing.Union, types.UnionType):
+            return next((found for member in typing.get_args(annotation) if (found := inside(member))), None)
+        return None
+
+    return next((entry for entry in field.metadata if isinstance(entry, QuantityOf)), None) or inside(field.annotation)
+
+
+def _rename(edits: Edits, root: Any, title: str, scale: Scale, from_model: bool) -> None:
+    node = _child(root, "title")
+    what = "prototype of" if from_model else "model"
+    if node is not None:
+        title = _SIZE_IN_TITLE.sub("", title)
+        new = f"{title} ({what} 1:{scale.length:.6g})".replace("\\", "\\\\").replace('"', '\\"')
+        edits.replace(node, f'"{new}"', "", quote=False)
+
+
+def _header(case: Case, scale: Scale, from_model: bool) -> str:
+    sizes = ("Prototype", "model") if from_model else ("Model", "prototype")
+    ratios = ", ".join(f"{unit} {scale.ratio(unit):.6g}" for unit in _SHOWN)
+    lines = [
+        f"{sizes[0]} of '{case.path.name}', made by 'moyai scale': Froude, Cauchy number kept.",
+        f"Prototype over model: {ratios}.",
+        f"Density of the water {scale.density:.6g}, gravity {scale.gravity:.6g} times.",
+        f"Behind a changed value stands that of the {sizes[1]} and the factor; other comments are of the file given.",
+    ]
+    return "".join(f"# {line}\n" for line in lines) + "\n"
+
+
+def motions_of(scaled: ScaledCase, case: Case) -> dict[str, Motion]:
+    """Return how fast the water passes the structure and its thinnest member, in the prototype.
+
+    The speed is that of the current and of the largest wave at the surface by linear theory together; a member is
+    missing where the case does not tell its size, all are where nothing moves.
+
+    Parameters
+    ----------
+    scaled : ScaledCase
+    case : Case
+        The case given.
+    """
+    prototype = scaled.case if scaled.from_model else case
+    speed, period = _fastest(prototype)
+    if not speed > 0.0:
+        return {}
+    sizes: dict[str, float] = {}
+    for row in scaled.rows:
+        key = re.sub(r"\[\d+\]$", "", row.name).rsplit(".", 1)[-1]
+        size = abs(row.prototype) * float(parse_unit(row.unit).factor)
+        if key in _SIZES and "structure" not in sizes:
+            sizes["structure"] = size
+        elif key.endswith("diameter"):
+            sizes["thinnest member"] = min(size, sizes.get("thinnest member", math.inf))
+    depth = float(prototype.model.site.water_depth)
+    return {name: Motion(speed, size, period, depth) for name, size in sizes.items()}
+
+
+def _fastest(case: Case) -> tuple[float, float]:
+    """Return the largest speed of the water [m/s] and the shortest wave period [s]."""
+    current, site = getattr(case.model, "current", None), case.model.site
+    steady = 0.0 if current is None else _current_speed(current)
+    orbital, shortest = 0.0, math.inf
+    for sea in getattr(case.model, "waves", ()) or ():
+        height = getattr(sea, "height", None) or getattr(sea, "significant_height", None)
+        periods = sea.all_periods() if hasattr(sea, "all_periods") else ()
+        periods = periods or tuple(
+            value for name in ("peak_period", "significant_period") if (value := getattr(sea, name, None)) is not None
+        )
+        for period in periods:
+            shortest = min(shortest, period)
+            if height is not None:
+                number = float(wave_number(2.0 * math.pi / period, site.water_depth, site.gravity))
+                orbital = max(orbital, math.pi * height / (period * math.tanh(number * site.water_depth)))
+    return steady + orbital, shortest
+
+
+def _current_speed(current: Any) -> float:
+    if current.speed is not None:
+        return float(current.speed)
+    return max((abs(row[1]) for row in getattr(current.profile, "table", ())), default=0.0)

@@ -1,0 +1,76 @@
+"""Viscosity and surface tension of fresh and sea water (data/waters.csv holds the numbers and their sources)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from moyai.core.errors import InputError
+from moyai.tables.reader import read_table
+
+_FILE = "waters.csv"
+
+
+@dataclass(frozen=True)
+class WaterProperties:
+    """Properties of a water at 20 degrees Celsius.
+
+    Parameters
+    ----------
+    name, water : str
+        Short name, and which water.
+    density : float
+        [kg/m3].
+    viscosity : float
+        Kinematic [m2/s].
+    surface_tension : float
+        Against air [N/m].
+    source : str
+        Where the values come from.
+    """
+
+    name: str
+    water: str
+    density: float
+    viscosity: float
+    surface_tension: float
+    source: str
+
+
+def available_waters() -> tuple[str, ...]:
+    """Return the names of the table."""
+    return tuple(record["name"] for record in read_table(_FILE))
+
+
+def water_properties(name: str) -> WaterProperties:
+    """Return a water of the table.
+
+    Parameters
+    ----------
+    name : str
+        One of :func:`available_waters`.
+
+    Raises
+    ------
+    InputError
+        For an unknown name.
+    """
+    for record in read_table(_FILE):
+        if record["name"] == name:
+            return _properties(record)
+    raise InputError(f"unknown water {name!r}", path="water", allowed=", ".join(available_waters()))
+
+
+def water_of_density(density: float) -> WaterProperties:
+    """Return the water of the table whose density is nearest to ``density`` [kg/m3]."""
+    return min((_properties(record) for record in read_table(_FILE)), key=lambda water: abs(water.density - density))
+
+
+def _properties(record: dict[str, str]) -> WaterProperties:
+    return WaterProperties(
+        record["name"],
+        record["water"],
+        float(record["density"]),
+        float(record["viscosity"]),
+        float(record["surface_tension"]),
+        record["source"],
+    )
