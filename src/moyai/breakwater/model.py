@@ -7,7 +7,6 @@ when a water level is chosen.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,53 +17,15 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
-from moyai.sea.current import CurrentProfile
+from moyai.sea.environment import Environment as Environment
+from moyai.sea.environment import Wind as Wind
 from moyai.sea.states import IrregularSea as IrregularSea
 from moyai.sea.states import RegularSea as RegularSea
 from moyai.sea.states import SeaState as SeaState
-from moyai.sea.water import Water
 
 Mode = Literal["sway", "heave", "roll"]
 MODES: tuple[Mode, ...] = ("sway", "heave", "roll")
 DriftLaw = Literal["ramped", "pulsating", "newman", "none"]
-
-
-@dataclass(frozen=True)
-class Wind:
-    """Steady wind: speed [m/s], heading [rad], air density [kg/m3]."""
-
-    speed: float
-    heading: float
-    density: float
-
-
-@dataclass(frozen=True)
-class Environment:
-    """Everything around the structure.
-
-    Parameters
-    ----------
-    water : Water
-        Water at datum (level 0): depth [m] or infinite, density, gravity.
-    water_levels : tuple of (str, float)
-        Names and elevations above datum [m]; each is run.
-    sea_states : tuple of RegularSea or IrregularSea
-        Waves; may be empty.
-    wind : Wind or None
-    current : CurrentProfile or None
-    """
-
-    water: Water
-    water_levels: tuple[tuple[str, float], ...] = (("SWL", 0.0),)
-    sea_states: tuple[SeaState, ...] = ()
-    wind: Wind | None = None
-    current: CurrentProfile | None = None
-
-    def water_at(self, level: float) -> Water:
-        """Return the water when its surface stands ``level`` [m] above datum."""
-        if math.isinf(self.water.depth):
-            return self.water
-        return self.water.with_depth(self.water.depth + level)
 
 
 @dataclass(frozen=True)

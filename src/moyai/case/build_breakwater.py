@@ -11,18 +11,15 @@ from moyai.breakwater.model import (
     BreakwaterProblem,
     CoefficientsFile,
     Damping,
-    Environment,
     MeasuredPoints,
     MooringLine,
     MooringSpring,
     Sensitivity,
     Settings,
     TimeSettings,
-    Wind,
 )
 from moyai.case import schema_breakwater as schema
-from moyai.case.build_sea import current_of, sea_state_of
-from moyai.case.headings import heading_of
+from moyai.case.build_sea import environment_of
 from moyai.case.measured import read_points
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, LineEntry, OwnSegment, SpringLine
 from moyai.core.errors import InputError
@@ -63,26 +60,6 @@ def build_problem(
         measured=measured,
         case_text=case_text,
         case_hash=case_hash,
-    )
-
-
-def environment_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> Environment:
-    """Return water, levels, seas, wind and current."""
-    bearing = model.site.x_axis_bearing_deg
-    levels = model.site.water_levels
-    chosen = model.settings.water_levels
-    names = tuple(levels) if isinstance(chosen, str) else chosen
-    wind = None
-    if model.wind is not None:
-        wind = Wind(model.wind.speed, heading_of(model.wind, bearing, "wind"), model.wind.density)
-    return Environment(
-        water=water,
-        water_levels=tuple((name, levels[name]) for name in names),
-        sea_states=tuple(
-            sea_state_of(state, index, model.waves, water, folder, bearing) for index, state in enumerate(model.waves)
-        ),
-        wind=wind,
-        current=current_of(model.current, water, bearing),
     )
 
 

@@ -11,8 +11,30 @@ from moyai.case.headings import heading_of
 from moyai.core.errors import InputError
 from moyai.sea import current as currents
 from moyai.sea import directional, spectra
+from moyai.sea.environment import Environment, Wind
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
 from moyai.sea.water import Water
+
+
+def environment_of(model: Any, water: Water, folder: Path) -> Environment:
+    """Return water, levels, seas, wind (where the schema knows it) and current of a case."""
+    bearing = model.site.x_axis_bearing_deg
+    levels = model.site.water_levels
+    chosen = model.settings.water_levels
+    names = tuple(levels) if isinstance(chosen, str) else chosen
+    wind = None
+    blowing = getattr(model, "wind", None)
+    if blowing is not None:
+        wind = Wind(blowing.speed, heading_of(blowing, bearing, "wind"), blowing.density)
+    return Environment(
+        water=water,
+        water_levels=tuple((name, levels[name]) for name in names),
+        sea_states=tuple(
+            sea_state_of(state, index, model.waves, water, folder, bearing) for index, state in enumerate(model.waves)
+        ),
+        wind=wind,
+        current=current_of(model.current, water, bearing),
+    )
 
 
 def sea_state_of(

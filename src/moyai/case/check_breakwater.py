@@ -264,7 +264,8 @@ def _check_catalogue(model: BreakwaterCase, findings: Findings) -> None:
 
 def _check_by_statics(model: BreakwaterCase, findings: Findings, folder: Path) -> None:
     """Build what is sound and put it into its water: waves against breaking, lines at rest, balance."""
-    from moyai.case.build_breakwater import breakwater_of, build_problem, environment_of
+    from moyai.case.build_breakwater import breakwater_of, build_problem
+    from moyai.case.build_sea import environment_of
     from moyai.sea.water import Water
 
     water = Water(model.site.water_depth, model.site.density, model.site.gravity)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +39,7 @@ def check_surroundings(model: Any, findings: Findings, folder: Path) -> None:
     for index, name in enumerate(sea_names(model.waves)):
         _check_name(wave_path(findings, index, "name"), name, findings)
     for key in ("wind", "current"):
-        entry = getattr(model, key)
+        entry = getattr(model, key, None)
         speed = getattr(entry, "speed", None)
         if speed is not None and abs(speed) > LARGEST_SPEED[key]:
             findings.warn((key, "speed"), f"{speed:g} m/s is more than has been measured")
@@ -91,7 +92,8 @@ def _check_bearings(model: Any, findings: Findings) -> None:
     entries: list[tuple[KeyPath, Any]] = [
         (wave_path(findings, index), state) for index, state in enumerate(model.waves)
     ]
-    entries += [((name,), getattr(model, name)) for name in ("wind", "current") if getattr(model, name) is not None]
+    given = [(name, getattr(model, name, None)) for name in ("wind", "current")]
+    entries += [((name,), entry) for name, entry in given if entry is not None]
     for path, entry in entries:
         for key in ("from_bearing_deg", "to_bearing_deg"):
             if getattr(entry, key, None) is not None:
@@ -140,12 +142,29 @@ def _check_heading(state: Any, heading: float, path: KeyPath, findings: Findings
     )
 
 
-def check_waves(model: Any, environment: Any, findings: Findings) -> None:
-    """Hold every sea state against breaking and the limits of its theory, at every water level."""
+def check_waves(
+    model: Any,
+    environment: Any,
+    findings: Findings,
+    check_heading: Callable[[Any, float, KeyPath, Findings], None] = _check_heading,
+) -> None:
+    """Hold every sea state against breaking and the limits of its theory, at every water level.
+
+    Parameters
+    ----------
+    model : Block
+        The case.
+    environment : Environment
+        Built from it.
+    findings : Findings
+        Where faults and warnings go.
+    check_heading : callable
+        Judges the heading [rad] of a state at a path; from the side of negative x by default.
+    """
     from moyai.sea.validity import check_spectrum, check_wave
 
     for index, (state, sea) in enumerate(zip(model.waves, environment.sea_states)):
-        _check_heading(state, sea.heading, wave_path(findings, index), findings)
+        check_heading(state, sea.heading, wave_path(findings, index), findings)
         said: set[str] = set()
         for name, level in environment.water_levels:
             water = environment.water_at(level)
