@@ -1,0 +1,1 @@
+"""Submerged members: the model of a case, its analyses and its checks."""

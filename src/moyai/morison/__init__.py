@@ -1,0 +1,1 @@
+"""Forces on slender members: ideal inertia coefficients, Morison forces, the circulation of orbital flow."""
