@@ -30,6 +30,7 @@ from moyai.cli.console import (
 )
 from moyai.cli.measuring import measure
 from moyai.cli.scale import scale
+from moyai.cli.study import study
 
 # Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
 # commands, reads these at its import; whoever sets them keeps his own.
@@ -44,6 +45,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="How moored floating and flexible coastal structures answer waves and currents.",
 )
+app.command()(study)
 app.add_typer(measure)
 app.command()(scale)
 

@@ -23,6 +23,7 @@ _FAMILIES = (
     ("m/s", "mm/s"),
 )
 _MOST_SHOWN = 4
+_PROPERTIES = re.compile(r"(?:[&!]\S*\s+)+")
 _HEADER = re.compile(r"^# (Model|Prototype) of '.*', made by 'moyai scale'")
 _REMARK = re.compile(r"  (?:\[[^][]*\((?:1/|times )[0-9.e+]+\)[^][]*\]|# [^#]*\((?:1/|times )[0-9.e+]+\)[^#]*)$")
 
@@ -82,7 +83,9 @@ class Edits:
 
     def replace(self, node: Any, new: str, remark: str, *, quote: bool = True) -> bool:
         """Put ``new`` in place of a scalar; ``False`` where it was replaced by something else before."""
-        span = (node.start_mark.index, node.end_mark.index)
+        start, end = node.start_mark.index, node.end_mark.index
+        properties = _PROPERTIES.match(self._text, start, end)  # an anchor stays for its aliases
+        span = (properties.end() if properties else start, end)
         if quote and node.style in ("'", '"'):
             new = f"{node.style}{new}{node.style}"
         if span in self._changes:

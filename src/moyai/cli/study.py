@@ -1,0 +1,161 @@
+"""The ``moyai study`` command: many cases at once, here or on a cluster."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from moyai.cli.console import BAD_INPUT, FAILED, OK, guard, print_json, progress_bars, say, tell
+from moyai.core.errors import InputError
+
+if TYPE_CHECKING:
+    from moyai.core.progress import Progress
+    from moyai.study.execute import Standing
+    from moyai.study.plan import Study
+
+
+def study(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Study file (YAML).", show_default=False)],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
+    ] = None,
+    check: Annotated[bool, typer.Option("--check", help="Check all cases, try one, say what would run.")] = False,
+    workers: Annotated[
+        int | None, typer.Option("--workers", "-w", help="Processes on this machine; one a core when absent.")
+    ] = None,
+    on: Annotated[str | None, typer.Option("--on", help="Cluster to run on: dask://host:port.")] = None,
+    retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Run cases again that failed before.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
+) -> None:
+    """Run every case of a study; the same command goes on where it was stopped."""
+    with guard(as_json):
+        from moyai.study.plan import load_study
+
+        started = time.perf_counter()
+        if workers is not None and workers < 1:
+            raise InputError(f"{workers} workers cannot run anything", path="--workers", allowed="1 or more")
+        with progress_bars(quiet) as progress:
+            plan = load_study(file, progress)
+        folder = output if output is not None else Path("out") / file.stem
+        if check:
+            record = _plan(plan, workers, progress)
+            if as_json:
+                print_json(record)
+            else:
+                _print_plan(file, record)
+            raise typer.Exit(OK)
+        from moyai.cli.runner import run as run_case
+        from moyai.study.execute import run_study
+
+        count = workers if workers is not None else max(1, min(os.cpu_count() or 1, len(plan.cases)))
+        if not quiet and not as_json:
+            points = " x ".join(f"{len(axis.points)} {axis.name}" for axis in plan.axes)
+            tell(f"{plan.title}: {len(plan.cases)} cases ({points})")
+        teller = _Teller(plan, quiet or as_json)
+        with progress_bars(quiet or as_json) as progress:
+            result = run_study(
+                plan, folder, run_case, workers=count, on=on, retry_failed=retry_failed, progress=progress, watch=teller
+            )
+        files = [result.write(folder / "study.nc")]
+        from moyai.study.summary import write_table
+
+        files.append(write_table(plan, result, folder / "study.csv"))
+        seconds = time.perf_counter() - started
+        if as_json:
+            print_json(
+                {
+                    "status": result.status,
+                    "message": result.message,
+                    "cases": len(plan.cases),
+                    "files": [str(path) for path in files],
+                    "seconds": round(seconds, 3),
+                    "faults": [],
+                }
+            )
+        elif not quiet:
+            say(f"{result.status}: {result.message} in {seconds:.1f} s")
+            for path in files:
+                say(f"  {path}")
+            if result.status == "interrupted":
+                say("give the same command again to go on")
+        raise typer.Exit(OK if result.status == "converged" else FAILED)
+
+
+def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any]:
+    """Return what would run; one case is run to know the time and the room that all need."""
+    import json
+
+    from moyai.cli.runner import run as run_case
+    from moyai.study.work import Task
+    from moyai.study.work import run_case as run_one
+
+    task = Task(plan.base, plan.base_path.resolve(), plan.wanted, None, run_case)
+    middle = plan.cases[len(plan.cases) // 2]
+    # The first run of a process loads and compiles; the second tells what a case costs
+    run_one(task, middle)
+    record = run_one(task, middle)
+    assert record is not None
+    count = workers or os.cpu_count() or 1
+    size = len(json.dumps(record.values)) + 200
+    return {
+        "title": plan.title,
+        "base": str(plan.base_path),
+        "cases": len(plan.cases),
+        "axes": [{"name": axis.name, "points": len(axis.points)} for axis in plan.axes],
+        "seconds_per_case": record.seconds,
+        "workers": count,
+        "expected_seconds": record.seconds * len(plan.cases) / count,
+        "expected_megabytes": size * len(plan.cases) / 1e6,
+        "trial_status": record.status,
+        "trial_message": record.message,
+        "faults": [],
+    }
+
+
+def _print_plan(file: Path, record: dict[str, Any]) -> None:
+    say(f"{file}: no faults")
+    for axis in record["axes"]:
+        say(f"  {axis['name']}: {axis['points']} points")
+    say(f"  {record['cases']} cases, {record['seconds_per_case']:.2f} s each as tried now ({record['trial_status']})")
+    if record["trial_message"]:
+        say(f"  the trial said: {record['trial_message']}")
+    say(f"  about {_duration(record['expected_seconds'])} on {record['workers']} workers")
+    say(f"  about {record['expected_megabytes']:.2g} MB of results")
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+class _Teller:
+    """Says on standard error how far the study is, where no bar can be drawn and for what a bar cannot say."""
+
+    def __init__(self, plan: Study, silent: bool) -> None:
+        self.plan, self.silent = plan, silent
+        self.told = time.monotonic()
+
+    def __call__(self, standing: Standing) -> None:
+        now = time.monotonic()
+        if self.silent or (now - self.told < 5.0 and standing.done < standing.total):
+            return
+        self.told = now
+        parts = [f"{standing.done} of {standing.total} cases"]
+        if standing.failed:
+            parts.append(f"{standing.failed} failed")
+        if standing.done < standing.total:
+            parts.append(f"{_duration(standing.seconds_left)} left")
+        for word, entry in (("largest", standing.largest), ("smallest", standing.smallest)):
+            if entry is not None:
+                where = ", ".join(self.plan.cases[entry[1]].labels)
+                parts.append(f"{word} {self.plan.watch} {entry[0]:.4g} ({where})")
+        tell("; ".join(parts))
+
+
+__all__ = ["BAD_INPUT", "study"]

@@ -1,0 +1,164 @@
+"""Run a study: the diary in front, the workers behind, and the same command goes on where it was stopped."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result
+from moyai.study.ledger import Ledger, Record
+from moyai.study.local import run_here, run_processes
+from moyai.study.plan import RunCase, Study
+from moyai.study.table import study_result
+from moyai.study.variations import Combination
+from moyai.study.work import Task
+
+Backend = Callable[[Task, tuple[Combination, ...]], Iterator[Record]]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How far a study is, for whoever watches.
+
+    Parameters
+    ----------
+    done, total, failed : int
+        Cases.
+    seconds_left : float
+        Estimated from the rate so far, NaN at the start [s].
+    largest, smallest : tuple of (float, int) or None
+        Of the watched response: value and number of the case.
+    """
+
+    done: int
+    total: int
+    failed: int
+    seconds_left: float
+    largest: tuple[float, int] | None
+    smallest: tuple[float, int] | None
+
+
+Watcher = Callable[[Standing], None]
+
+
+def run_study(
+    study: Study,
+    folder: Path,
+    run: RunCase,
+    *,
+    workers: int,
+    on: Any = None,
+    retry_failed: bool = False,
+    progress: Progress = silent,
+    watch: Watcher | None = None,
+) -> Result:
+    """Run what is left of a study and gather everything.
+
+    Parameters
+    ----------
+    study : Study
+    folder : Path
+        Folder of the results; the same folder and study go on where they were stopped.
+    run : callable
+        ``run(case, progress)``; importable by name, since workers import it.
+    workers : int
+        Processes on this machine; 1 runs in this process. Without meaning when ``on`` is given.
+    on : str or dask cluster or client, optional
+        ``dask://host:port``, or an object of dask.distributed.
+    retry_failed : bool
+        Run cases again that failed before.
+    progress : Progress
+    watch : callable, optional
+        Told the standing after every case.
+
+    Returns
+    -------
+    Result
+        Status ``interrupted`` when it was stopped; the same call goes on.
+
+    Raises
+    ------
+    InputError
+        When the folder holds another study, the disk is full, or the cluster is out of reach.
+    """
+    ledger = Ledger(folder, study.key, study.title)
+    try:
+        known = {
+            record.index: record for record in ledger.records() if not (retry_failed and record.status == "failed")
+        }
+        left = tuple(case for case in study.cases if case.index not in known)
+        results_folder = folder / "cases" if study.keep_results else None
+        base = replace(study.base, text="")
+        task = Task(base, study.base_path.resolve(), study.wanted, results_folder, run)
+        stopped = False
+        if left:
+            watching = _Watching(study, known, watch, progress)
+            records = _backend(on, workers)(task, left)
+            try:
+                for record in records:
+                    ledger.add(record)
+                    known[record.index] = record
+                    watching.tell(record)
+            except KeyboardInterrupt:
+                stopped = True
+            finally:
+                close = getattr(records, "close", None)
+                if close is not None:
+                    close()
+    finally:
+        ledger.close()
+    return study_result(study, known.values(), interrupted=stopped)
+
+
+def _backend(on: Any, workers: int) -> Backend:
+    if on is not None:
+        from moyai.study.on_dask import run_on_dask
+
+        return lambda task, cases: run_on_dask(task, cases, on)
+    if workers < 1:
+        raise InputError(f"{workers} workers cannot run anything", path="workers", allowed="1 or more")
+    if workers == 1:
+        return run_here
+    return lambda task, cases: run_processes(task, cases, workers)
+
+
+class _Watching:
+    """Counts, the time left, the largest and smallest watched response."""
+
+    def __init__(self, study: Study, known: dict[int, Record], watch: Watcher | None, progress: Progress) -> None:
+        self.study, self.watch, self.progress = study, watch, progress
+        self.done, self.total = len(known), len(study.cases)
+        self.failed = sum(record.status == "failed" for record in known.values())
+        self.before = self.done
+        self.started = time.monotonic()
+        self.extremes: list[tuple[float, int]] = []
+        for record in known.values():
+            self._look(record)
+
+    def _look(self, record: Record) -> None:
+        item = record.values.get(self.study.watch)
+        if item is None:
+            return
+        values = np.asarray(item["values"], dtype=float)
+        if np.isfinite(values).any():
+            entry = (float(np.nanmax(values)), record.index)
+            self.extremes = [min([*self.extremes, entry]), max([*self.extremes, entry])]
+
+    def tell(self, record: Record) -> None:
+        self.done += 1
+        self.failed += record.status == "failed"
+        self._look(record)
+        self.progress("cases", self.done, self.total)
+        if self.watch is not None:
+            rate = (self.done - self.before) / max(time.monotonic() - self.started, 1e-9)
+            left = (self.total - self.done) / rate if rate > 0 else math.nan
+            smallest, largest = (self.extremes[0], self.extremes[-1]) if self.extremes else (None, None)
+            self.watch(Standing(self.done, self.total, self.failed, left, largest, smallest))

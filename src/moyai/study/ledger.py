@@ -1,0 +1,183 @@
+"""The diary of a study: one line a finished case, on disk as soon as the case is finished.
+
+Plain lines of JSON, appended and flushed to the disk one by one: whenever the program ends, by whatever means, at most
+the line being written is damaged, and it is left out when the diary is read again. Numbers are written so that they
+are read back to the last bit.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any
+
+from moyai.core.errors import InputError
+
+FORMAT = 1
+NAME = "study.jsonl"
+
+
+@dataclass(frozen=True)
+class Record:
+    """What is known of one case.
+
+    Parameters
+    ----------
+    index : int
+        Number of the case.
+    status : str
+        Status of its result, or ``failed``.
+    message : str
+        One sentence behind it.
+    seconds : float
+        Time it took [s].
+    values : dict
+        What was kept (:func:`moyai.study.responses.kept`).
+    """
+
+    index: int
+    status: str
+    message: str
+    seconds: float
+    values: dict[str, Any]
+
+    def line(self) -> str:
+        """Return the record as one line."""
+        return json.dumps(
+            {
+                "index": self.index,
+                "status": self.status,
+                "message": self.message,
+                "seconds": self.seconds,
+                "values": self.values,
+            }
+        )
+
+
+class Ledger:
+    """The diary in a folder, opened for one study.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the study's results.
+    key : str
+        Hash of everything that the study's results depend on.
+    title : str
+        For whoever looks into the file.
+
+    Raises
+    ------
+    InputError
+        When the folder holds another study, or cannot be written.
+    """
+
+    def __init__(self, folder: Path, key: str, title: str) -> None:
+        self.path = folder / NAME
+        self._file: IO[str] | None = None
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            complete = self._mend(key)
+            self._file = self.path.open("a", encoding="utf-8", newline="\n")
+            if not complete:
+                self._write(json.dumps({"moyai_study": FORMAT, "key": key, "title": title}))
+        except OSError as error:
+            raise InputError(
+                f"cannot write {self.path}: {error.strerror or error}",
+                path="output",
+                remedy="choose a folder that can be written",
+            ) from error
+
+    def _mend(self, key: str) -> bool:
+        """Cut off a damaged last line; return whether the diary has its heading already."""
+        if not self.path.exists():
+            return False
+        raw = self.path.read_bytes()
+        whole = raw[: raw.rfind(b"\n") + 1]
+        if len(whole) < len(raw):
+            with self.path.open("r+b") as file:
+                file.truncate(len(whole))
+        if not whole:
+            return False
+        heading = read_heading(self.path)
+        if heading["key"] != key:
+            raise InputError(
+                f"{self.path.parent} holds the results of another study ('{heading.get('title', '')}')",
+                path="output",
+                remedy="choose another folder, or remove this one if its results are not wanted any more",
+            )
+        return True
+
+    def _write(self, line: str) -> None:
+        assert self._file is not None
+        self._file.write(line + "\n")
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+    def add(self, record: Record) -> None:
+        """Append a finished case.
+
+        Raises
+        ------
+        InputError
+            When the disk is full or gone; what was written before stays.
+        """
+        try:
+            self._write(record.line())
+        except OSError as error:
+            raise InputError(
+                f"cannot write {self.path}: {error.strerror or error}; the cases finished before are safe",
+                path="output",
+                remedy="make room and give the same command again",
+            ) from error
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            # A full disk may refuse the last flush again; every record was flushed on its own
+            with contextlib.suppress(OSError):
+                self._file.close()
+
+    def records(self) -> Iterator[Record]:
+        """Return what was recorded so far, the last word on every case."""
+        latest: dict[int, Record] = {}
+        for record in read_records(self.path):
+            latest[record.index] = record
+        return iter([latest[index] for index in sorted(latest)])
+
+
+def read_heading(path: Path) -> dict[str, Any]:
+    """Return the first line of a diary.
+
+    Raises
+    ------
+    InputError
+        When the file is no diary of a study.
+    """
+    with path.open(encoding="utf-8") as file:
+        first = file.readline()
+    try:
+        heading = json.loads(first)
+        if heading["moyai_study"] == FORMAT and "key" in heading:
+            return dict(heading)
+    except (ValueError, KeyError, TypeError):
+        pass
+    raise InputError(f"{path} is no diary of a study", path="output", remedy="choose another folder")
+
+
+def read_records(path: Path) -> Iterator[Record]:
+    """Yield every record of a diary, in the order of writing; damaged lines are left out."""
+    with path.open(encoding="utf-8") as file:
+        next(file, None)
+        for line in file:
+            try:
+                item = json.loads(line)
+                yield Record(
+                    int(item["index"]), item["status"], item["message"], float(item["seconds"]), item["values"]
+                )
+            except (ValueError, KeyError, TypeError):
+                continue

@@ -1,0 +1,263 @@
+"""A study, read and checked before anything runs."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+import math
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from moyai.case.reader import Case, case_of, read_block
+from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
+from moyai.core.errors import CaseError, Fault, InputError
+from moyai.core.progress import Progress, silent
+from moyai.study import schema
+from moyai.study.paths import assign, remove, resolve
+from moyai.study.responses import Wanted
+from moyai.study.variations import Axis, Combination, axes_of, combinations
+
+LARGEST = 1_000_000
+"""Number of cases above which a study is refused as a slip."""
+
+_CHECKED_ALL = 2_000
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study that was read and found sound.
+
+    Parameters
+    ----------
+    title : str
+        Title of the study.
+    base : Document
+        The base case as read.
+    base_path : Path
+        Its file.
+    axes : tuple of Axis
+        Along which it is varied.
+    cases : tuple of Combination
+        The product of the axes.
+    wanted : tuple of Wanted
+        Responses that were asked for.
+    watch : str
+        Variable that is shown on the way.
+    keep_results : bool
+        Keep results.nc of every case.
+    key : str
+        Hash of everything that the results depend on.
+    """
+
+    title: str
+    base: Document
+    base_path: Path
+    axes: tuple[Axis, ...]
+    cases: tuple[Combination, ...]
+    wanted: tuple[Wanted, ...]
+    watch: str
+    keep_results: bool
+    key: str
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of points on every axis."""
+        return tuple(len(axis.points) for axis in self.axes)
+
+
+def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Study:
+    """Read a study file and check every case that it describes.
+
+    Up to 2000 cases are all checked one by one. Of more, every point of every axis is checked, with the other axes at
+    their first point, and 2000 cases spread over the study; what is left shows as a labelled failure when it runs.
+
+    Parameters
+    ----------
+    path : path-like
+        YAML file.
+    progress : Progress
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    CaseError
+        With every fault of the study file, or of the cases, at once.
+    """
+    document = read_yaml(path)
+    root = read_block(document, schema.StudyFile)
+    block: schema.StudyBlock = root.study
+    folder = Path(path).parent
+    base_path = folder / block.base
+    base = _read_base(document, base_path)
+    faults: list[Fault] = []
+    axes: list[Axis] = []
+    for number, variation in enumerate(block.variations):
+        where: KeyPath = ("study", "variations", number)
+        if isinstance(document.data["study"]["variations"], dict):
+            where = ("study", "variations")
+        try:
+            axes.extend(axes_of(variation, base.data, folder))
+        except InputError as error:
+            fault = error.fault
+            place = _place_of(document, where, fault.path)
+            faults.append(document.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy, of_key=True))
+    if faults:
+        raise CaseError(faults)
+    _check_names(document, axes)
+    count = math.prod(len(axis.points) for axis in axes)
+    if count > LARGEST:
+        message = f"the study has {count} cases"
+        raise CaseError([document.fault(("study", "variations"), message, allowed=f"at most {LARGEST}")])
+    cases = combinations(axes)
+    wanted = tuple(Wanted(item.variable, item.reduce, item.over) for item in block.responses)
+    study = Study(block.title, base, base_path, tuple(axes), cases, wanted, block.watch, block.keep == "results", "")
+    named = check_cases(study, progress)
+    return replace(study, key=_key(study, named))
+
+
+def case_at(study: Study, combination: Combination) -> Case:
+    """Return one case of a study.
+
+    Raises
+    ------
+    CaseError
+        When its values are refused.
+    """
+    return case_of(varied(study.base, combination), study.base_path)
+
+
+def varied(base: Document, combination: Combination) -> Document:
+    """Return the base case with what a combination changes; places in the file stay those of the base case."""
+    data = copy.deepcopy(base.data)
+    for path, value in combination.assignments:
+        for place in resolve(data, path):
+            assign(data, place, copy.deepcopy(value))
+    places = [place for path in combination.removals for place in resolve(data, path)]
+    # Later entries of a list first, so that the numbers of the others stay
+    for place in sorted(places, key=lambda place: [str(item).zfill(9) for item in place], reverse=True):
+        remove(data, place)
+    return replace(base, data=data)
+
+
+def check_cases(study: Study, progress: Progress = silent) -> str:
+    """Check the cases of a study without running them; return the hash of the base case.
+
+    Raises
+    ------
+    CaseError
+        With the faults of the cases, each once, with the first case that shows it.
+    """
+    chosen = _to_check(study)
+    found: dict[tuple[str, str], Fault] = {}
+    refused: dict[tuple[str, str], int] = {}
+    hashes = hashlib.sha256()
+    for done, index in enumerate(chosen):
+        combination = study.cases[index]
+        try:
+            hashes.update(case_at(study, combination).case_hash.encode())
+        except CaseError as error:
+            for fault in error.faults:
+                key = (fault.path, fault.message)
+                refused[key] = refused.get(key, 0) + 1
+                changed = {dotted(place) for path, _ in combination.assignments for place in _places(study, path)}
+                here = replace(fault, file="", line=0, column=0) if fault.path in changed else fault
+                found.setdefault(key, replace(here, message=f"case {_name(study, combination)}: {fault.message}"))
+        progress("check", done + 1, len(chosen))
+    if found:
+        faults = []
+        for key, fault in list(found.items())[:20]:
+            more = refused[key] - 1
+            faults.append(replace(fault, message=fault.message + (f" (and {more} more cases)" if more else "")))
+        raise CaseError(faults)
+    return hashes.hexdigest()
+
+
+def _places(study: Study, path: str) -> tuple[KeyPath, ...]:
+    return resolve(study.base.data, path)
+
+
+def _name(study: Study, combination: Combination) -> str:
+    pairs = [f"{axis.name} {label}" for axis, label in zip(study.axes, combination.labels)]
+    return f"{combination.index + 1} of {len(study.cases)} ({', '.join(pairs)})"
+
+
+def _to_check(study: Study) -> list[int]:
+    count = len(study.cases)
+    if count <= _CHECKED_ALL:
+        return list(range(count))
+    chosen = set(range(0, count, math.ceil(count / _CHECKED_ALL)))
+    stride = count
+    for length in study.shape:
+        stride //= length
+        chosen.update(position * stride for position in range(length))
+    return sorted(chosen)
+
+
+def _read_base(document: Document, base_path: Path) -> Document:
+    """Read the base case; every fault of its own is told with its own lines."""
+    if not base_path.exists():
+        raise CaseError([document.fault(("study", "base"), f"no such file: {base_path}", remedy="name the base case")])
+    base = read_yaml(base_path)
+    case_of(base, base_path)
+    return base
+
+
+def _place_of(document: Document, where: KeyPath, path: str) -> KeyPath:
+    """Return the place in the study file that speaks of ``path``, or the variation as a whole."""
+    named = [place for place in document.keys if place[: len(where)] == where and path and str(place[-1]) == path]
+    if named:
+        return named[0]
+    values = [
+        place for place in document.values if place[: len(where)] == where and _value(document.data, place) == path
+    ]
+    if path and values:
+        return values[0]
+    first = [place for place in document.keys if place[: len(where)] == where and len(place) == len(where) + 1]
+    return first[0] if first else where
+
+
+def _value(data: Any, place: KeyPath) -> Any:
+    for item in place:
+        data = data[item]
+    return data
+
+
+def _check_names(document: Document, axes: list[Axis]) -> None:
+    names = [axis.name for axis in axes]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        message = f"two axes are called '{twice[0]}'"
+        remedy = "give them names of their own with 'name'"
+        raise CaseError([document.fault(("study", "variations"), message, remedy=remedy)])
+    paths: dict[str, str] = {}
+    for axis in axes:
+        for path in {path for point in axis.points for path, _ in point.assignments}:
+            if path in paths:
+                message = f"'{path}' is varied by both '{paths[path]}' and '{axis.name}'"
+                raise CaseError([document.fault(("study", "variations"), message, remedy="vary it once")])
+            paths[path] = axis.name
+
+
+def _key(study: Study, hashes: str) -> str:
+    """Return the hash of the study: cases in their order, what is kept, the version of the program."""
+    from moyai import __version__
+
+    content = {
+        "version": __version__,
+        "cases": hashes,
+        "points": [[axis.name, [[point.label, point.assignments, point.removals] for point in axis.points]]
+                   for axis in study.axes],
+        "wanted": [[item.variable, item.reduce, item.over] for item in study.wanted],
+    }  # fmt: skip
+    return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
+
+
+RunCase = Callable[[Case, Progress], Any]
+"""What runs one case: it takes the case and a listener and returns a ``Result``."""

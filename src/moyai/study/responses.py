@@ -1,0 +1,130 @@
+"""What is kept of a case's result: everything small and labelled by itself, the rest as asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_LARGEST = 400
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A value that was asked for.
+
+    Parameters
+    ----------
+    variable : str
+        Group and name: ``SWL/rao/mean_drift_force``.
+    reduce : str
+        ``maximum``, ``minimum``, ``mean``, ``last`` or ``all``.
+    over : tuple of str
+        Dimensions; all whose coordinate is no label when empty.
+    """
+
+    variable: str
+    reduce: str
+    over: tuple[str, ...] = ()
+
+
+def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
+    """Return the values of a result that a study keeps.
+
+    Real and complex scalars, and arrays over labelled dimensions (lines, degrees of freedom, components), are kept by
+    themselves; a complex value is kept by its modulus. Arrays over anything else only as ``wanted`` says.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Groups of the result.
+    wanted : sequence of Wanted
+
+    Returns
+    -------
+    dict
+        By ``group/name``: ``{"dims", "labels", "values", "units", "long_name"}``, plain lists and numbers.
+
+    Raises
+    ------
+    InputError
+        When a wanted variable or dimension is not in the result.
+    """
+    found: dict[str, Any] = {}
+    for node in tree.subtree:
+        for name, variable in node.data_vars.items():
+            if variable.dtype.kind in "fiubc" and variable.size <= _LARGEST and _labelled(variable):
+                found[_key(node.path, str(name))] = _record(variable)
+    for item in wanted:
+        found[item.variable if item.reduce == "all" else f"{item.variable}_{item.reduce}"] = _reduced(tree, item)
+    return found
+
+
+def _key(path: str, name: str) -> str:
+    group = path.strip("/")
+    return f"{group}/{name}" if group else name
+
+
+def _labelled(variable: xr.DataArray) -> bool:
+    return all(dim in variable.coords and variable.coords[dim].dtype.kind in "OU" for dim in variable.dims)
+
+
+def _record(variable: xr.DataArray) -> dict[str, Any]:
+    values = np.asarray(variable.values)
+    if np.iscomplexobj(values):
+        values = np.abs(values)
+    labels = {
+        str(dim): [item.item() if hasattr(item, "item") else item for item in variable.coords[dim].values]
+        for dim in variable.dims
+        if dim in variable.coords
+    }
+    return {
+        "dims": [str(dim) for dim in variable.dims],
+        "labels": labels,
+        "values": np.asarray(values, dtype=float).tolist(),
+        "units": str(variable.attrs.get("units", "")),
+        "long_name": str(variable.attrs.get("long_name", variable.name)),
+    }
+
+
+def _reduced(tree: xr.DataTree, item: Wanted) -> dict[str, Any]:
+    group, _, name = item.variable.rpartition("/")
+    try:
+        node: Any = tree[group] if group else tree
+    except KeyError:
+        node = None
+    if node is None or name not in getattr(node, "data_vars", {}):
+        near = sorted(_key(other.path, str(one)) for other in tree.subtree for one in other.data_vars)
+        same = [entry for entry in near if entry.rsplit("/", 1)[-1] == name][:6]
+        raise InputError(
+            f"the result has no variable '{item.variable}'",
+            path="responses",
+            allowed=", ".join(same) if same else f"one of {len(near)} variables, such as {', '.join(near[:4])}",
+        )
+    variable = node[name]
+    if np.iscomplexobj(variable.values):
+        variable = abs(variable).assign_attrs(variable.attrs)
+    if item.reduce == "all":
+        return _record(variable)
+    over = item.over or tuple(
+        str(dim) for dim in variable.dims if variable.coords.get(dim, variable).dtype.kind not in "OU"
+    )
+    for dim in over:
+        if dim not in variable.dims:
+            known = ", ".join(map(str, variable.dims)) or "none"
+            raise InputError(f"'{item.variable}' has no dimension '{dim}'", path="responses", allowed=known)
+    if not over:
+        return _record(variable)
+    if item.reduce == "last":
+        out = variable.isel(dict.fromkeys(over, -1))
+    else:
+        out = getattr(variable, {"maximum": "max", "minimum": "min", "mean": "mean"}[item.reduce])(list(over))
+    out = out.drop_vars([name for name in out.coords if name not in out.dims]).assign_attrs(variable.attrs)
+    return _record(out)

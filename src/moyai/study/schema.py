@@ -1,0 +1,156 @@
+"""The study file: a base case, how it is varied, what is kept of every case."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from moyai.case.schema_types import Block, FileName, KeyGroups, Name, OneOrMany, Range, Seed, Truth, Whole
+
+Value = Any
+"""What a key of the case takes: the case's own schema judges it."""
+
+
+class Spread(Range):
+    """Evenly spaced values from one to another."""
+
+    first: Annotated[Value, Field(alias="from", description="First value, as the case file would hold it.")]
+    last: Annotated[Value, Field(alias="to", description="Last value.")]
+
+
+class Layout(Block):
+    """One named case of a list."""
+
+    label: Name
+    set: Annotated[dict[str, Value], Field(default_factory=dict, description="Values by their paths.")]
+    remove: Annotated[tuple[str, ...], Field(description="Paths that this case leaves out.")] = ()
+
+    at_least_one: ClassVar[KeyGroups] = (("set", "remove"),)
+
+
+class ListOfCases(Block):
+    """Named cases, each with what it changes."""
+
+    name: Name = "layout"
+    cases: Annotated[tuple[Layout, ...], Field(min_length=1)]
+
+
+class TableOfCases(Block):
+    """Cases from the rows of a CSV file."""
+
+    name: Name = "row"
+    file: FileName
+    columns: Annotated[
+        dict[str, str], Field(min_length=1, description="Path of the case for each column that is used.")
+    ]
+    units: Annotated[
+        dict[str, str], Field(default_factory=dict, description="Unit of a column, where its values carry none.")
+    ]
+
+
+class ReturnPeriods(Block):
+    """Waves and currents of several return periods, combined in pairs."""
+
+    name: Name = "return_period"
+    waves: Annotated[dict[str, dict[str, Value]], Field(min_length=1, description="Values by return period.")]
+    current: Annotated[dict[str, dict[str, Value]], Field(min_length=1, description="Values by return period.")]
+    pairs: Annotated[
+        Literal["automatic"] | tuple[tuple[str, str], ...],
+        Field(description="automatic: the rarest waves with the next rarer current, and the reverse."),
+    ] = "automatic"
+
+
+class Scatter(Block):
+    """A scatter diagram of sea states with their probabilities."""
+
+    name: Name = "sea_state"
+    file: FileName
+    significant_height: Annotated[str, Field(description="Path of the significant wave height.")]
+    period: Annotated[str, Field(description="Path of the period by which the diagram is sorted.")]
+    counts: Annotated[Truth, Field(description="The cells are numbers of sea states, not probabilities.")] = False
+
+
+class Distribution(Block):
+    """How one value is spread."""
+
+    uniform: tuple[Value, Value] | None = None
+    normal: Annotated[tuple[Value, Value] | None, Field(description="Mean and standard deviation.")] = None
+    lognormal: Annotated[tuple[Value, Value] | None, Field(description="Mean and standard deviation.")] = None
+
+    exactly_one: ClassVar[KeyGroups] = (("uniform", "normal", "lognormal"),)
+
+
+class Sample(Block):
+    """Cases drawn from distributions."""
+
+    name: Name = "sample"
+    method: Literal["latin_hypercube", "sobol"] = "latin_hypercube"
+    count: Whole
+    seed: Seed
+    variables: Annotated[dict[str, Distribution], Field(min_length=1)]
+
+
+class Seeds(Block):
+    """Repetitions of a random sea."""
+
+    name: Name = "seed"
+    path: Annotated[str, Field(description="Path of the seed.")]
+    count: Whole
+    first: Seed = 1
+
+
+class LinesLost(Block):
+    """The structure with all its lines, and with each of them lost."""
+
+    name: Name = "lost_line"
+    path: Annotated[str, Field(description="Path of the list of lines.")] = "lines"
+    intact: Annotated[Truth, Field(description="Run the structure with all lines as well.")] = True
+
+
+class Variation(Block):
+    """One way of varying the case; the study is the product of all of them."""
+
+    grid: Annotated[
+        dict[str, Annotated[tuple[Value, ...], Field(min_length=1)] | Spread] | None,
+        Field(description="Every value of every path with every other."),
+    ] = None
+    list: ListOfCases | None = None
+    table: TableOfCases | None = None
+    return_periods: ReturnPeriods | None = None
+    scatter: Scatter | None = None
+    sample: Sample | None = None
+    seeds: Seeds | None = None
+    lines_lost: LinesLost | Truth | None = None
+
+    exactly_one: ClassVar[KeyGroups] = (
+        ("grid", "list", "table", "return_periods", "scatter", "sample", "seeds", "lines_lost"),
+    )
+
+
+class Response(Block):
+    """A value to keep of every case, besides those that are kept by themselves."""
+
+    variable: Annotated[str, Field(description="Group and name in results.nc, such as SWL/rao/mean_drift_force.")]
+    reduce: Annotated[Literal["maximum", "minimum", "mean", "last", "all"], Field(description="Over its dimensions.")]
+    over: Annotated[tuple[str, ...], Field(description="Dimensions to reduce; all unlabelled ones when absent.")] = ()
+
+
+class StudyBlock(Block):
+    """The study."""
+
+    title: str = "Study"
+    base: Annotated[FileName, Field(description="The base case, relative to this file.")]
+    variations: Annotated[tuple[Variation, ...], OneOrMany(), Field(min_length=1)]
+    responses: Annotated[tuple[Response, ...], OneOrMany()] = ()
+    watch: Annotated[str, Field(description="Variable whose largest and smallest value is shown on the way.")] = ""
+    keep: Annotated[Literal["responses", "results"], Field(description="results: also results.nc of every case.")] = (
+        "responses"
+    )
+
+
+class StudyFile(Block):
+    """Root of a study file."""
+
+    moyai: Literal[1]
+    study: StudyBlock

@@ -1,0 +1,110 @@
+"""Run one case of a study: in this process, in another one, or on a cluster."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from moyai.case.yaml_reader import Document
+from moyai.core.errors import CaseError, MoyaiError
+from moyai.core.progress import Progress
+from moyai.study.ledger import Record
+from moyai.study.plan import RunCase, varied
+from moyai.study.responses import Wanted, kept
+from moyai.study.variations import Combination
+
+_POLL = 0.2
+
+
+@dataclass(frozen=True)
+class Task:
+    """What all cases of a study have in common; small enough to be sent to a worker.
+
+    Parameters
+    ----------
+    base : Document
+        The base case.
+    base_path : Path
+        Its file, from which it names others.
+    wanted : tuple of Wanted
+    results_folder : Path or None
+        Where results.nc of every case goes.
+    run : callable
+        ``run(case, progress)``: must be importable by the workers.
+    """
+
+    base: Document
+    base_path: Path
+    wanted: tuple[Wanted, ...]
+    results_folder: Path | None
+    run: RunCase
+
+
+def run_case(task: Task, combination: Combination, cancelled: Callable[[], bool] | None = None) -> Record | None:
+    """Run one case and return what is kept of it, ``None`` when it was cancelled.
+
+    Whatever goes wrong in the case becomes its record; nothing is raised but what ends the process.
+
+    Parameters
+    ----------
+    task : Task
+    combination : Combination
+    cancelled : callable, optional
+        Asked a few times a second whether to stop.
+    """
+    from moyai.case.reader import case_of
+
+    started = time.perf_counter()
+    try:
+        case = case_of(varied(task.base, combination), task.base_path)
+        result = task.run(case, _listener(cancelled))
+        if cancelled is not None and cancelled():
+            return None
+        if task.results_folder is not None:
+            result.write(task.results_folder / f"{combination.index:06d}" / "results.nc")
+        values = kept(result.tree, task.wanted)
+        status, message = result.status, result.message
+        failed = [check.name for check in result.checks if not check.passed]
+        if failed and status == "converged":
+            status, message = "outside_validity", f"identities missed: {', '.join(failed)}"
+    except KeyboardInterrupt:
+        return None
+    except CaseError as error:
+        status, message, values = "failed", "; ".join(str(fault) for fault in error.faults[:3]), {}
+    except MoyaiError as error:
+        status, message, values = "failed", str(error), {}
+    except Exception as error:
+        # A fault of the program in one case must not cost the others
+        status, message, values = "failed", f"internal error, {type(error).__name__}: {error}", {}
+    return Record(combination.index, status, message, time.perf_counter() - started, values)
+
+
+def _listener(cancelled: Callable[[], bool] | None) -> Progress:
+    asked = time.monotonic()
+
+    def listen(what: str, done: float, total: float) -> None:
+        nonlocal asked
+        now = time.monotonic()
+        if cancelled is not None and now - asked > _POLL:
+            asked = now
+            if cancelled():
+                raise KeyboardInterrupt
+
+    return listen
+
+
+def run_chunk(task: Task, chunk: tuple[Combination, ...], cancelled: Callable[[], bool] | None = None) -> list[Record]:
+    """Run several cases one after the other; stop between two when cancelled."""
+    records: list[Record] = []
+    for combination in chunk:
+        record = run_case(task, combination, cancelled)
+        if record is None:
+            break
+        records.append(record)
+    return records
+
+
+__all__: list[Any] = ["Task", "run_case", "run_chunk"]
