@@ -1,0 +1,413 @@
+"""Put a network together from points, lines and nets.
+
+>>> builder = NetworkBuilder(water)                                          # doctest: +SKIP
+>>> builder.fixed("anchor", (0.0, 0.0, -10.0))                               # doctest: +SKIP
+>>> builder.driven("fairlead", (97.5, 0.0, 0.0))                             # doctest: +SKIP
+>>> builder.line("chain", "anchor", "fairlead", chain, length=100.0, segments=50)  # doctest: +SKIP
+>>> network = builder.build()                                                # doctest: +SKIP
+
+Nodes of one line stand next to each other in memory, so that the kernels run over them in one sweep.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, Array, Bars, BarType, Bed, Network, Nodes, Strand
+from moyai.mooring.lines import Line, LineType, Segment
+from moyai.mooring.shape import line_shape
+from moyai.sea.water import Water
+
+Start = Literal["catenary", "straight"]
+
+
+@dataclass
+class _Point:
+    position: Array
+    kind: int
+    held: tuple[bool, bool, bool]
+    motion: int
+    mass: float
+    volume: float
+    drag_area: float
+    added_mass: float
+    contact_area: float
+    height: float
+    form: int
+
+
+@dataclass
+class _Run:
+    """Bars of one line: the two end points by name, and the nodes between them."""
+
+    name: str
+    start: str
+    end: str
+    between: Array
+    length: Array
+    kind: int
+    flow_factor: float
+
+
+class NetworkBuilder:
+    """Collects points and lines; :meth:`build` returns the frozen network.
+
+    Parameters
+    ----------
+    water : Water
+        Depth, density and gravity.
+    bed : Bed, optional
+        Contact with the bed.
+    """
+
+    def __init__(self, water: Water, bed: Bed | None = None) -> None:
+        self.water, self.bed = water, bed
+        self._points: dict[str, _Point] = {}
+        self._runs: list[_Run] = []
+        self._types: list[BarType] = []
+        self._motions: list[str] = []
+
+    def _add(
+        self, name: str, position: ArrayLike, kind: int, held: tuple[bool, bool, bool], motion: int, **attached: float
+    ) -> None:
+        if name in self._points:
+            raise InputError(f"two points are named {name!r}", path="points", allowed="different names")
+        place = np.array(position, dtype=np.float64)
+        if place.shape != (3,) or not np.isfinite(place).all():
+            raise InputError(
+                f"position of {name!r} is {position}", path=f"points.{name}", allowed="three finite numbers"
+            )
+        values = {"mass": 0.0, "volume": 0.0, "drag_area": 0.0, "added_mass": 0.0, "contact_area": 0.0, "height": 0.0}
+        for key, value in attached.items():
+            if key != "form" and not (np.isfinite(value) and value >= 0.0):
+                raise InputError(f"{key} of {name!r} is {value:g}", path=f"points.{name}.{key}", allowed="0 or more")
+        form = int(attached.pop("form", BOX))
+        self._points[name] = _Point(place, kind, held, motion, form=form, **{**values, **attached})
+
+    def fixed(self, name: str, position: ArrayLike) -> None:
+        """Add a point that does not move (an anchor)."""
+        self._add(name, position, FIXED, (False, False, False), -1)
+
+    def driven(self, name: str, position: ArrayLike, motion: str | None = None) -> None:
+        """Add a point that follows the prescribed motion of this name (its own name when left out).
+
+        ``position`` is where it stands while the motion is zero.
+        """
+        slot = motion or name
+        if slot not in self._motions:
+            self._motions.append(slot)
+        self._add(name, position, DRIVEN, (False, False, False), self._motions.index(slot))
+
+    def free(
+        self,
+        name: str,
+        position: ArrayLike,
+        *,
+        mass: float = 0.0,
+        volume: float = 0.0,
+        drag_area: float = 0.0,
+        added_mass: float = 0.0,
+        contact_area: float = 0.0,
+        height: float = 0.0,
+        form: int = BOX,
+        held: tuple[bool, bool, bool] = (False, False, False),
+    ) -> None:
+        """Add a point that moves by its forces: a joint, clump weight, float or small buoy.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+        position : array_like
+            Start position of its centre [m].
+        mass, volume : float
+            Attached mass [kg] and displaced volume when wholly wet [m3].
+        drag_area : float
+            Drag coefficient times area, all directions alike [m2].
+        added_mass : float
+            When wholly wet, all directions alike [kg].
+        contact_area : float
+            With the bed [m2].
+        height : float
+            Vertical extent about the centre [m]; 0 keeps it wholly wet wherever it is.
+        form : int
+            ``BOX`` or ``SPHERE`` (of diameter ``height``).
+        held : tuple of bool
+            Components x, y, z that do not move.
+        """
+        self._add(
+            name, position, FREE, held, -1,
+            mass=mass, volume=volume, drag_area=drag_area, added_mass=added_mass, contact_area=contact_area,
+            height=height, form=form,
+        )  # fmt: skip
+
+    def float_sphere(
+        self,
+        name: str,
+        position: ArrayLike,
+        *,
+        diameter: float,
+        mass: float,
+        drag_coefficient: float,
+        added_mass_coefficient: float,
+    ) -> None:
+        """Add a spherical float or buoy with partial immersion [eq:flexible-immersion]."""
+        volume = np.pi / 6.0 * diameter**3
+        self.free(
+            name, position, mass=mass, volume=volume, drag_area=drag_coefficient * np.pi / 4.0 * diameter**2,
+            added_mass=added_mass_coefficient * self.water.density * volume, contact_area=0.0, height=diameter, form=1,
+        )  # fmt: skip
+
+    def _kind(self, bar_type: BarType) -> int:
+        for index, known in enumerate(self._types):
+            if known is bar_type:
+                return index
+        self._types.append(bar_type)
+        return len(self._types) - 1
+
+    def position(self, name: str) -> Array:
+        """Return the position of a named point [m].
+
+        Raises
+        ------
+        InputError
+            When there is none.
+        """
+        if name not in self._points:
+            raise InputError(f"no point {name!r}", path="points", allowed=", ".join(self._points) or "none")
+        return self._points[name].position
+
+    def line(
+        self,
+        name: str,
+        start: str,
+        end: str,
+        bar_type: BarType,
+        *,
+        length: float,
+        segments: int,
+        shape: Start | ArrayLike = "catenary",
+        flow_factor: float = 1.0,
+    ) -> None:
+        """Add a line of equal bars between two named points.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+        start, end : str
+            Points.
+        bar_type : BarType
+            Material.
+        length : float
+            Unstretched [m].
+        segments : int
+            Number of bars.
+        shape : {"catenary", "straight"} or array_like, shape (segments - 1, 3)
+            Where the nodes between the ends start: on the catenary at rest, on the chord, or as given [m].
+        flow_factor : float
+            Factor on the water velocity that meets the line.
+
+        Raises
+        ------
+        InputError
+            For unknown points, less than one segment or a length that is not positive.
+        """
+        if any(run.name == name for run in self._runs):
+            raise InputError(f"two lines are named {name!r}", path="lines", allowed="different names")
+        if segments < 1:
+            raise InputError(
+                f"line {name!r} has {segments} segments", path=f"lines.{name}.segments", allowed="1 or more"
+            )
+        if not (np.isfinite(length) and length > 0.0):
+            raise InputError(
+                f"line {name!r} has length {length:g} m", path=f"lines.{name}.length", allowed="greater than 0"
+            )
+        a, b = self.position(start), self.position(end)
+        if start == end:
+            raise InputError(
+                f"line {name!r} starts and ends at {start!r}", path=f"lines.{name}.end", allowed="another point"
+            )
+        fraction = np.arange(1, segments) / segments
+        if isinstance(shape, str):
+            between = a + fraction[:, None] * (b - a)
+            if shape == "catenary" and segments > 1:
+                between = _at_rest(a, b, bar_type, length, fraction, self.water, self.bed)
+        else:
+            between = np.array(shape, dtype=np.float64).reshape(segments - 1, 3)
+        lengths = np.full(segments, length / segments)
+        self._runs.append(_Run(name, start, end, between, lengths, self._kind(bar_type), flow_factor))
+
+    def net(
+        self,
+        name: str,
+        points: ArrayLike,
+        bar_type: BarType,
+        *,
+        lengths: tuple[float, float],
+        top: Literal["free", "fixed", "driven"] = "driven",
+        motion: str | None = None,
+        across_type: BarType | None = None,
+        flow_factor: float = 1.0,
+    ) -> None:
+        """Add a net of square or rectangular meshes: a grid of points joined by bars along rows and columns.
+
+        Parameters
+        ----------
+        name : str
+            Its name; the points are called ``name[row,column]``, the rows ``name row 0`` ..., the columns ``name column 0`` ...
+        points : array_like, shape (rows, columns, 3)
+            Positions of the knots [m].
+        bar_type : BarType
+            Twine (or group of twines) of the rows.
+        lengths : (float, float)
+            Unstretched bar length along the rows and along the columns [m].
+        top : {"free", "fixed", "driven"}
+            What holds the first row.
+        motion : str, optional
+            Name of the motion of a driven first row (the net's name when left out).
+        across_type : BarType, optional
+            Twine of the columns when it differs.
+        flow_factor : float
+            Factor on the water velocity that meets the net.
+        """
+        grid = np.array(points, dtype=np.float64)
+        if grid.ndim != 3 or grid.shape[2] != 3 or min(grid.shape[:2]) < 2:
+            raise InputError(
+                f"points of net {name!r} have shape {grid.shape}",
+                path=f"nets.{name}",
+                allowed="(rows, columns, 3), two or more each",
+            )
+        rows, columns = grid.shape[:2]
+        for i in range(rows):
+            for j in range(columns):
+                label = f"{name}[{i},{j}]"
+                if i > 0 or top == "free":
+                    self.free(label, grid[i, j])
+                elif top == "fixed":
+                    self.fixed(label, grid[i, j])
+                else:
+                    self.driven(label, grid[i, j], motion or name)
+        none = np.zeros((0, 3))
+        along, across = self._kind(bar_type), self._kind(across_type or bar_type)
+        for i in range(rows):
+            for j in range(columns - 1):
+                self._runs.append(
+                    _Run(
+                        f"{name} row {i}",
+                        f"{name}[{i},{j}]",
+                        f"{name}[{i},{j + 1}]",
+                        none,
+                        np.full(1, lengths[0]),
+                        along,
+                        flow_factor,
+                    )
+                )
+        for i in range(rows - 1):
+            for j in range(columns):
+                self._runs.append(
+                    _Run(
+                        f"{name} column {j}",
+                        f"{name}[{i},{j}]",
+                        f"{name}[{i + 1},{j}]",
+                        none,
+                        np.full(1, lengths[1]),
+                        across,
+                        flow_factor,
+                    )
+                )
+
+    def build(self) -> Network:
+        """Return the network.
+
+        Raises
+        ------
+        InputError
+            For the faults that :class:`moyai.flexible.network.Network` names.
+        """
+        index: dict[str, int] = {}
+        size = 0
+        inner: list[int] = []
+        for run in self._runs:
+            if run.start not in index:
+                index[run.start] = size
+                size += 1
+            inner.append(size)
+            size += len(run.between)
+            if run.end not in index:
+                index[run.end] = size
+                size += 1
+        for name in self._points:
+            if name not in index:
+                index[name] = size
+                size += 1
+        position = np.zeros((size, 3))
+        kind, motion, form = np.zeros(size, np.int64), np.full(size, -1, np.int64), np.zeros(size, np.int64)
+        held = np.zeros((size, 3), dtype=bool)
+        attached = {
+            key: np.zeros(size) for key in ("mass", "volume", "drag_area", "added_mass", "contact_area", "height")
+        }
+        for name, point in self._points.items():
+            node = index[name]
+            position[node], kind[node], held[node], motion[node], form[node] = (
+                point.position, point.kind, point.held, point.motion, point.form,
+            )  # fmt: skip
+            for key, values in attached.items():
+                values[node] = getattr(point, key)
+        starts, ends, lengths, kinds, factors = [], [], [], [], []
+        strands: dict[str, tuple[list[int], list[int]]] = {}
+        for run, first in zip(self._runs, inner, strict=True):
+            chain = [index[run.start], *range(first, first + len(run.between)), index[run.end]]
+            position[first : first + len(run.between)] = run.between
+            numbers = range(len(starts), len(starts) + len(chain) - 1)
+            nodes, bars = strands.setdefault(run.name, ([], []))
+            nodes.extend(chain if not nodes else chain[1:])
+            bars.extend(numbers)
+            starts.extend(chain[:-1])
+            ends.extend(chain[1:])
+            lengths.extend(run.length)
+            kinds.extend([run.kind] * len(numbers))
+            factors.extend([run.flow_factor] * len(numbers))
+        return Network(
+            Nodes(position, kind, held, motion, form=form, **attached),
+            Bars(
+                np.array(starts, np.int64), np.array(ends, np.int64), np.array(lengths), np.array(kinds, np.int64),
+                tuple(self._types), np.array(factors),
+            ),
+            self.water,
+            self.bed,
+            tuple(Strand(name, np.array(nodes), np.array(bars)) for name, (nodes, bars) in strands.items()),
+            dict(index),
+            tuple(self._motions),
+        )  # fmt: skip
+
+
+def _at_rest(
+    a: Array, b: Array, bar_type: BarType, length: float, fraction: Array, water: Water, bed: Bed | None
+) -> Array:
+    """Return points on the exact catenary between two ends, or on the chord where it says nothing (a weightless line)."""
+    chord = a + fraction[:, None] * (b - a)
+    weight = bar_type.submerged_weight_per_length(water)
+    low, high, along = (a, b, fraction) if a[2] <= b[2] else (b, a, 1.0 - fraction)
+    level = bed.level if bed is not None else low[2] - 10.0 * length
+    if abs(weight) < 1e-9 * bar_type.mass_per_length * water.gravity or length <= np.linalg.norm(b - a):
+        return chord
+    if weight < 0.0:
+        # a floating line hangs upwards: the mirror image without bed
+        mirror = np.array([1.0, 1.0, -1.0])
+        flipped = (b, a, 1.0 - fraction) if a[2] <= b[2] else (a, b, fraction)
+        low, high, along, level = flipped[0] * mirror, flipped[1] * mirror, flipped[2], -np.inf
+        level = low[2] - 10.0 * length
+    line = Line(
+        "start", tuple(low), tuple(high), (Segment(LineType("start", abs(weight), bar_type.axial_stiffness), length),)
+    )
+    shape = line_shape(line, high, -level, points=max(60, 4 * (len(fraction) + 1)))
+    points = np.stack([np.interp(along * length, shape.arc_length, shape.points[:, k]) for k in range(3)], axis=1)
+    if not np.isfinite(points).all():
+        return chord
+    return points * np.array([1.0, 1.0, -1.0]) if weight < 0.0 else points

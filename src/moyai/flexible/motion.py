@@ -1,0 +1,184 @@
+"""Prescribed motion of driven points, tabulated on a uniform grid and smooth between its points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Displacement of a driven point over time: a cubic through displacement and velocity at each grid time.
+
+    Parameters
+    ----------
+    start, step : float
+        First time and spacing of the grid [s].
+    displacement, velocity : array_like, shape (k, 3)
+        Relative to the node's position in the network [m], and its rate [m/s].
+
+    Raises
+    ------
+    InputError
+        For less than two times, a step that is not positive, or values that are not finite.
+    """
+
+    start: float
+    step: float
+    displacement: Array
+    velocity: Array
+
+    def __post_init__(self) -> None:
+        for name in ("displacement", "velocity"):
+            array = np.array(getattr(self, name), dtype=np.float64)
+            if array.ndim != 2 or array.shape[1] != 3 or array.shape[0] < 2 or not np.isfinite(array).all():
+                raise InputError(
+                    f"{name} of a motion has shape {array.shape}",
+                    path=f"motion.{name}",
+                    allowed="(2 or more, 3), finite",
+                )
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+        if self.displacement.shape != self.velocity.shape:
+            raise InputError(
+                "displacement and velocity differ in length",
+                path="motion.velocity",
+                allowed=str(self.displacement.shape),
+            )
+        if not (self.step > 0.0 and math.isfinite(self.step) and math.isfinite(self.start)):
+            raise InputError(f"step of a motion is {self.step:g} s", path="motion.step", allowed="greater than 0")
+
+    @property
+    def end(self) -> float:
+        """Last time of the table [s]."""
+        return self.start + self.step * (len(self.displacement) - 1)
+
+    @classmethod
+    def from_function(
+        cls, displacement: Callable[[Array], ArrayLike], *, duration: float, step: float, start: float = 0.0
+    ) -> Motion:
+        """Tabulate a function of time (array in, shape (k, 3) out); its rate is taken by fourth-order differences.
+
+        Parameters
+        ----------
+        displacement : callable
+            Takes times (k,) [s], returns displacements (k, 3) [m]; it is also asked two steps before and after the range.
+        duration, step, start : float
+            Range and spacing [s]; about a two-hundredth of the shortest period keeps the table exact to 1e-8.
+        """
+        if not (duration > 0.0 and step > 0.0):
+            raise InputError(
+                f"a motion over {duration:g} s in steps of {step:g} s", path="motion.duration", allowed="greater than 0"
+            )
+        count = math.ceil(duration / step - 1e-9) + 1
+        time = start + step * np.arange(-2, count + 2)
+        values = np.asarray(displacement(time), dtype=np.float64).reshape(count + 4, 3)
+        rate = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / (12.0 * step)
+        return cls(start, step, values[2:-2], rate)
+
+    @classmethod
+    def harmonic(
+        cls,
+        amplitude: ArrayLike,
+        period: float,
+        *,
+        duration: float,
+        ramp: float = 0.0,
+        phase: ArrayLike = 0.0,
+        start: float = 0.0,
+    ) -> Motion:
+        """Return amplitude * r(t) * sin(2 pi t / period + phase), r a smooth start over ``ramp`` seconds (half a cosine).
+
+        Parameters
+        ----------
+        amplitude, phase : array_like (3,)
+            Of each component [m, rad].
+        period, duration, ramp, start : float
+            [s].
+        """
+        if not (period > 0.0 and ramp >= 0.0):
+            raise InputError(
+                f"a harmonic motion of period {period:g} s and ramp {ramp:g} s",
+                path="motion.period",
+                allowed="greater than 0",
+            )
+        size, turn, omega = np.broadcast_to(amplitude, (3,)), np.broadcast_to(phase, (3,)), 2.0 * math.pi / period
+        step = min(period / 200.0, duration / 4.0)
+        time = start + step * np.arange(math.ceil(duration / step - 1e-9) + 1)
+        grown, rate = np.ones_like(time), np.zeros_like(time)
+        if ramp > 0.0:
+            inside = time - start < ramp
+            angle = math.pi * (time - start) / ramp
+            grown = np.where(inside, 0.5 * (1.0 - np.cos(angle)), 1.0)
+            rate = np.where(inside, 0.5 * math.pi / ramp * np.sin(angle), 0.0)
+        sine, cosine = np.sin(omega * time[:, None] + turn), np.cos(omega * time[:, None] + turn)
+        return cls(
+            start, step, size * grown[:, None] * sine, size * (rate[:, None] * sine + omega * grown[:, None] * cosine)
+        )
+
+    @classmethod
+    def from_table(cls, time: ArrayLike, displacement: ArrayLike, *, step: float | None = None) -> Motion:
+        """Return the natural cubic spline through a record of displacements.
+
+        Parameters
+        ----------
+        time : array_like, shape (k,)
+            Rising [s].
+        displacement : array_like, shape (k, 3)
+            [m].
+        step : float, optional
+            Grid of the table; the shortest interval of the record when left out (then a uniform record keeps its points).
+        """
+        from scipy.interpolate import CubicSpline
+
+        given, values = np.asarray(time, dtype=np.float64), np.asarray(displacement, dtype=np.float64)
+        if given.ndim != 1 or given.size < 2 or not np.all(np.diff(given) > 0.0) or values.shape != (given.size, 3):
+            raise InputError(
+                "a table of motion needs rising times and three displacements each",
+                path="motion.time",
+                allowed="rising",
+            )
+        wanted = float(np.min(np.diff(given))) if step is None else step
+        count = max(1, round((given[-1] - given[0]) / wanted))
+        wanted = (given[-1] - given[0]) / count
+        grid = np.clip(given[0] + wanted * np.arange(count + 1), given[0], given[-1])
+        spline = CubicSpline(given, values, bc_type="natural") if given.size > 2 else None
+        if spline is None:
+            slope = (values[1] - values[0]) / (given[1] - given[0])
+            return cls(
+                float(given[0]), wanted, values[0] + (grid - given[0])[:, None] * slope, np.tile(slope, (count + 1, 1))
+            )
+        return cls(float(given[0]), wanted, spline(grid), spline(grid, 1))
+
+    def at(self, time: ArrayLike) -> tuple[Array, Array]:
+        """Return displacement and velocity at any times of the range, shape (..., 3).
+
+        Raises
+        ------
+        InputError
+            Outside the range.
+        """
+        t = np.asarray(time, dtype=np.float64)
+        slack = 1e-9 * max(1.0, abs(self.end))
+        if t.size and (t.min() < self.start - slack or t.max() > self.end + slack):
+            raise InputError(
+                f"motion asked at {t.min():g} to {t.max():g} s", path="motion", allowed=f"{self.start:g} to {self.end:g} s",
+                remedy="give a longer motion or a shorter run",
+            )  # fmt: skip
+        place = np.clip((t - self.start) / self.step, 0.0, len(self.displacement) - 1)
+        row = np.minimum(place.astype(np.int64), len(self.displacement) - 2)
+        s = (place - row)[..., None]
+        x0, x1 = self.displacement[row], self.displacement[row + 1]
+        v0, v1 = self.velocity[row] * self.step, self.velocity[row + 1] * self.step
+        d = x1 - x0
+        value = x0 + s * (v0 + s * (3.0 * d - 2.0 * v0 - v1 + s * (v0 + v1 - 2.0 * d)))
+        rate = (v0 + s * (2.0 * (3.0 * d - 2.0 * v0 - v1) + 3.0 * s * (v0 + v1 - 2.0 * d))) / self.step
+        return value, rate

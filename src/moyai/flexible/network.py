@@ -1,0 +1,462 @@
+"""The model of a flexible network: nodes with lumped mass, bars between them, the bed under them.
+
+Every object is frozen and checks itself. Arrays run over nodes (n), bars (m) or hinges of bending (h); three components
+stand last. Builders live in :mod:`moyai.flexible.build`; theory: docs/theory/flexible.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.sea.water import Water
+from moyai.tables.lines import LineProperties
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+BoolArray = NDArray[np.bool_]
+
+#: Kinds of node: ``FREE`` moves by its forces, ``FIXED`` stays, ``DRIVEN`` follows a prescribed motion.
+FREE, FIXED, DRIVEN = 0, 1, 2
+#: Form of a float for its immersion: a box or upright cylinder, or a sphere.
+BOX, SPHERE = 0, 1
+
+
+def _frozen(values: ArrayLike, dtype: Any, shape: tuple[int, ...], path: str) -> NDArray[Any]:
+    array = np.array(values, dtype=dtype)
+    if array.ndim < len(shape):
+        array = np.array(np.broadcast_to(array, shape))
+    if array.shape != shape:
+        raise InputError(f"{path} has shape {array.shape}", path=path, allowed=str(shape))
+    if array.dtype.kind == "f" and not np.isfinite(array).all():
+        raise InputError(f"{path} holds a value that is not finite", path=path, allowed="finite numbers")
+    array = np.ascontiguousarray(array)
+    array.setflags(write=False)
+    return array
+
+
+def _require(ok: bool, message: str, path: str, allowed: str, remedy: str = "") -> None:
+    if not ok:
+        raise InputError(message, path=path, allowed=allowed, remedy=remedy)
+
+
+@dataclass(frozen=True, eq=False)
+class RopeCurve:
+    """Tension of a rope over its strain, joined linearly between the points and continued with the last slope.
+
+    Parameters
+    ----------
+    strain : array_like
+        Engineering strain L/L0 - 1 [-], rising, the first 0.
+    tension : array_like
+        Tension [N], rising, the first 0.
+
+    Raises
+    ------
+    InputError
+        When the points do not rise from (0, 0).
+    """
+
+    strain: Array
+    tension: Array
+
+    def __post_init__(self) -> None:
+        size = int(np.size(self.strain))
+        _require(size >= 2, f"a rope curve of {size} point(s)", "curve.strain", "two points or more")
+        for name in ("strain", "tension"):
+            array = _frozen(getattr(self, name), np.float64, (size,), f"curve.{name}")
+            object.__setattr__(self, name, array)
+            _require(array[0] == 0.0, f"{name} of a rope curve starts at {array[0]:g}", f"curve.{name}", "0 first")
+            _require(
+                bool(np.all(np.diff(array) > 0.0)),
+                f"{name} of a rope curve does not rise",
+                f"curve.{name}",
+                "rising values",
+            )
+
+    @property
+    def stiffness(self) -> Array:
+        """Slope EA of each piece [N]."""
+        return np.diff(self.tension) / np.diff(self.strain)
+
+
+@dataclass(frozen=True, eq=False)
+class BarType:
+    """What a bar is made of.
+
+    Parameters
+    ----------
+    name : str
+        For messages and reports.
+    mass_per_length : float
+        In air, per unstretched metre [kg/m].
+    axial_stiffness : float
+        EA [N] (with ``curve`` its slope at zero strain is taken instead).
+    diameter : float
+        Diameter of the drag and of the contact with the bed [m].
+    volume_per_length : float, optional
+        Displaced volume [m2]; pi d^2 / 4 when left out.
+    viscosity : float
+        Internal damping BA [N s]: force per rate of strain. A property of the material, not of the mesh.
+    drag_normal, drag_tangential : float
+        Force per length rho/2 C d u|u| [-].
+    added_mass_normal, added_mass_tangential : float
+        On the displaced volume [-].
+    bending_stiffness : float
+        EI [N m2].
+    tension_only : bool
+        Whether the bar goes slack instead of bearing compression.
+    curve : RopeCurve, optional
+        Nonlinear tension over strain.
+
+    Raises
+    ------
+    InputError
+        For a value that is negative or, where a zero makes no sense, zero.
+    """
+
+    name: str
+    mass_per_length: float
+    axial_stiffness: float
+    diameter: float
+    volume_per_length: float = -1.0
+    viscosity: float = 0.0
+    drag_normal: float = 0.0
+    drag_tangential: float = 0.0
+    added_mass_normal: float = 0.0
+    added_mass_tangential: float = 0.0
+    bending_stiffness: float = 0.0
+    tension_only: bool = True
+    curve: RopeCurve | None = None
+
+    def __post_init__(self) -> None:
+        if self.volume_per_length == -1.0:
+            object.__setattr__(self, "volume_per_length", math.pi / 4.0 * self.diameter**2)
+        if self.curve is not None:
+            object.__setattr__(self, "axial_stiffness", float(self.curve.stiffness[0]))
+        for key in ("mass_per_length", "axial_stiffness"):
+            value = getattr(self, key)
+            _require(
+                math.isfinite(value) and value > 0.0, f"{key} of {self.name!r} is {value:g}", key, "greater than 0"
+            )
+        for key in (
+            "diameter", "volume_per_length", "viscosity", "drag_normal", "drag_tangential", "added_mass_normal",
+            "added_mass_tangential", "bending_stiffness",
+        ):  # fmt: skip
+            value = getattr(self, key)
+            _require(math.isfinite(value) and value >= 0.0, f"{key} of {self.name!r} is {value:g}", key, "0 or more")
+
+    @property
+    def wave_speed(self) -> float:
+        """Speed of elastic waves sqrt(EA/m) [m/s], at zero strain for a rope curve."""
+        return math.sqrt(self.axial_stiffness / self.mass_per_length)
+
+    @property
+    def impedance(self) -> float:
+        """Tension of a wave front per jump of speed, sqrt(EA m) [N s/m]."""
+        return math.sqrt(self.axial_stiffness * self.mass_per_length)
+
+    def submerged_weight_per_length(self, water: Water) -> float:
+        """Weight in water per unstretched metre [N/m]."""
+        return (self.mass_per_length - water.density * self.volume_per_length) * water.gravity
+
+    @classmethod
+    def from_properties(cls, properties: LineProperties, *, viscosity: float) -> BarType:
+        """Return the type of a catalogue entry (:func:`moyai.tables.lines.line_type`) with a viscosity [N s]."""
+        return cls(
+            name=properties.name,
+            mass_per_length=properties.mass_per_length,
+            axial_stiffness=properties.axial_stiffness,
+            diameter=properties.diameter,
+            volume_per_length=properties.volume_per_length,
+            viscosity=viscosity,
+            drag_normal=properties.drag_normal,
+            drag_tangential=properties.drag_tangential,
+            added_mass_normal=properties.added_mass_normal,
+            added_mass_tangential=properties.added_mass_tangential,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Bed:
+    """A horizontal bed that carries nodes: spring and dashpot per contact area, Coulomb friction.
+
+    The contact area of a node is half the unstretched length of its bars times their diameter; attached bodies add
+    their own contact area. The bed pushes and never pulls [eq:flexible-bed].
+
+    Parameters
+    ----------
+    level : float
+        Height of the bed [m].
+    stiffness : float
+        Normal stiffness per contact area [Pa/m].
+    damping : float
+        Normal damping per contact area [Pa s/m].
+    friction : float
+        Coulomb coefficient [-].
+
+    Raises
+    ------
+    InputError
+        For a negative value or a stiffness of zero.
+    """
+
+    level: float
+    stiffness: float
+    damping: float = 0.0
+    friction: float = 0.0
+
+    def __post_init__(self) -> None:
+        _require(math.isfinite(self.level), f"bed level is {self.level:g}", "bed.level", "a finite height")
+        _require(
+            math.isfinite(self.stiffness) and self.stiffness > 0.0,
+            f"bed stiffness is {self.stiffness:g}", "bed.stiffness", "greater than 0",
+        )  # fmt: skip
+        for key in ("damping", "friction"):
+            value = getattr(self, key)
+            _require(math.isfinite(value) and value >= 0.0, f"bed {key} is {value:g}", f"bed.{key}", "0 or more")
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """The nodes and what is attached to them (floats, clump weights, sinkers, joints).
+
+    Parameters
+    ----------
+    position : array_like, shape (n, 3)
+        Start position; of driven nodes the place from which their motion counts [m].
+    kind : array_like of int, shape (n,)
+        ``FREE``, ``FIXED`` or ``DRIVEN``.
+    held : array_like of bool, shape (n, 3)
+        Components that do not move although the node is free (a float held at the surface, a planar problem).
+    motion : array_like of int, shape (n,)
+        Index into :attr:`Network.motion_names` of driven nodes, -1 of others.
+    mass, volume, drag_area, added_mass, contact_area : array_like, shape (n,)
+        Attached mass [kg], volume [m3], drag coefficient times area [m2], added mass [kg], contact area with the bed [m2].
+    height : array_like, shape (n,)
+        Vertical extent of the attached body for its partial immersion [m]; 0 for one that is always wet.
+    form : array_like of int, shape (n,)
+        ``BOX`` or ``SPHERE``: how the immersed part of the height becomes a part of the volume.
+    """
+
+    position: Array
+    kind: IntArray
+    held: BoolArray = field(default_factory=lambda: np.zeros((), dtype=np.bool_))
+    motion: IntArray = field(default_factory=lambda: np.full((), -1, dtype=np.int64))
+    mass: Array = field(default_factory=lambda: np.zeros(()))
+    volume: Array = field(default_factory=lambda: np.zeros(()))
+    drag_area: Array = field(default_factory=lambda: np.zeros(()))
+    added_mass: Array = field(default_factory=lambda: np.zeros(()))
+    contact_area: Array = field(default_factory=lambda: np.zeros(()))
+    height: Array = field(default_factory=lambda: np.zeros(()))
+    form: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
+
+    def __post_init__(self) -> None:
+        size = len(self.position)
+        _require(size > 0, "a network without nodes", "nodes.position", "one node or more")
+        object.__setattr__(self, "position", _frozen(self.position, np.float64, (size, 3), "nodes.position"))
+        object.__setattr__(self, "held", _frozen(self.held, np.bool_, (size, 3), "nodes.held"))
+        for name in ("kind", "motion", "form"):
+            object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"nodes.{name}"))
+        for name in ("mass", "volume", "drag_area", "added_mass", "contact_area", "height"):
+            array = _frozen(getattr(self, name), np.float64, (size,), f"nodes.{name}")
+            _require(
+                bool(np.all(array >= 0.0)),
+                f"{name} of node {int(np.argmin(array))} is {array.min():g}",
+                f"nodes.{name}",
+                "0 or more",
+            )
+            object.__setattr__(self, name, array)
+        _require(
+            bool(np.isin(self.kind, (FREE, FIXED, DRIVEN)).all()),
+            "unknown kind of node",
+            "nodes.kind",
+            "FREE, FIXED, DRIVEN",
+        )
+        _require(bool(np.isin(self.form, (BOX, SPHERE)).all()), "unknown form of float", "nodes.form", "BOX, SPHERE")
+
+    def __len__(self) -> int:
+        return int(self.position.shape[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Bars:
+    """The bars: straight, elastic, each of one type.
+
+    Parameters
+    ----------
+    start, end : array_like of int, shape (m,)
+        Nodes.
+    length : array_like, shape (m,)
+        Unstretched lengths [m].
+    kind : array_like of int, shape (m,)
+        Index into ``types``.
+    types : tuple of BarType
+        The materials.
+    flow_factor : array_like, shape (m,)
+        Factor on the water velocity that meets the bar (1; less in the wake of others).
+    """
+
+    start: IntArray
+    end: IntArray
+    length: Array
+    kind: IntArray
+    types: tuple[BarType, ...]
+    flow_factor: Array = field(default_factory=lambda: np.ones(()))
+
+    def __post_init__(self) -> None:
+        size = int(np.size(self.start))
+        for name in ("start", "end", "kind"):
+            object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"bars.{name}"))
+        for name in ("length", "flow_factor"):
+            object.__setattr__(self, name, _frozen(getattr(self, name), np.float64, (size,), f"bars.{name}"))
+        if size == 0:
+            return
+        _require(
+            bool(np.all(self.length > 0.0)),
+            f"bar {int(np.argmin(self.length))} has length {self.length.min():g} m",
+            "bars.length",
+            "greater than 0",
+        )
+        _require(bool(np.all(self.flow_factor >= 0.0)), "a flow factor is negative", "bars.flow_factor", "0 or more")
+        _require(
+            bool(np.all(self.start != self.end)), "a bar starts and ends at the same node", "bars.end", "two nodes"
+        )
+        _require(
+            bool(np.all((self.kind >= 0) & (self.kind < len(self.types)))),
+            "a bar has an unknown type",
+            "bars.kind",
+            f"0 to {len(self.types) - 1}",
+        )
+
+    def __len__(self) -> int:
+        return int(self.start.size)
+
+    def of_type(self, name: str) -> Array:
+        """Return one property of the types, spread over the bars."""
+        return np.array([float(getattr(kind, name)) for kind in self.types])[self.kind] if self.types else np.zeros(0)
+
+
+@dataclass(frozen=True, eq=False)
+class Strand:
+    """A named string of bars, from its first node to its last (a mooring line, a twine, a row of a net).
+
+    Parameters
+    ----------
+    name : str
+        For results and messages.
+    nodes : array_like of int
+        Nodes in order.
+    bars : array_like of int
+        Bars in order, one less than nodes.
+    """
+
+    name: str
+    nodes: IntArray
+    bars: IntArray
+
+    def __post_init__(self) -> None:
+        for name in ("nodes", "bars"):
+            array = np.array(getattr(self, name), dtype=np.int64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+
+@dataclass(frozen=True, eq=False)
+class Network:
+    """A network ready for statics and dynamics.
+
+    Parameters
+    ----------
+    nodes, bars : Nodes, Bars
+        The parts.
+    water : Water
+        Depth, density, gravity.
+    bed : Bed, optional
+        Contact with the bed; none when left out.
+    strands : tuple of Strand
+        Named lines.
+    points : mapping of str to int
+        Named nodes.
+    motion_names : tuple of str
+        Names of the prescribed motions that driven nodes follow.
+
+    Raises
+    ------
+    InputError
+        For bars that name absent nodes, nodes that can move but have no mass, parts without any hold, nodes deep under
+        the bed, driven nodes without motion.
+    """
+
+    nodes: Nodes
+    bars: Bars
+    water: Water
+    bed: Bed | None = None
+    strands: tuple[Strand, ...] = ()
+    points: Mapping[str, int] = field(default_factory=dict)
+    motion_names: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        from moyai.flexible.checks import check_network
+
+        check_network(self)
+
+    def strand(self, name: str) -> Strand:
+        """Return the strand of this name.
+
+        Raises
+        ------
+        InputError
+            When there is none.
+        """
+        for strand in self.strands:
+            if strand.name == name:
+                return strand
+        raise InputError(
+            f"no strand {name!r}", path="strand", allowed=", ".join(s.name for s in self.strands) or "none"
+        )
+
+    def point(self, name: str) -> int:
+        """Return the node of a named point.
+
+        Raises
+        ------
+        InputError
+            When there is none.
+        """
+        if name not in self.points:
+            raise InputError(f"no point {name!r}", path="point", allowed=", ".join(self.points) or "none")
+        return self.points[name]
+
+    @property
+    def node_mass(self) -> Array:
+        """Mass of every node: what is attached and half of each bar [kg]."""
+        half = 0.5 * self.bars.of_type("mass_per_length") * self.bars.length
+        mass = np.array(self.nodes.mass)
+        np.add.at(mass, self.bars.start, half)
+        np.add.at(mass, self.bars.end, half)
+        return mass
+
+    @property
+    def node_volume(self) -> Array:
+        """Displaced volume of every node, wholly wet: what is attached and half of each bar [m3]."""
+        half = 0.5 * self.bars.of_type("volume_per_length") * self.bars.length
+        volume = np.array(self.nodes.volume)
+        np.add.at(volume, self.bars.start, half)
+        np.add.at(volume, self.bars.end, half)
+        return volume
+
+    @property
+    def node_contact_area(self) -> Array:
+        """Contact area of every node with the bed [m2]."""
+        half = 0.5 * self.bars.of_type("diameter") * self.bars.length
+        area = np.array(self.nodes.contact_area)
+        np.add.at(area, self.bars.start, half)
+        np.add.at(area, self.bars.end, half)
+        return area
