@@ -1,0 +1,178 @@
+"""What is known about a logger's files: where the columns are, their units, the clock."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from moyai.core.errors import InputError
+
+Format = Literal["auto", "csv", "mat", "netcdf", "parquet"]
+TimeUnit = Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum"]
+
+SECONDS_PER = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86400.0}
+ENDINGS = {
+    ".csv": "csv", ".txt": "csv", ".dat": "csv", ".tsv": "csv", ".asc": "csv", ".raw": "csv", ".wad": "csv",
+    ".mat": "mat", ".nc": "netcdf", ".nc4": "netcdf", ".cdf": "netcdf", ".parquet": "parquet", ".pq": "parquet",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ColumnSource:
+    """One column of a file and what it becomes.
+
+    Parameters
+    ----------
+    column : str or int
+        Heading in the file (with or without its unit), a variable (``vel[0,3]`` for an entry of its other dimensions),
+        or a number counted from 1.
+    name : str
+        Name of the channel.
+    unit : str
+        Unit in the file; empty takes the one that the file states.
+    scale, offset : float
+        Applied before the unit: ``value * scale + offset``.
+    missing : tuple of float
+        Numbers that mean "no value".
+    """
+
+    column: str | int
+    name: str
+    unit: str = ""
+    scale: float = 1.0
+    offset: float = 0.0
+    missing: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class TimeSource:
+    """Where the time comes from.
+
+    Parameters
+    ----------
+    columns : tuple of str or int
+        Column of the time, or two: date and time of day. Empty where the file has none and ``rate`` counts.
+    form : str
+        ``number``, ``iso``, or a pattern such as ``%Y/%m/%d %H:%M:%S.%f``.
+    unit : str
+        Unit of a number: seconds and its relatives, or MATLAB's ``datenum``.
+    start : float
+        Instant added to numbers [s since 1970 UTC], NaN for a logger's own clock.
+    rate : float
+        Sampling rate [Hz], NaN where the stamps alone count. With stamps to the whole second, samples are spread evenly
+        at this rate and the stamps are used to find gaps.
+    utc_offset : float
+        Local time minus UTC [s].
+    order : {"strict", "drop"}
+        Instants that do not increase are an error, or are left out and reported.
+    """
+
+    columns: tuple[str | int, ...] = ()
+    form: str = "number"
+    unit: TimeUnit = "s"
+    start: float = math.nan
+    rate: float = math.nan
+    utc_offset: float = 0.0
+    order: Literal["strict", "drop"] = "strict"
+
+    def __post_init__(self) -> None:
+        if not self.columns and not self.rate > 0.0:
+            raise InputError("neither a time column nor a rate", path="time", remedy="give 'column' or 'rate'")
+
+    @property
+    def dated(self) -> bool:
+        """Whether the instants are dates."""
+        return self.form != "number" or self.unit == "datenum" or math.isfinite(self.start)
+
+
+@dataclass(frozen=True)
+class ClockCorrection:
+    """Error of a logger's clock; equation [eq:records-clock].
+
+    Parameters
+    ----------
+    offset : float
+        Seconds to add at ``reference``.
+    drift : float
+        Seconds to add per second of the logger after that.
+    reference : float
+        Instant of the logger at which the offset was found [s]; NaN takes the first sample.
+    """
+
+    offset: float = 0.0
+    drift: float = 0.0
+    reference: float = math.nan
+
+
+@dataclass(frozen=True)
+class LoggerSource:
+    """All that is needed to read one logger.
+
+    Parameters
+    ----------
+    name : str
+    files : tuple of Path
+        In the order of time.
+    columns : tuple of ColumnSource
+    time : TimeSource
+    clock : ClockCorrection
+    format : str
+        ``auto`` goes by the ending.
+    encoding : str
+        ``auto`` tries UTF-8, UTF-16 with its mark, Shift-JIS as Windows writes it (cp932), in this order.
+    delimiter : str
+        ``auto``, ``whitespace``, or the character.
+    decimal : str
+        Decimal sign.
+    header_row : int
+        Line of the headings, counted from 1; 0 where there is none; -1: the first line that is not a comment.
+    first_row : int
+        Line of the first sample; 0: the line after the headings.
+    comment : str
+        Sign that opens a comment, empty for none.
+    """
+
+    name: str
+    files: tuple[Path, ...]
+    columns: tuple[ColumnSource, ...]
+    time: TimeSource
+    clock: ClockCorrection = ClockCorrection()
+    format: Format = "auto"
+    encoding: str = "auto"
+    delimiter: str = "auto"
+    decimal: str = "."
+    header_row: int = -1
+    first_row: int = 0
+    comment: str = "#"
+
+    def __post_init__(self) -> None:
+        if not self.columns:
+            raise InputError(f"logger '{self.name}' has no channels", path="channels")
+        names = [column.name for column in self.columns]
+        twice = [name for name in names if names.count(name) > 1]
+        if twice:
+            raise InputError(f"logger '{self.name}' has the channel '{twice[0]}' twice", path="channels")
+        if not self.files:
+            raise InputError(f"logger '{self.name}' has no files", path="files")
+
+    def format_of(self, path: Path) -> str:
+        """Return the format of one file.
+
+        Raises
+        ------
+        InputError
+            When the ending says nothing.
+        """
+        if self.format != "auto":
+            return self.format
+        found = ENDINGS.get(path.suffix.lower())
+        if found is None:
+            raise InputError(
+                f"{path.name}: the ending '{path.suffix}' tells no format",
+                path="format",
+                allowed="csv, mat, netcdf, parquet",
+                remedy="give 'format'",
+            )
+        return found
