@@ -97,6 +97,11 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     base_path = folder / block.base
     base = _read_base(document, base_path)
     faults: list[Fault] = []
+    try:
+        base = varied(base, Combination(-1, (), tuple(block.set.items())))
+    except InputError as error:
+        place = ("study", "set", error.fault.path)
+        faults.append(document.fault(place, error.fault.message, remedy=error.fault.remedy, of_key=True))
     axes: list[Axis] = []
     for number, variation in enumerate(block.variations):
         where: KeyPath = ("study", "variations", number)

@@ -141,6 +141,7 @@ class StudyBlock(Block):
 
     title: str = "Study"
     base: Annotated[FileName, Field(description="The base case, relative to this file.")]
+    set: Annotated[dict[str, Value], Field(default_factory=dict, description="Changes that all cases share.")]
     variations: Annotated[tuple[Variation, ...], OneOrMany(), Field(min_length=1)]
     responses: Annotated[tuple[Response, ...], OneOrMany()] = ()
     watch: Annotated[str, Field(description="Variable whose largest and smallest value is shown on the way.")] = ""

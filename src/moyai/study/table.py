@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -102,7 +103,7 @@ def _coordinates(study: Study) -> dict[str, Any]:
             continue
         coordinates[axis.name] = (axis.name, labels, {"long_name": axis.name})
         for path, (values, unit) in varied.items():
-            name = f"{axis.name}: {path}"
+            name = f"{axis.name}_{re.sub(r'[^0-9A-Za-z]+', '_', path).strip('_')}"
             kept: Any = np.array(values, dtype=object) if any(isinstance(value, str) for value in values) else values
             coordinates[name] = (axis.name, kept, {"units": unit or "1", "long_name": path})
     return coordinates
