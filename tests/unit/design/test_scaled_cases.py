@@ -35,12 +35,8 @@ def read(text, tmp_path, name="unit.yaml"):
     return load_case(path)
 
 
-@pytest.mark.parametrize(
-    ("length", "tolerance"),
-    # at other sizes a panel count may round the other way: within the solver's own accuracy then
-    [(26.0, 1e-9), (float(np.random.default_rng(11).uniform(5, 60)), 1e-5)],
-)
-def test_whole_breakwater_is_the_same_in_both_sizes(length, tolerance, tmp_path):
+@pytest.mark.parametrize("length", [26.0, float(np.random.default_rng(11).uniform(5, 60))])
+def test_whole_breakwater_is_the_same_in_both_sizes(length, tmp_path):
     """Every variable of every group, sway and heave where there are motions: ratio of its unit, to rounding."""
     from moyai.cli.runner import run
 
@@ -64,6 +60,8 @@ def test_whole_breakwater_is_the_same_in_both_sizes(length, tolerance, tmp_path)
             known = np.isfinite(values)
             assert np.array_equal(known, np.isfinite(others)), (group.path, name)
             if known.any():
+                # coefficients of the longest wave (kB = 0.03) lose digits to cancellation
+                tolerance = 1e-5 if "hydrodynamics" in group.path else 1e-9
                 size = np.abs(values[known]).max()
                 assert np.abs(values[known] - others[known]).max() <= tolerance * size, (group.path, name)
                 compared += 1
@@ -110,8 +108,7 @@ def test_there_and_back_gives_the_case_given(tmp_path):
         for path in shared:
             assert after[path] == pytest.approx(before[path], rel=1e-13), path
         assert back.text.count("made by 'moyai scale'") == 1
-        factors = [(text.count("(1/"), text.count("(times ")) for text in (there.text, back.text)]
-        assert factors[0] == factors[1][::-1]
+        assert not any("]  [" in line for line in back.text.splitlines())
 
 
 def numbers_of(value, path=""):
