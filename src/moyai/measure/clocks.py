@@ -217,4 +217,5 @@ def join(records: Sequence[Record], *, step: float, largest_gap: float | None = 
     )
     kept = (*(notice for record in records for notice in record.notices), notice)
     source = ", ".join(dict.fromkeys(record.source for record in records))
-    return Record(np.asarray(grid, dtype=np.float64), values, tuple(names), tuple(units), records[0].dated, source, notices=kept)
+    clock = np.asarray(grid, dtype=np.float64)
+    return Record(clock, values, tuple(names), tuple(units), records[0].dated, source, notices=kept)

@@ -159,12 +159,18 @@ def find_spikes(values: FloatArray, options: QualityOptions) -> NDArray[np.bool_
     known = np.abs(distance[np.isfinite(distance)])
     if known.size == 0:
         return spikes
-    # The distances of a smooth record are mostly tiny: their scale is taken from the larger half, 1.4826 median of
-    # all would be near zero where the record is oversampled
-    scale = max(1.4826 * float(np.median(known)), float(np.quantile(known, 0.9)) / 1.6449)
-    if scale == 0.0:
-        return spikes
+    # A smooth record is monotone between its crests, where the distances vanish: the usual step from sample to sample
+    # and the larger distances keep the scale from vanishing too
+    steps = np.abs(np.diff(values))
+    steps = steps[np.isfinite(steps)]
+    scale = max(
+        1.4826 * float(np.median(known)),
+        float(np.quantile(known, 0.9)) / 1.6449,
+        0.7413 * float(np.median(steps)) if steps.size else 0.0,
+    )
     limit = max(options.spike_scale * scale, options.spike_least)
+    if limit == 0.0:
+        return spikes
     with np.errstate(invalid="ignore"):
         spikes = np.abs(distance) > limit
     return spikes

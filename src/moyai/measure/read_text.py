@@ -232,16 +232,14 @@ def read_text(
     for column in (*stamps, *wanted):
         places[column] = place_of(column, layout.headings, layout.width, path.name)
     kinds: dict[int, Any] = {places[column]: str for column in stamps}
-    used = sorted(set(places.values()))
     first = 0
     try:
+        # All columns are parsed: with a choice of columns pandas overlooks rows that are too long
         with pd.read_csv(
             path,
             sep=layout.delimiter,
             header=None,
-            names=list(range(max(layout.width, len(layout.headings)))),
             index_col=False,
-            usecols=used,
             dtype=kinds,
             skiprows=layout.skipped,
             encoding=layout.encoding,
