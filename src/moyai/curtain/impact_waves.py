@@ -1,4 +1,4 @@
-"""Slack and taut cycles of a curtain in regular waves with a current, and the contacts found in them."""
+"""Slack and taut cycles of a curtain in waves with a current, and the contacts found in them."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
 from moyai.curtain.impact import Impact, closed_form, peak_by_energy
-from moyai.curtain.impact_kernels import slack_taut
+from moyai.curtain.impact_kernels import sag_ratio, slack_taut, taut_shape
 
 Array = NDArray[np.float64]
+
+# Taut, a step is at most this share of the rise of model A
+_TAUT_SHARE = 0.04
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,10 @@ class Contact:
     side : int
         1 on the downstream side, -1 upstream.
     first : bool
-        Whether it is the first on its side since the other side; later ones are bounces.
+        Whether it is the first on its side since the other side was taut or the water turned towards this one (about
+        its mean speed); later ones are bounces.
+    peak_time, end : float
+        When the tension is largest, and when the cable is slack again [s]; the end is NaN where the series stops before.
     """
 
     time: float
@@ -38,6 +44,13 @@ class Contact:
     tension: float
     side: int
     first: bool
+    peak_time: float
+    end: float
+
+    @property
+    def rise_time(self) -> float:
+        """From taut to the largest tension [s]."""
+        return self.peak_time - self.time
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +72,17 @@ class SlackTautMotion:
     contacts: tuple[Contact, ...]
 
 
+def slack_sag(impact: Impact) -> float:
+    """Return the sag of the just-taut cable [m]: nothing is taut while mid-span is nearer than this."""
+    return 0.5 * impact.span * sag_ratio(taut_shape(impact.span_ratio))
+
+
+def rise_time(impact: Impact) -> float:
+    """Return the rise of model A at small strain [s], at the span's speed where the cable is as long as its span."""
+    rise = closed_form(impact).time
+    return rise if math.isfinite(rise) else peak_by_energy(impact).time
+
+
 def slack_taut_motion(
     impact: Impact,
     *,
@@ -69,6 +93,7 @@ def slack_taut_motion(
     duration: float,
     start: tuple[float, float] = (0.0, 0.0),
     time_step: float | None = None,
+    mass: float | None = None,
 ) -> SlackTautMotion:
     """Solve the slack and taut curtain in u = U + u_a sin(2 pi t / T) [eq:impact-slack-taut].
 
@@ -85,7 +110,9 @@ def slack_taut_motion(
     start : (float, float)
         Position [m] and speed [m/s] of mid-span.
     time_step : float, optional
-        [s]; by default a 400th of the period and a hundredth of the period of the just-taut spring.
+        Of the series [s]; by default a 400th of the period and a 25th of the rise of model A.
+    mass : float, optional
+        Added mass [kg/m], M0 of the paper by default.
 
     Raises
     ------
@@ -96,28 +123,23 @@ def slack_taut_motion(
     for name, value in numbers.items():
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name} is {value:g} s", path=name, allowed="greater than 0")
-    for name, value in {"drag_coefficient": drag_coefficient, "velocity_amplitude": velocity_amplitude}.items():
-        if not (math.isfinite(value) and value >= 0.0):
-            raise InputError(f"{name} is {value:g}", path=name, allowed="0 or more")
+    if not (math.isfinite(velocity_amplitude) and velocity_amplitude >= 0.0):
+        raise InputError(
+            f"velocity_amplitude is {velocity_amplitude:g}", path="velocity_amplitude", allowed="0 or more"
+        )
     if not math.isfinite(current):
-        raise InputError("current is not finite", path="current")
-    rise = closed_form(impact).time
-    if not math.isfinite(rise):
-        rise = peak_by_energy(impact).time
-    step = min(period / 400.0, 0.04 * rise) if time_step is None else time_step
-    count = math.ceil(duration / step - 1e-9)
-    half = 0.5 * step * np.arange(2 * count + 1)
+        raise InputError("current is not finite", path="current", allowed="a number")
+    step = min(period / 400.0, _TAUT_SHARE * rise_time(impact)) if time_step is None else time_step
     omega = 2.0 * math.pi / period
-    flow = np.stack(
-        [current + velocity_amplitude * np.sin(omega * half), velocity_amplitude * omega * np.cos(omega * half)], axis=1
-    )
-    return slack_taut_in_flow(impact, drag_coefficient, flow, step, start)
+    phase = omega * step * np.arange(max(1, math.ceil(duration / step - 1e-9)) + 1)
+    flow = np.stack([current + velocity_amplitude * np.sin(phase), velocity_amplitude * omega * np.cos(phase)], axis=1)
+    return simulate_in_flow(impact, drag_coefficient, flow, step, start, mass=mass, mean_speed=current)
 
 
 def slack_taut_in_flow(
     impact: Impact, drag_coefficient: float, flow: ArrayLike, time_step: float, start: tuple[float, float]
 ) -> SlackTautMotion:
-    """Solve the same in any flow, for instance of irregular waves.
+    """Solve the same in a flow given at every half step of the series.
 
     Parameters
     ----------
@@ -133,28 +155,101 @@ def slack_taut_in_flow(
     InputError
         When the flow has another shape or is not finite.
     """
-    given = np.ascontiguousarray(flow, dtype=float)
+    given = np.asarray(flow, dtype=float)
     if given.ndim != 2 or given.shape[1] != 2 or len(given) % 2 == 0 or not np.isfinite(given).all():
         raise InputError(
             f"flow has shape {given.shape} or is not finite", path="flow", allowed="(2 n + 1, 2): every half step"
         )
-    out = np.zeros(((len(given) + 1) // 2, 3))
-    out[0, :2] = start
+    fine = simulate_in_flow(impact, drag_coefficient, given, 0.5 * time_step, start)
+    return SlackTautMotion(
+        fine.time[::2].copy(),
+        fine.position[::2].copy(),
+        fine.speed[::2].copy(),
+        fine.tension[::2].copy(),
+        fine.contacts,
+    )
+
+
+def simulate_in_flow(
+    impact: Impact,
+    drag_coefficient: float,
+    flow: ArrayLike,
+    time_step: float,
+    start: tuple[float, float],
+    *,
+    mass: float | None = None,
+    mean_speed: float | None = None,
+    taut_step: float | None = None,
+) -> SlackTautMotion:
+    """Solve the slack and taut curtain in any flow given on a uniform grid [eq:impact-slack-taut].
+
+    Contacts are located in time, so that the steps of the flow need not resolve them; while the cable is taut the
+    flow's steps are divided.
+
+    Parameters
+    ----------
+    impact, drag_coefficient, start
+        As in :func:`slack_taut_motion`.
+    flow : array_like, shape (n + 1, 2)
+        Velocity [m/s] and acceleration [m/s2] of the water along the normal of the span.
+    time_step : float
+        Of the flow [s].
+    mass : float, optional
+        Added mass [kg/m], M0 of the paper by default.
+    mean_speed : float, optional
+        Speed about which the water turns, for telling first contacts from bounces [m/s]; the mean of the flow by
+        default.
+    taut_step : float, optional
+        Longest step while taut [s]; a 25th of the rise of model A by default.
+
+    Raises
+    ------
+    InputError
+        When the flow has another shape or is not finite, or a number is out of range.
+    """
+    given = np.ascontiguousarray(flow, dtype=float)
+    if given.ndim != 2 or given.shape[1:] != (2,) or len(given) < 2 or not np.isfinite(given).all():
+        raise InputError(f"flow has shape {given.shape} or is not finite", path="flow", allowed="(n + 1, 2), finite")
+    longest = _TAUT_SHARE * rise_time(impact) if taut_step is None else taut_step
+    moved = impact.deep_mass if mass is None else float(mass)
+    for name, value in {"time_step": time_step, "taut_step": longest, "mass": moved}.items():
+        if not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+    if not (math.isfinite(drag_coefficient) and drag_coefficient >= 0.0):
+        raise InputError(f"drag_coefficient is {drag_coefficient:g}", path="drag_coefficient", allowed="0 or more")
+    if not (math.isfinite(start[0]) and math.isfinite(start[1])):
+        raise InputError("start is not finite", path="start", allowed="position [m] and speed [m/s]")
+    taut = taut_shape(impact.span_ratio)
+    cable = np.array([impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact)])
     drag = 0.5 * impact.water.density * drag_coefficient * impact.draught
-    slack_taut(impact.span, impact.length, impact.stiffness, impact.deep_mass, drag, given, time_step, out)
+    out = np.zeros((len(given), 3))
+    room = 1000
+    while True:
+        out[0, :2] = start
+        table = np.zeros((room, 6))
+        count = slack_taut(cable, moved, drag, given, time_step, longest, out, table)
+        if count <= room:
+            break
+        room = count
     time = time_step * np.arange(len(out), dtype=np.float64)
     position, speed, tension = out.T.copy()
-    return SlackTautMotion(time, position, speed, tension, _contacts(time, position, speed, tension))
+    level = float(given[:, 0].mean()) if mean_speed is None else mean_speed
+    return SlackTautMotion(time, position, speed, tension, _contacts(table[:count], time, given[:, 0] - level))
 
 
-def _contacts(time: Array, position: Array, speed: Array, tension: Array) -> tuple[Contact, ...]:
-    taut = tension > 0.0
-    begins = np.flatnonzero(~taut[:-1] & taut[1:]) + 1
+def _contacts(table: Array, time: Array, wave: Array) -> tuple[Contact, ...]:
+    """Turn rows of the kernel into contacts; ``wave`` is the speed of the water about its mean."""
+    above = wave > 0.0
+    turns = {
+        1: time[np.flatnonzero(~above[:-1] & above[1:]) + 1],
+        -1: time[np.flatnonzero(above[:-1] & ~above[1:]) + 1],
+    }
     found: list[Contact] = []
-    for begin in begins:
-        slack = np.flatnonzero(~taut[begin:])
-        end = begin + int(slack[0]) if slack.size else len(time)
-        side = 1 if position[begin] > 0.0 else -1
-        first = not found or found[-1].side != side
-        found.append(Contact(float(time[begin]), float(speed[begin]), float(tension[begin:end].max()), side, first))
+    for begin, speed, end, top, tension, number in table:
+        side = int(number)
+        fresh = not found or found[-1].side != side
+        if not fresh:
+            place = int(np.searchsorted(turns[side], begin)) - 1
+            fresh = place >= 0 and turns[side][place] > found[-1].time
+        found.append(Contact(float(begin), float(speed), float(tension), side, bool(fresh), float(top), float(end)))
     return tuple(found)
