@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_environment import Current, SeaState, Site, Wind
+from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
 from moyai.case.schema_sections import Section
 from moyai.case.schema_types import (
@@ -32,25 +32,18 @@ from moyai.case.schema_types import (
     RollQuadraticDamping,
     Truth,
     Whole,
-    refuse,
+    once_each,
 )
 
 Mode = Literal["sway", "heave", "roll"]
 Analysis = Literal["statics", "mooring", "frequency", "time"]
 
 
-def _once_each(values: tuple[Any, ...]) -> tuple[Any, ...]:
-    for index, value in enumerate(values):
-        if value in values[:index]:
-            raise refuse(f"'{value}' stands twice in the list", remedy="remove one")
-    return values
-
-
 class DampingFraction(Block):
     """Linear damping as a fraction of critical, beyond wave radiation."""
 
     fraction_of_critical: Fraction = Field(description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)).")
-    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(_once_each)] = Field(
+    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="Motions that it is applied to.", examples=[["sway", "heave", "roll"]]
     )
 
@@ -207,13 +200,13 @@ class TimeSettings(Block):
 class Sensitivity(Block):
     """Variations that are run beside the case."""
 
-    damping_fractions: Annotated[tuple[Fraction, ...], Field(max_length=50), AfterValidator(_once_each)] = Field(
+    damping_fractions: Annotated[tuple[Fraction, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
         default=(), description="Fractions of critical damping."
     )
-    line_slacks: Annotated[tuple[Length, ...], Field(max_length=50), AfterValidator(_once_each)] = Field(
+    line_slacks: Annotated[tuple[Length, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
         default=(), description="Line length less the chord from anchor to fairlead."
     )
-    line_counts: Annotated[tuple[Whole, ...], Field(max_length=50), AfterValidator(_once_each)] = Field(
+    line_counts: Annotated[tuple[Whole, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
         default=(), description="Total number of lines, shared alike."
     )
 
@@ -253,26 +246,20 @@ class Measured(Block):
     )
 
 
-def _sea_states(value: Any) -> Any:
-    if isinstance(value, list) and not value:
-        raise refuse("the list of sea states is empty", remedy="give one, or leave 'waves' out")
-    return value
-
-
 class BreakwaterCase(Block):
     """A floating breakwater from its site to its analyses."""
 
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
     site: Site = Field(description="The water of the site.")
-    waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(_sea_states)] = Field(
+    waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run."
     )
     wind: Wind | None = Field(default=None, description="Steady wind.")
     current: Current | None = Field(default=None, description="Steady current.")
     structure: BreakwaterStructure = Field(description="The floating unit.")
     lines: tuple[LineEntry, ...] = Field(default=(), description="Mooring lines or springs.", max_length=200)
-    analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(_once_each)] = Field(
+    analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "mooring", "frequency", "time"]]
     )
     settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")

@@ -297,3 +297,10 @@ def sea_names(states: tuple[Any, ...]) -> tuple[str, ...]:
         name = state.name or (state.kind if kinds.count(state.kind) == 1 else f"{state.kind} {index + 1}")
         names.append(name)
     return tuple(names)
+
+
+def refuse_no_seas(value: Any) -> Any:
+    """Refuse an empty list of sea states."""
+    if isinstance(value, list) and not value:
+        raise refuse("the list of sea states is empty", remedy="give one, or leave 'waves' out")
+    return value

@@ -297,3 +297,11 @@ class Range(Block):
 
 
 Auto = Literal["auto"]
+
+
+def once_each(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Refuse a list that names something twice."""
+    for index, value in enumerate(values):
+        if value in values[:index]:
+            raise refuse(f"'{value}' stands twice in the list", remedy="remove one")
+    return values

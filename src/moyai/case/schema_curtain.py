@@ -1,0 +1,412 @@
+"""Schema of the silt curtain case."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+
+from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
+from moyai.case.schema_types import (
+    Auto,
+    AutoDuration,
+    AxialStiffness,
+    Block,
+    Duration,
+    Heading,
+    KeyGroups,
+    Length,
+    Mass,
+    Name,
+    OneOrMany,
+    PositiveForce,
+    PositiveLength,
+    PositiveMassPerLength,
+    PositiveNumber,
+    QuantityOf,
+    Range,
+    Speed,
+    Stiffness,
+    Truth,
+    Whole,
+    once_each,
+    refuse,
+)
+from moyai.core import quantities
+from moyai.core.quantities import Kind
+
+_WEIGHT_PER_AREA = Kind("a weight per area", "N/m2", "newtons per square metre", "8 N/m2")
+
+Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits"]
+WeightPerArea = Annotated[float, QuantityOf(_WEIGHT_PER_AREA)]
+WeightPerLength = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, above=0.0)]
+LiftPerLength = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, least=0.0)]
+SheetStiffness = Annotated[
+    float, QuantityOf(quantities.FORCE_PER_LENGTH, above=0.0, words=(("inextensible", math.inf),))
+]
+SheetStrength = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, above=0.0)]
+Modulus = Annotated[float, QuantityOf(quantities.PRESSURE, above=0.0)]
+MassPerArea = Annotated[float, QuantityOf(quantities.MASS_PER_AREA, above=0.0)]
+Density = Annotated[float, QuantityOf(quantities.DENSITY, above=0.0)]
+Slope = Annotated[float, QuantityOf(quantities.ANGLE_DEGREES, least=0.0, below=90.0)]
+SafetyFactor = Annotated[float, QuantityOf(quantities.NUMBER, least=1.0)]
+Share = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=1.0)]
+OpenShare = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, below=1.0)]
+LowFactor = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=1.0)]
+HighFactor = Annotated[float, QuantityOf(quantities.NUMBER, least=1.0)]
+Contraction = Annotated[float, QuantityOf(quantities.NUMBER, above=0.5, most=1.0)]
+Blockage = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, below=1.0)]
+PositiveSpeed = Annotated[float, QuantityOf(quantities.SPEED, above=0.0)]
+
+
+class Film(Block):
+    """A film of the catalogue of flume materials."""
+
+    material: str = Field(description="Name in the catalogue.", examples=["polyethylene_film"], min_length=1)
+    thickness: PositiveLength = Field(description="Thickness of the film.")
+    modulus: Modulus | None = Field(default=None, description="Young's modulus; the middle of the catalogue's range.")
+
+
+class SkirtEntry(Block):
+    """The sheet of the curtain."""
+
+    exactly_one: ClassVar[KeyGroups] = (("stiffness", "film"),)
+    at_most_one: ClassVar[KeyGroups] = (("submerged_weight", "mass_per_area"),)
+
+    length: PositiveLength = Field(description="Depth-wise, unstretched, from the top load line to the toe.")
+    stiffness: SheetStiffness | None = Field(
+        default=None, description="Young's modulus times thickness, per length of curtain, or 'inextensible'."
+    )
+    film: Film | None = Field(default=None, description="A film of the catalogue, in place of stiffness and weight.")
+    submerged_weight: WeightPerArea | None = Field(
+        default=None, description="Weight in water per area of sheet; negative for a buoyant one."
+    )
+    mass_per_area: MassPerArea | None = Field(
+        default=None, description="Mass per area, with 'sheet_density' in place of 'submerged_weight'."
+    )
+    sheet_density: Density | None = Field(default=None, description="Density of the sheet's material.")
+    strength: SheetStrength | None = Field(
+        default=None, description="Strength per width; without it the sheet is not judged."
+    )
+
+
+class Toe(Block):
+    """The lower edge."""
+
+    exactly_one: ClassVar[KeyGroups] = (("weight", "chain_mass"),)
+
+    kind: Literal["free", "held"] = Field(
+        description="'free' swings; 'held' has a lower cable as long as the upper one, which keeps it under the top."
+    )
+    weight: WeightPerLength | None = Field(
+        default=None, description="Weight in water of chain, ballast and lower cable, per length."
+    )
+    chain_mass: PositiveMassPerLength | None = Field(
+        default=None, description="Mass in air of a steel chain, per length; its weight in water follows."
+    )
+
+
+class Cable(Block):
+    """A cable along the span."""
+
+    exactly_one: ClassVar[KeyGroups] = (("axial_stiffness", "catalogue"),)
+
+    axial_stiffness: AxialStiffness | None = Field(default=None, description="EA, or 'inextensible'.")
+    catalogue: str | None = Field(
+        default=None,
+        description="Name of a rope, wire or flume material of the catalogues, with 'diameter'.",
+        examples=["wire_6x19_wire_core", "nylon_monofilament"],
+    )
+    diameter: PositiveLength | None = Field(default=None, description="Nominal diameter of the catalogue's line.")
+    breaking_load: PositiveForce | None = Field(
+        default=None, description="Breaking load; from the catalogue of ropes when absent, else not judged."
+    )
+
+
+class Cables(Block):
+    """The cables along the span."""
+
+    upper: Cable = Field(description="Top load line or tension wire.")
+    lower: Cable | None = Field(default=None, description="Cable at the toe; needed with a held toe.")
+
+
+class Floats(Block):
+    """What carries the curtain, per length."""
+
+    buoyancy: WeightPerLength = Field(description="Upward force of the wholly submerged floats, before their weight.")
+    weight: LiftPerLength = Field(description="Weight in air of floats, top cable and fittings.")
+    flooded_buoyancy: LiftPerLength | None = Field(
+        default=None, description="Upward force left when flooded (float-and-sink type); absent: cannot be flooded."
+    )
+
+
+class Joints(Block):
+    """Connections of the curtain units."""
+
+    distance: PositiveLength = Field(description="Length of one curtain unit.")
+    strength: PositiveForce | None = Field(default=None, description="Of one connection; without it not judged.")
+
+
+class Anchors(Block):
+    """The lines that hold each support."""
+
+    exactly_one: ClassVar[KeyGroups] = (("line_stiffness", "axial_stiffness"),)
+
+    line_length: PositiveLength = Field(description="Length of one anchor line.")
+    slope_deg: Slope | None = Field(
+        default=None, description="Angle of the line from the horizontal; absent: straight from surface to bed."
+    )
+    line_stiffness: Stiffness | None = Field(default=None, description="K = EA/L of a line.")
+    axial_stiffness: PositiveForce | None = Field(default=None, description="EA of a line, in place of its stiffness.")
+    breaking_load: PositiveForce | None = Field(default=None, description="Of a line; without it not judged.")
+    holding_force: PositiveForce | None = Field(
+        default=None, description="Horizontal force that the anchor holds; without it not judged."
+    )
+    pretension: Annotated[float, QuantityOf(quantities.FORCE, least=0.0)] | None = Field(
+        default=None, description="Steady tension for the anchor loads in waves; absent: that of the statics."
+    )
+
+
+class _Drag(Block):
+    range: tuple[LowFactor, HighFactor] = Field(
+        default=(1.0, 1.0),
+        description="Factors [low, high] on the coefficient that bound what is known; the results are spread over it.",
+        examples=[[0.8, 1.4]],
+    )
+    blockage: Blockage | tuple[Blockage, Blockage, Blockage] | None = Field(
+        default=None,
+        description="Share of the stream that the curtain blocks, or [low, middle, high]; absent: its depth over the "
+        "water's.",
+    )
+
+
+class ConstantDrag(_Drag):
+    """A coefficient that blockage does not change."""
+
+    law: Literal["constant"] = Field(description="The flow can go round the ends.")
+    coefficient: PositiveNumber = Field(description="C_D on the skirt's depth and the undisturbed speed; 1.2 to 2.0.")
+
+
+class GapSpeedDrag(_Drag):
+    """A coefficient on the speed under the toe."""
+
+    law: Literal["gap_speed"] = Field(description="From bank to bank: C_D/(1 - blockage)^2.")
+    coefficient: PositiveNumber = Field(description="C_D on the mean speed in the gap.")
+
+
+class ClosureDrag(_Drag):
+    """The load of a closure from bank to bank."""
+
+    law: Literal["closure"] = Field(description="From bank to bank: head loss of the expanding jet.")
+    contraction: Contraction = Field(description="Of the jet under the toe: 0.61 for a sharp edge, to 1.")
+
+
+class TableDrag(_Drag):
+    """Measured coefficients."""
+
+    law: Literal["table"] = Field(description="Points of the coefficient over the blockage.")
+    points: Annotated[tuple[tuple[Blockage, PositiveNumber], ...], Field(min_length=1, max_length=1000)] = Field(
+        description="Rows [blockage, C_D], blockage rising; linear between, constant outside.",
+        examples=[[[0.2, 1.4], [0.5, 2.6]]],
+    )
+
+
+Drag = Annotated[ConstantDrag | GapSpeedDrag | ClosureDrag | TableDrag, Field(discriminator="law")]
+
+
+class CurtainStructure(Block):
+    """A silt curtain: one span between two supports, its neighbours alike."""
+
+    kind: Literal["curtain"] = Field(description="Hanging silt curtain.")
+    span: PositiveLength = Field(description="Distance of the supports B.")
+    length: PositiveLength = Field(description="Unstretched length of curtain between the supports l.")
+    normal_deg: Heading = Field(
+        default=0.0, description="Heading of the downstream normal of the span. Default: 0, the span lies along y."
+    )
+    skirt: SkirtEntry = Field(description="The sheet.")
+    toe: Toe = Field(description="The lower edge.")
+    cables: Cables = Field(description="The cables along the span.")
+    floats: Floats = Field(description="What carries the curtain.")
+    joints: Joints | None = Field(default=None, description="Connections of the curtain units.")
+    anchors: Anchors | None = Field(default=None, description="Anchor lines; absent: fixed supports.")
+    drag: Drag = Field(description="Drag coefficient.")
+    load_law: Literal["normal_velocity", "uniform_normal"] = Field(
+        default="normal_velocity",
+        description="Load of the section: velocity normal to the sheet (cos^2), or the full pressure everywhere.",
+    )
+    passing_fraction: Share = Field(
+        default=1.0, description="Share of the held flow that goes under the toe; 1 from bank to bank. Default: 1."
+    )
+    may_lie_on_bed: Truth = Field(
+        default=False, description="Whether the skirt may be longer than the water is deep. Default: false."
+    )
+    curtain_class: str | None = Field(
+        default=None, description="Class that the curtain is checked against.", examples=["A", "II"]
+    )
+
+
+class Factors(Block):
+    """Safety factors on strength; each is needed where its strength is given."""
+
+    cable: SafetyFactor | None = Field(default=None, description="Of the cables; 3 is common.")
+    sheet: SafetyFactor | None = Field(default=None, description="Of the sheet; 3 to 5.")
+    joint: SafetyFactor | None = Field(default=None, description="Of the joints; 3.")
+    anchor_line: SafetyFactor | None = Field(default=None, description="Of the anchor line; 3.")
+    anchor: SafetyFactor | None = Field(default=None, description="Of the anchor's holding force; 1.2 to 2.")
+
+
+class Impact(Block):
+    """How the impact is computed."""
+
+    at_most_one: ClassVar[KeyGroups] = (("start", "start_speed"),)
+
+    start: Literal["current", "slack_phase"] = Field(
+        default="current",
+        description="Speed when the curtain becomes taut: the current's (the paper), or that of a drift from release.",
+    )
+    start_speed: PositiveSpeed | None = Field(default=None, description="That speed itself, in place of 'start'.")
+    release_position: Length = Field(
+        default=0.0,
+        description="Mid-span when the curtain is let go, downstream of the line between the supports. Default: 0.",
+    )
+    draught: PositiveLength | None = Field(
+        default=None, description="Of the equivalent flat plate; absent: the skirt's length."
+    )
+    chord: PositiveLength | None = Field(
+        default=None,
+        description="Straight distance of the skirt's edges when it becomes taut, for models whose skirt stretches.",
+    )
+    cables: Literal["sum", "one"] = Field(
+        default="sum", description="EA of model A: the sum of both cables, or that of one. Default: sum."
+    )
+    time_step: AutoDuration = Field(default=None, description="Step of the marching scheme. Default: auto.")
+
+
+class Cycles(Block):
+    """How slack and taut cycles in waves are computed."""
+
+    settled_periods: Whole = Field(default=4, description="Periods of regular waves left out at the start. Default: 4.")
+    analysed_periods: Whole = Field(default=20, description="Periods of regular waves analysed. Default: 20.")
+    time_step: AutoDuration = Field(default=None, description="Time step. Default: auto.")
+
+
+class AnchorLoads(Block):
+    """Anchor loads in waves by the energy model."""
+
+    energy_factor: PositiveNumber = Field(description="M, share of the float's energy that stretches the rope.")
+    float_mass: Mass | None = Field(default=None, description="m_B, mass of the float per anchor rope; must be given.")
+    orbital_factor: PositiveNumber = Field(
+        default=2.0, description="alpha on the wave's velocity. Default: 2, the paper's."
+    )
+    wire_factor: PositiveNumber = Field(
+        default=0.6, description="Tension of the wire over that of the rope. Default: 0.6, the paper's."
+    )
+    new_type_factor: PositiveNumber = Field(
+        default=0.7, description="Tension of the new type over the conventional one. Default: 0.7, the paper's."
+    )
+    height_ratio: PositiveNumber = Field(default=1.8, description="H_max over H_1/3. Default: 1.8, the paper's.")
+    direction_rule: Literal["paper", "normal", "none"] = Field(
+        default="paper", description="Height by cos^2 of the angle (paper), cos (normal), or not reduced."
+    )
+    pretension: Truth = Field(
+        default=True, description="Whether the steady tension counts; the paper leaves it out. Default: true."
+    )
+
+
+class SpeedRange(Range):
+    """Evenly spaced speeds."""
+
+    first: Speed = Field(alias="from", description="First speed.")
+    last: Speed = Field(alias="to", description="Last speed.")
+
+
+class HeightRange(Range):
+    """Evenly spaced heights."""
+
+    first: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(alias="from", description="First height.")
+    last: PositiveLength = Field(alias="to", description="Last height.")
+
+
+def _form(value: Any) -> str:
+    if isinstance(value, str) or value is None:
+        return "<word>"
+    return "<range>" if isinstance(value, (dict, Range)) else "<list>"
+
+
+def _sorted(values: tuple[float, ...]) -> tuple[float, ...]:
+    for before, after in itertools.pairwise(values):
+        if not after > before:
+            raise refuse(f"the values do not rise: {after:g} follows {before:g}", allowed="each above the one before")
+    return values
+
+
+class Limits(Block):
+    """The operating-limit table."""
+
+    at_most_one: ClassVar[KeyGroups] = (("period", "period_factor"),)
+
+    speeds: Annotated[
+        Annotated[Auto, Tag("<word>")]
+        | Annotated[tuple[Speed, ...], Field(min_length=1, max_length=200), AfterValidator(_sorted), Tag("<list>")]
+        | Annotated[SpeedRange, Tag("<range>")],
+        Discriminator(_form),
+    ] = Field(default="auto", description="Surface speeds of the current: auto, a list, or {from, to, count}.")
+    heights: Annotated[
+        Annotated[Auto, Tag("<word>")]
+        | Annotated[
+            tuple[Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)], ...],
+            Field(min_length=1, max_length=200),
+            AfterValidator(_sorted),
+            Tag("<list>"),
+        ]
+        | Annotated[HeightRange, Tag("<range>")],
+        Discriminator(_form),
+    ] = Field(default="auto", description="Significant wave heights: auto, a list, or {from, to, count}.")
+    highest_speed: PositiveSpeed = Field(default=3.0, description="Up to which a limit is sought. Default: 3 m/s.")
+    highest_height: PositiveLength = Field(default=5.0, description="Up to which a limit is sought. Default: 5 m.")
+    period: Duration | None = Field(default=None, description="One wave period for all heights.")
+    period_factor: PositiveNumber | None = Field(
+        default=None, description="T = factor times the root of the height in metres; 3.86 when neither is given."
+    )
+    wave_angle_deg: Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)] | None = Field(
+        default=None, description="Of the waves from the normal; absent: that of the first sea state, or 0."
+    )
+
+
+class CurtainSettings(Block):
+    """How the analyses are run."""
+
+    impact: Impact = Field(default_factory=Impact, description="Impact when the curtain becomes taut.")
+    waves: Cycles = Field(default_factory=Cycles, description="Slack and taut cycles in waves.")
+    anchor_loads: AnchorLoads | None = Field(default=None, description="Anchor loads in waves by the energy model.")
+    limits: Limits = Field(default_factory=Limits, description="The operating-limit table.")
+    safety_factors: Factors = Field(default_factory=Factors, description="Safety factors on strength.")
+    least_float_reserve: OpenShare = Field(
+        default=0.0, description="Share of the buoyancy that must be left. Default: 0."
+    )
+    least_effective_depth: Annotated[float, QuantityOf(quantities.LENGTH, least=0.0)] = Field(
+        default=0.0, description="Effective depth that must be kept. Default: 0."
+    )
+    water_levels: Annotated[
+        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+        Discriminator(_form),
+    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+
+
+class CurtainCase(Block):
+    """A silt curtain from its site to its analyses."""
+
+    moyai: Literal[1] = Field(description="Version of the case file format.")
+    title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
+    site: Site = Field(description="The water of the site.")
+    waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
+        default=(), description="One sea state, or a list of them; each is run."
+    )
+    current: Current | None = Field(default=None, description="Steady current.")
+    structure: CurtainStructure = Field(description="The curtain.")
+    analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
+        description="What is computed.", examples=[["statics", "impact", "waves", "anchor_loads", "limits"]]
+    )
+    settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")
