@@ -1,7 +1,8 @@
 """How far a curtain holds: utilisation of each component, largest current, largest wave in a current, spacings.
 
 Everything is found by bisection on the same statics that a user sees; a state that has no solution counts as beyond the
-limit. The wave part comes from the energy model of Tabata et al. and acts on anchor line and anchor.
+limit. What waves and an impact add comes from a :class:`WaveLoading`: the energy model of Tabata et al. alone
+(:class:`WaveLoad`), or with the drag of the waves and the impact (:mod:`moyai.curtain.sea_loads`).
 """
 
 from __future__ import annotations
@@ -9,10 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.curtain.anchor_energy import EnergyModel
+from moyai.curtain.on_bed import solve_on_bed
 from moyai.curtain.squared_velocity import DirectionRule, effective_height
 from moyai.curtain.statics import CurtainStatics, HangingCurtain, solve_statics
 from moyai.sea.breaking import breaking_limit
@@ -29,7 +32,7 @@ class Strength:
     Parameters
     ----------
     capacity : float
-        Breaking load [N], of the sheet per width [N/m].
+        Breaking load [N], of the sheet per width [N/m]; infinite where it is not judged.
     safety_factor : float
         [-].
     """
@@ -62,6 +65,10 @@ class Requirements:
         Share of the buoyancy that must be left [-].
     least_depth : float
         Effective depth that must be kept [m].
+    joint : Strength, optional
+        Connection of the curtain units [N], which hands on what its unit collects; left out, joints are not judged.
+    joint_distance : float
+        Length of a unit [m].
     """
 
     upper_cable: Strength
@@ -71,6 +78,8 @@ class Requirements:
     anchor: Strength
     least_reserve: float
     least_depth: float
+    joint: Strength | None = None
+    joint_distance: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.least_reserve < 1.0 or not self.least_depth >= 0.0:
@@ -81,7 +90,42 @@ class Requirements:
             )
 
 
-def utilisation(statics: CurtainStatics, required: Requirements, wave_tension: float) -> dict[str, float]:
+@dataclass(frozen=True)
+class AddedLoads:
+    """What waves or an impact add to the steady loads.
+
+    Parameters
+    ----------
+    upper_cable, lower_cable : float
+        Tension [N].
+    sheet : float
+        Tension of the skirt per width [N/m].
+    anchor_line : float
+        Tension of the anchor line [N].
+    line_load : float
+        Load per length of curtain [N/m], which the joints hand on.
+    """
+
+    upper_cable: float = 0.0
+    lower_cable: float = 0.0
+    sheet: float = 0.0
+    anchor_line: float = 0.0
+    line_load: float = 0.0
+
+    def larger(self, other: AddedLoads) -> AddedLoads:
+        """Return the larger load of each component: wave and impact do not act at one instant."""
+        return AddedLoads(
+            max(self.upper_cable, other.upper_cable),
+            max(self.lower_cable, other.lower_cable),
+            max(self.sheet, other.sheet),
+            max(self.anchor_line, other.anchor_line),
+            max(self.line_load, other.line_load),
+        )
+
+
+def utilisation(
+    statics: CurtainStatics, required: Requirements, wave_tension: float, *added: AddedLoads
+) -> dict[str, float]:
     """Return the utilisation of each component, 1 at its limit.
 
     Parameters
@@ -92,17 +136,30 @@ def utilisation(statics: CurtainStatics, required: Requirements, wave_tension: f
         Strengths.
     wave_tension : float
         Fluctuating tension of the anchor line [N].
+    *added : AddedLoads
+        Of waves and impact; of each component the largest counts.
+
+    Notes
+    -----
+    Floats are judged by their steady reserve: what dips for an instant comes up again [eq:curtain-governing].
     """
+    more = AddedLoads(anchor_line=wave_tension)
+    for loads in added:
+        more = more.larger(loads)
     slope = math.cos(statics.curtain.anchor_slope)
-    return {
-        "upper cable": required.upper_cable.utilisation(statics.upper_tension),
-        "lower cable": required.lower_cable.utilisation(statics.lower_tension),
-        "sheet": required.sheet.utilisation(statics.section.sheet_tension),
-        "anchor line": required.anchor_line.utilisation(statics.anchor_line_tension + wave_tension),
-        "anchor": required.anchor.utilisation(statics.anchor_force + wave_tension * slope),
+    parts = {
+        "upper cable": required.upper_cable.utilisation(statics.upper_tension + more.upper_cable),
+        "lower cable": required.lower_cable.utilisation(statics.lower_tension + more.lower_cable),
+        "sheet": required.sheet.utilisation(statics.section.sheet_tension + more.sheet),
+        "anchor line": required.anchor_line.utilisation(statics.anchor_line_tension + more.anchor_line),
+        "anchor": required.anchor.utilisation(statics.anchor_force + more.anchor_line * slope),
         "floats": (1.0 - statics.reserve_ratio) / (1.0 - required.least_reserve),
         "effective depth": required.least_depth / statics.section.effective_depth,
     }
+    if required.joint is not None:
+        load = (statics.section.load + more.line_load) * required.joint_distance
+        parts["joint"] = required.joint.utilisation(load)
+    return parts
 
 
 @dataclass(frozen=True)
@@ -135,6 +192,8 @@ class Site:
         Of the flow and of the downstream normal of the span [rad].
     passing_fraction : float
         Share of the held flow that goes under the toe [-].
+    on_bed : bool
+        Whether the skirt may lie on the bed (:mod:`moyai.curtain.on_bed`).
     """
 
     water: Water
@@ -142,10 +201,12 @@ class Site:
     flow_heading: float
     chord_normal: float
     passing_fraction: float
+    on_bed: bool = False
 
     def statics(self, curtain: HangingCurtain, speed: float) -> CurtainStatics:
         """Return the curtain at rest at a surface speed [m/s]."""
-        return solve_statics(
+        solve = solve_on_bed if self.on_bed else solve_statics
+        return solve(
             curtain,
             self.current(speed),
             self.flow_heading,
@@ -153,6 +214,21 @@ class Site:
             self.water,
             passing_fraction=self.passing_fraction,
         )
+
+
+class WaveLoading(Protocol):
+    """What waves of a height, in a current, add to the steady loads."""
+
+    @property
+    def height_ratio(self) -> float:
+        """H_max / H_1/3 [-]."""
+
+    @property
+    def period(self) -> Callable[[float], float]:
+        """Period [s] of a significant height [m]."""
+
+    def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
+        """Return the loads that a significant height [m] adds at a surface speed [m/s]."""
 
 
 @dataclass(frozen=True)
@@ -187,6 +263,11 @@ class WaveLoad:
         float_speed = self.model.float_speed(height, self.period(significant_height), speed, water)
         return float(self.model.fluctuating_tension(float_speed, pretension))
 
+    def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
+        """Return the loads that a significant height [m] adds: those of the anchor line."""
+        rise = self.tension(significant_height, speed, statics.anchor_line_tension, water)
+        return AddedLoads(anchor_line=rise)
+
 
 def _bisect(worst: Callable[[float], tuple[float, str]], high: float, at_end: str) -> Limit:
     """Return the largest value whose worst utilisation is at most 1, by bisection below ``high``."""
@@ -210,7 +291,13 @@ def _worst(parts: dict[str, float]) -> tuple[float, str]:
 
 
 def speed_limit(
-    curtain: HangingCurtain, site: Site, required: Requirements, *, highest: float, wave_tension: float = 0.0
+    curtain: HangingCurtain,
+    site: Site,
+    required: Requirements,
+    *,
+    highest: float,
+    wave_tension: float = 0.0,
+    waves: WaveLoading | None = None,
 ) -> Limit:
     """Return the largest surface speed [m/s] that every component bears, with what sets it.
 
@@ -222,13 +309,17 @@ def speed_limit(
         Speed up to which the limit is sought [m/s].
     wave_tension : float
         Fluctuating tension of the anchor line that acts along with it [N].
+    waves : WaveLoading, optional
+        What is added in the current alone, for instance an impact.
     """
 
     def worst(speed: float) -> tuple[float, str]:
         try:
-            return _worst(utilisation(site.statics(curtain, speed), required, wave_tension))
+            statics = site.statics(curtain, speed)
+            more = () if waves is None else (waves.added(statics, 0.0, speed, site.water),)
         except InputError:
             return math.inf, "no equilibrium"
+        return _worst(utilisation(statics, required, wave_tension, *more))
 
     return _bisect(worst, highest, "not reached")
 
@@ -260,7 +351,7 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
 
 
 def height_limit(
-    curtain: HangingCurtain, site: Site, required: Requirements, waves: WaveLoad, *, speed: float, highest: float
+    curtain: HangingCurtain, site: Site, required: Requirements, waves: WaveLoading, *, speed: float, highest: float
 ) -> Limit:
     """Return the largest significant height [m] that every component bears in a current.
 
@@ -277,13 +368,15 @@ def height_limit(
         statics = site.statics(curtain, speed)
     except InputError:
         return Limit(0.0, "no equilibrium")
-    pretension = statics.anchor_line_tension
 
     def worst(height: float) -> tuple[float, str]:
         if height > 0.0 and waves.height_ratio * height > breaking_limit(waves.period(height), site.water).height:
             return math.inf, "breaking"
-        rise = waves.tension(height, speed, pretension, site.water)
-        return _worst(utilisation(statics, required, rise))
+        try:
+            more = waves.added(statics, height, speed, site.water)
+        except InputError:
+            return math.inf, "no equilibrium"
+        return _worst(utilisation(statics, required, 0.0, more))
 
     still, name = worst(0.0)
     if still > 1.0:
@@ -295,7 +388,7 @@ def operating_limits(
     curtain: HangingCurtain,
     site: Site,
     required: Requirements,
-    waves: WaveLoad,
+    waves: WaveLoading,
     *,
     speeds: Sequence[float],
     highest: float,

@@ -97,13 +97,14 @@ def section_load(
     law: LoadLaw = "normal_velocity",
     toe: Literal["free", "held"] = "free",
     top_depth: float = 0.0,
+    below_bed: bool = False,
     count: int = 49,
 ) -> PlanLoad:
     """Return the load from sections of the skirt turned against the current: an oblique part flares less.
 
     Parameters
     ----------
-    skirt, current, water, drag, law, toe, top_depth
+    skirt, current, water, drag, law, toe, top_depth, below_bed
         As :func:`moyai.curtain.section.solve_section`.
     flow_heading : float
         Heading of the flow near the surface [rad], about which the local angle counts.
@@ -115,7 +116,7 @@ def section_load(
     angle = np.linspace(-_WIDEST, _WIDEST, count)
 
     def loads(turns: Array) -> Array:
-        settings = {"law": law, "toe": toe, "top_depth": top_depth}
+        settings = {"law": law, "toe": toe, "top_depth": top_depth, "below_bed": below_bed}
         return np.array(
             [
                 solve_section(skirt, current, flow_heading - turn, water, drag, **settings).load  # type: ignore[arg-type]

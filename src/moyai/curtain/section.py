@@ -350,6 +350,7 @@ def solve_section(
     law: LoadLaw = "normal_velocity",
     toe: Literal["free", "held"] = "free",
     top_depth: float = 0.0,
+    below_bed: bool = False,
 ) -> SectionShape:
     """Return the section of a hanging skirt at rest in a current.
 
@@ -371,6 +372,9 @@ def solve_section(
         Whether the toe swings, or a lower cable as long as the upper one keeps it under the top.
     top_depth : float
         Depth of the top below still water [m]: 0 afloat, more in the submerged (float-and-sink) state.
+    below_bed : bool
+        Let the toe hang below the bed, as if the current went on there: to find how much of a long skirt hangs free
+        (:mod:`moyai.curtain.on_bed`).
 
     Raises
     ------
@@ -384,12 +388,12 @@ def solve_section(
     Equilibrium [eq:curtain-section]; load of the current [eq:curtain-drag].
     """
     room = water.depth - top_depth
-    if top_depth < 0.0 or skirt.length > room:
+    if top_depth < 0.0 or (skirt.length > room and not below_bed):
         raise InputError(
             f"a skirt of {skirt.length:g} m from {top_depth:g} m below the surface in water of {water.depth:g} m",
             path="skirt.length",
             allowed=f"at most {room:g} m",
-            remedy="shorten the skirt: a toe that lies on the bed is not part of this model",
+            remedy="shorten the skirt, or let it lie on the bed",
         )
     problem = _Problem(skirt, current, heading, water, law, top_depth)
 
@@ -433,7 +437,7 @@ def solve_section(
         raise ConvergenceError(
             f"the top of the skirt is missed by {abs(miss):.3g} m", path="skirt", remedy="check the load ratio qL/W"
         )
-    if path[0, 1] < -water.depth:
+    if path[0, 1] < -water.depth and not below_bed:
         raise InputError(
             f"the skirt stretches to {-path[0, 1]:.4g} m in water of {water.depth:g} m",
             path="skirt.stiffness",

@@ -149,6 +149,7 @@ def solve_statics(
     *,
     passing_fraction: float,
     top_depth: float = 0.0,
+    below_bed: bool = False,
 ) -> CurtainStatics:
     """Return shape and forces of a curtain at rest.
 
@@ -166,6 +167,8 @@ def solve_statics(
         Share of the flow held up that goes under the toe [-], 1 from bank to bank.
     top_depth : float
         Depth of the top [m]; more than 0 for a curtain held under water.
+    below_bed : bool
+        As :func:`moyai.curtain.section.solve_section`: for a long skirt whose toe the current lifts.
 
     Raises
     ------
@@ -176,7 +179,7 @@ def solve_statics(
     -----
     Forces of the supports: [eq:curtain-anchor]; floats: [eq:curtain-float-reserve].
     """
-    settings = {"law": curtain.law, "toe": curtain.toe, "top_depth": top_depth}
+    settings = {"law": curtain.law, "toe": curtain.toe, "top_depth": top_depth, "below_bed": below_bed}
     section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, **settings)  # type: ignore[arg-type]
     if section.load <= 0.0:
         raise InputError(
