@@ -23,6 +23,18 @@ from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
 
+RULES: tuple[DirectionRule, ...] = ("paper", "normal", "none")
+TONES = ("#0072b2", "#d55e00", "#009e73")
+STYLE = {
+    "font.size": 9,
+    "axes.grid": True,
+    "grid.color": "#d8dee5",
+    "grid.linewidth": 0.5,
+    "axes.axisbelow": True,
+    "axes.edgecolor": "#5b6775",
+    "legend.frameon": False,
+    "lines.linewidth": 1.4,
+}
 WATER = Water(depth=20.0, density=1025.0, gravity=9.81)
 CURTAIN_DEPTH, CURRENT, HEIGHT_RATIO = 5.0, 0.2, 1.8
 MODEL = EnergyModel(
@@ -66,34 +78,41 @@ def draw(path: Path) -> None:
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(2, 2, figsize=(10, 8), layout="constrained")
-    heights = np.linspace(0.3, 3.0, 60)
-    for degrees in (0, 30, 60):
-        load, square = tension(heights, np.radians(degrees), "paper")
-        axes[0, 0].plot(heights, load / 1e3, label=f"{degrees}° from the normal")
-        axes[1, 0].plot(square, load / 1e3, label=f"{degrees}° from the normal")
-    angle = np.radians(np.linspace(0, 90, 91))
-    for rule in ("paper", "normal", "none"):
-        load, _ = tension(np.full(angle.shape, 2.0), angle, rule)
-        axes[0, 1].plot(np.degrees(angle), load / load[0], label=f"rule '{rule}'")
-    axes[0, 1].plot(np.degrees(angle), np.cos(angle) ** 2, "k:", label="cos²")
-    observed, speed = campaign(7, 200)
-    factor = np.linspace(0.1, 0.35, 100)
-    product = factor * MODEL.float_mass * MODEL.rope_stiffness
-    mean, deviation = error_against_product(observed, speed, product)
-    axes[1, 1].plot(factor, mean, label="mean")
-    axes[1, 1].plot(factor, deviation, label="root mean square")
-    axes[1, 1].axhline(0.0, color="0.6", linewidth=0.8)
-    labels = (
-        ("H₁/₃ [m]", "rope tension [kN]"),
-        ("angle of the waves [°]", "tension over that at 0°"),
-        ("squared velocity [m²/s²]", "rope tension [kN]"),
-        ("M", "(calculated − observed)/calculated"),
-    )
-    for axis, (x, y) in zip(axes.ravel(), labels):
-        axis.set(xlabel=x, ylabel=y)
-        axis.legend()
-    figure.savefig(path, dpi=120)
+    with plt.rc_context(STYLE):
+        figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.6), layout="constrained")
+        heights = np.linspace(0.3, 3.0, 60)
+        for tone, degrees in zip(TONES, (0, 30, 60)):
+            load, square = tension(heights, np.radians(degrees), "paper")
+            axes[0, 0].plot(heights, load / 1e3, color=tone, label=f"{degrees}° from the normal")
+            axes[1, 0].plot(square, load / 1e3, color=tone, label=f"{degrees}° from the normal")
+        angle = np.radians(np.linspace(0, 90, 91))
+        for tone, rule in zip(TONES, RULES):
+            load, _ = tension(np.full(angle.shape, 2.0), angle, rule)
+            axes[0, 1].plot(np.degrees(angle), load / load[0], color=tone, label=f"rule '{rule}'")
+        axes[0, 1].plot(np.degrees(angle), np.cos(angle) ** 2, "k:", label="cos²")
+        observed, speed = campaign(7, 200)
+        factor = np.linspace(0.1, 0.35, 100)
+        unit = MODEL.float_mass * MODEL.rope_stiffness
+        mean, deviation = error_against_product(observed, speed, factor * unit)
+        axes[1, 1].plot(factor, mean, color=TONES[0], label="mean")
+        axes[1, 1].plot(factor, deviation, color=TONES[1], label="root mean square")
+        axes[1, 1].axhline(0.0, color="#5b6775", linewidth=0.8)
+        for fit, dash in zip(fits(observed, speed), ("-", "--", ":")):
+            found = fit.energy_factor(MODEL.float_mass, MODEL.rope_stiffness)
+            axes[1, 1].axvline(found, color="#5b6775", linewidth=0.9, linestyle=dash, label=f"{fit.rule}: {found:.3f}")
+        labels = (
+            ("$H_{1/3}$ [m]", "rope tension [kN]"),
+            ("angle of the waves from the normal [°]", "tension over that at 0°"),
+            ("squared velocity [m²/s²]", "rope tension [kN]"),
+            ("energy factor M", "(calculated − observed)/calculated"),
+        )
+        for axis, (x, y) in zip(axes.ravel(), labels):
+            axis.set(xlabel=x, ylabel=y)
+            axis.legend(fontsize=8)
+        for axis in axes[:, 0]:
+            axis.set(xlim=(0.0, None), ylim=(0.0, None))
+        figure.savefig(path, dpi=150)
+        plt.close(figure)
 
 
 def main() -> None:
@@ -105,6 +124,7 @@ def main() -> None:
         low, high = (bound / (MODEL.float_mass * MODEL.rope_stiffness) for bound in fit.interval)
         found = fit.energy_factor(MODEL.float_mass, MODEL.rope_stiffness)
         print(f"{fit.rule}: M = {found:.4f}, 95 % from {low:.4f} to {high:.4f}")
+    print(f"wrote {folder / 'anchor_loads.png'}")
 
 
 if __name__ == "__main__":
