@@ -243,7 +243,9 @@ class EdgeImpact:
         return float((self.upper_tension + self.lower_tension).max())
 
 
-def edge_impact(impact: Impact, *, duration: float | None = None, samples: int = 2000) -> EdgeImpact:
+def edge_impact(
+    impact: Impact, *, duration: float | None = None, samples: int = 2000, finite_depth: bool = False
+) -> EdgeImpact:
     """Solve model A2: upper and lower edge move apart, coupled by the water [eq:impact-edges].
 
     Parameters
@@ -254,10 +256,12 @@ def edge_impact(impact: Impact, *, duration: float | None = None, samples: int =
         [s]; 1.75 times the rise of model A by default, so that a later rotation is seen.
     samples : int
         Points of the series.
+    finite_depth : bool
+        Whether the 2x2 added mass is that in the depth of the water, or in deep water as the paper takes it.
     """
     from scipy.integrate import solve_ivp
 
-    plate = flat_skirt_mass(impact.draught, impact.water.with_depth(math.inf))
+    plate = flat_skirt_mass(impact.draught, impact.water if finite_depth else impact.water.with_depth(math.inf))
     inverse = np.linalg.inv(plate.matrix)
     taut = taut_shape(impact.span_ratio)
     stiffness = impact.upper_stiffness, impact.lower_stiffness

@@ -305,8 +305,57 @@ def _flow_at(flow: Array, place: float) -> tuple[float, float]:
 
 
 @njit(cache=True, error_model="numpy")
+def load_table(span: float, span_ratio: float, taut: float, stiffness: float, out: Array) -> None:
+    """Fill ``out`` (n, 3) with displacement, load and its slope, evenly spaced in the square of the row's number.
+
+    Small displacements are resolved finely: the load of a cable as long as its span starts as a cube.
+    """
+    for i in range(out.shape[0]):
+        sag = sag_ratio(taut) + 2.0 * out[i, 0] / span
+        b = shape_of_sag(sag, taut) if sag > 0.0 else 0.0
+        tension = stiffness * span_ratio * (_excess(b) - _excess(taut))
+        # d excess/db = (cosh b - 1 - excess)/b = (cosh b - sinh(b)/b)/b
+        widening = (math.cosh(b) - 1.0 - _excess(b)) / b if b > 1e-4 else b / 3.0
+        rate = stiffness * span_ratio * widening * b + tension
+        out[i, 1] = tension * 2.0 * b / span
+        out[i, 2] = rate * 2.0 / span / (_sag_slope(b) * 0.5 * span)
+
+
+@njit(cache=True, error_model="numpy")
+def _load(displacement: float, cable: Array, table: Array) -> float:
+    """Load by cubics between the rows of the table, exactly beyond it."""
+    if displacement <= 0.0:
+        return 0.0
+    last = table.shape[0] - 1
+    if displacement >= table[last, 0]:
+        return spring(displacement, cable[0], cable[1], cable[2], cable[3])[0]
+    i = min(int(math.sqrt(displacement / table[last, 0]) * last), last - 1)
+    if displacement < table[i, 0]:
+        i -= 1
+    elif displacement > table[i + 1, 0]:
+        i += 1
+    width = table[i + 1, 0] - table[i, 0]
+    s = (displacement - table[i, 0]) / width
+    far = 1.0 - s
+    return (
+        far * far * ((1.0 + 2.0 * s) * table[i, 1] + s * width * table[i, 2])
+        + s * s * ((3.0 - 2.0 * s) * table[i + 1, 1] - far * width * table[i + 1, 2])
+    )
+
+
+@njit(cache=True, error_model="numpy")
 def _swing(
-    y: float, v: float, at: float, h: float, side: int, cable: Array, drag: float, mass: float, flow: Array, step: float
+    y: float,
+    v: float,
+    at: float,
+    h: float,
+    side: int,
+    cable: Array,
+    table: Array,
+    drag: float,
+    mass: float,
+    flow: Array,
+    step: float,
 ) -> tuple[float, float]:
     """One Runge-Kutta step of h seconds from time ``at``, the cable taut on ``side`` or slack (0)."""
     place, speed, sum_y, sum_v = y, v, 0.0, 0.0
@@ -318,7 +367,7 @@ def _swing(
         relative = water - speed
         force = drag * relative * abs(relative)
         if side != 0:
-            force -= side * spring(side * place - cable[4], cable[0], cable[1], cable[2], cable[3])[0]
+            force -= side * _load(side * place - cable[4], cable, table)
         rate = forward + force / mass
         weight = 1.0 if stage in (0, 3) else 2.0
         sum_y += weight * speed
@@ -338,6 +387,7 @@ def _locate(
     target: int,
     side: int,
     cable: Array,
+    table: Array,
     drag: float,
     mass: float,
     flow: Array,
@@ -346,16 +396,16 @@ def _locate(
     """Return the h within (low, high) at which y reaches ``target`` times the slack sag, or v = 0 for ``target`` 0."""
     first = v if target == 0 else target * y - cable[4]
     if low > 0.0:
-        y1, v1 = _swing(y, v, at, low, side, cable, drag, mass, flow, step)
+        y1, v1 = _swing(y, v, at, low, side, cable, table, drag, mass, flow, step)
         first = v1 if target == 0 else target * y1 - cable[4]
-    y1, v1 = _swing(y, v, at, high, side, cable, drag, mass, flow, step)
+    y1, v1 = _swing(y, v, at, high, side, cable, table, drag, mass, flow, step)
     last = v1 if target == 0 else target * y1 - cable[4]
     rising = last > first
     h = high
     if last != first:
         h = min(max(low - first * (high - low) / (last - first), low), high)
     for _ in range(100):
-        y1, v1 = _swing(y, v, at, h, side, cable, drag, mass, flow, step)
+        y1, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
         value = v1 if target == 0 else target * y1 - cable[4]
         if (value > 0.0) == rising:
             high = h
@@ -377,14 +427,22 @@ def _locate(
 
 @njit(cache=True, error_model="numpy")
 def slack_taut(
-    cable: Array, mass: float, drag: float, flow: Array, step: float, taut_step: float, out: Array, contacts: Array
+    cable: Array,
+    table: Array,
+    mass: float,
+    drag: float,
+    flow: Array,
+    step: float,
+    taut_step: float,
+    out: Array,
+    contacts: Array,
 ) -> int:
     """March the slack and taut curtain, every contact located in time [eq:impact-slack-taut].
 
     Slack, a step of the classical Runge-Kutta scheme covers the samples of the flow; taut, it is at most
     ``taut_step``. Steps end where the cable becomes taut or slack, so that no step crosses the corner of the spring.
 
-    ``cable``: span, span ratio, taut shape, stiffness, slack sag; ``flow`` (n + 1, 2): velocity and acceleration of
+    ``cable``: span, span ratio, taut shape, stiffness, slack sag; ``table``: see :func:`load_table`; ``flow`` (n + 1, 2): velocity and acceleration of
     the water at every step; ``drag`` is rho C_D d / 2. Rows of ``out`` (n + 1, 3): position and speed of mid-span,
     tension; the first row holds the start. Rows of ``contacts``: begin, speed there, end (NaN where the series ends
     before), time of the peak, tension of the peak, side. Returns the number of contacts that begin, which may be more
@@ -407,11 +465,11 @@ def slack_taut(
             at = n * step + done
             left = step - done
             h = left if side == 0 else left / math.ceil(left / taut_step - 1e-9)
-            y1, v1 = _swing(y, v, at, h, side, cable, drag, mass, flow, step)
+            y1, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
             turned = 0.0
             if v * v1 < 0.0:
-                turned = _locate(y, v, at, 0.0, h, 0, side, cable, drag, mass, flow, step)
-                top, _ = _swing(y, v, at, turned, side, cable, drag, mass, flow, step)
+                turned = _locate(y, v, at, 0.0, h, 0, side, cable, table, drag, mass, flow, step)
+                top, _ = _swing(y, v, at, turned, side, cable, table, drag, mass, flow, step)
                 if side == 0:
                     if abs(y1) <= loose < abs(top):
                         # a short contact would hide between two samples
@@ -423,8 +481,8 @@ def slack_taut(
             if side == 0:
                 if abs(y1) > loose:
                     toward = 1 if y1 > 0.0 else -1
-                    h = _locate(y, v, at, turned, h, toward, 0, cable, drag, mass, flow, step)
-                    _, v1 = _swing(y, v, at, h, 0, cable, drag, mass, flow, step)
+                    h = _locate(y, v, at, turned, h, toward, 0, cable, table, drag, mass, flow, step)
+                    _, v1 = _swing(y, v, at, h, 0, cable, table, drag, mass, flow, step)
                     y1, side = toward * loose, toward
                     furthest, when, current = loose, at + h, count
                     if count < contacts.shape[0]:
@@ -433,8 +491,8 @@ def slack_taut(
                     count += 1
             else:
                 if side * y1 < loose:
-                    h = _locate(y, v, at, turned, h, side, side, cable, drag, mass, flow, step)
-                    _, v1 = _swing(y, v, at, h, side, cable, drag, mass, flow, step)
+                    h = _locate(y, v, at, turned, h, side, side, cable, table, drag, mass, flow, step)
+                    _, v1 = _swing(y, v, at, h, side, cable, table, drag, mass, flow, step)
                     if 0 <= current < contacts.shape[0]:
                         contacts[current, 2] = at + h
                     y1, side = side * loose, 0

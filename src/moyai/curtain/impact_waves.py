@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
-from moyai.curtain.impact import Impact, closed_form, peak_by_energy
-from moyai.curtain.impact_kernels import sag_ratio, slack_taut, taut_shape
+from moyai.curtain.impact import Impact, closed_form, peak_by_energy, sweep_peaks
+from moyai.curtain.impact_kernels import load_table, sag_ratio, slack_taut, taut_shape
 
 Array = NDArray[np.float64]
 
 # Taut, a step is at most this share of the rise of model A
 _TAUT_SHARE = 0.04
+_TABLE_ROWS = 3000
 
 
 @dataclass(frozen=True)
@@ -222,19 +223,25 @@ def simulate_in_flow(
     taut = taut_shape(impact.span_ratio)
     cable = np.array([impact.span, impact.span_ratio, taut, impact.stiffness, slack_sag(impact)])
     drag = 0.5 * impact.water.density * drag_coefficient * impact.draught
+    table = np.zeros((_TABLE_ROWS, 3))
+    # as far as model A goes at the largest speed that the water and the start give, and once more
+    fastest = max(float(np.abs(given[:, 0]).max()), abs(start[1]), 1e-9)
+    reach = 2.0 * float(sweep_peaks(impact.span, impact.length, impact.stiffness, fastest, moved)[1])
+    table[:, 0] = reach * np.linspace(0.0, 1.0, _TABLE_ROWS) ** 2
+    load_table(impact.span, impact.span_ratio, taut, impact.stiffness, table)
     out = np.zeros((len(given), 3))
     room = 1000
     while True:
         out[0, :2] = start
-        table = np.zeros((room, 6))
-        count = slack_taut(cable, moved, drag, given, time_step, longest, out, table)
+        rows = np.zeros((room, 6))
+        count = slack_taut(cable, table, moved, drag, given, time_step, longest, out, rows)
         if count <= room:
             break
         room = count
     time = time_step * np.arange(len(out), dtype=np.float64)
     position, speed, tension = out.T.copy()
     level = float(given[:, 0].mean()) if mean_speed is None else mean_speed
-    return SlackTautMotion(time, position, speed, tension, _contacts(table[:count], time, given[:, 0] - level))
+    return SlackTautMotion(time, position, speed, tension, _contacts(rows[:count], time, given[:, 0] - level))
 
 
 def _contacts(table: Array, time: Array, wave: Array) -> tuple[Contact, ...]:

@@ -1,0 +1,121 @@
+"""Model A with the memory of the waves that the impact itself makes: for a rise that is not short.
+
+The added mass of infinite frequency holds while the tension rises much faster than sqrt(d/g). Otherwise the waves that
+the slowing skirt sends out push back; their force follows from the damping of the plate at all frequencies.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.curtain.impact import Impact, ImpactPeak, peak_by_energy
+from moyai.curtain.impact_kernels import memory_march, spring, taut_shape
+
+Array = NDArray[np.float64]
+
+# Steps to the peak of model A
+_STEPS = 400
+
+
+@dataclass(frozen=True, eq=False)
+class MemoryImpact:
+    """Time series of model A with memory, to just beyond the peak.
+
+    Parameters
+    ----------
+    time, displacement, speed, load, tension : ndarray
+        [s], mid-span from the just-taut shape [m], [m/s], [N/m], sum of both cables [N].
+    memory_force : ndarray
+        Force of the waves made since the cable became taut, in the direction of the current [N/m].
+    peak : ImpactPeak
+        Extrapolated from this step and its double.
+    ratio : float
+        Peak over that of model A with the same mass.
+    rise_ratio : float
+        Time of the peak over sqrt(d/g).
+    step_error : float
+        Relative change of the peak by the extrapolation: a bound of its error.
+    """
+
+    time: Array
+    displacement: Array
+    speed: Array
+    load: Array
+    tension: Array
+    memory_force: Array
+    peak: ImpactPeak
+    ratio: float
+    rise_ratio: float
+    step_error: float
+
+
+def memory_impact(impact: Impact, kernel: ArrayLike, time_step: float, mass: float) -> MemoryImpact:
+    """Solve model A with a given memory of the water [eq:impact-memory].
+
+    Parameters
+    ----------
+    impact : Impact
+        The span.
+    kernel : array_like
+        K at 0, dt, 2 dt, ... [N/m per m/s per s]: the force of the water is -integral of K(t - s) (v(s) - U0) ds.
+    time_step : float
+        dt of the kernel and of the march [s].
+    mass : float
+        Added mass at infinite frequency that belongs to the kernel [kg/m].
+
+    Raises
+    ------
+    InputError
+        When a number is not positive or the kernel not finite.
+    ConvergenceError
+        When the cable has not come to its largest displacement within the length of the kernel.
+    """
+    given = np.ascontiguousarray(kernel, dtype=float)
+    if given.ndim != 1 or given.size < 5 or not np.isfinite(given).all():
+        raise InputError(f"kernel has shape {given.shape} or is not finite", path="kernel", allowed="5 values or more")
+    for name, value in (("time_step", time_step), ("mass", mass)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
+    fine, series = _march(impact, given, time_step, mass)
+    coarse, _ = _march(impact, np.ascontiguousarray(given[::2]), 2.0 * time_step, mass)
+    # second order: a third of the change is left in the finer one
+    furthest, time = (f + (f - c) / 3.0 for f, c in zip(fine, coarse))
+    taut = taut_shape(impact.span_ratio)
+    _, tension = spring(furthest, impact.span, impact.span_ratio, taut, impact.stiffness)
+    _, unrefined = spring(fine[0], impact.span, impact.span_ratio, taut, impact.stiffness)
+    return MemoryImpact(
+        time_step * np.arange(len(series), dtype=np.float64),
+        *series.T.copy(),
+        peak=ImpactPeak(tension, furthest, time),
+        ratio=tension / peak_by_energy(impact, mass).tension,
+        rise_ratio=time / math.sqrt(impact.draught / impact.water.gravity),
+        step_error=abs(tension / unrefined - 1.0),
+    )
+
+
+def _march(impact: Impact, kernel: Array, step: float, mass: float) -> tuple[tuple[float, float], Array]:
+    """Return furthest displacement and its time, and the series."""
+    out = np.empty((len(kernel), 5))
+    count = memory_march(impact.span, impact.length, impact.stiffness, impact.speed, mass, kernel, step, out)
+    turned = np.flatnonzero(out[1:count, 1] <= 0.0)
+    if not turned.size:
+        raise ConvergenceError(
+            f"no peak within the {step * (len(kernel) - 1):.3g} s of the kernel",
+            path="kernel",
+            remedy="give the kernel over a longer time",
+        )
+    n = int(turned[0])
+    before, after = out[n, 1], out[n + 1, 1]
+    share = before / (before - after)
+    # Hermite's cubic of the displacement at the instant at which the speed vanishes
+    far = 1.0 - share
+    top = (
+        far * far * ((1.0 + 2.0 * share) * out[n, 0] + share * step * before)
+        + share * share * ((3.0 - 2.0 * share) * out[n + 1, 0] - far * step * after)
+    )
+    return (float(top), (n + share) * step), out[:count]
