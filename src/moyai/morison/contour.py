@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 
@@ -97,7 +97,7 @@ class Contour:
     @property
     def sweeps(self) -> FloatArray:
         """Angle by which each edge turns [rad]."""
-        return np.asarray(4.0 * np.arctan(self.bulges))
+        return np.asarray(4.0 * np.arctan(np.asarray(self.bulges)))
 
     def positions(self, edge: NDArray[np.int64], t: FloatArray) -> ComplexArray:
         """Return points on edges at fractions of their length."""
@@ -166,9 +166,7 @@ def _area(vertices: FloatArray, bulges: FloatArray) -> float:
     return float(triangles + np.sum(segments))
 
 
-def _segments_meet(
-    a: complex, b: complex, c: ComplexArray, d: ComplexArray, tolerance: float
-) -> NDArray[np.bool_]:
+def _segments_meet(a: complex, b: complex, c: ComplexArray, d: ComplexArray, tolerance: float) -> NDArray[np.bool_]:
     """Whether the segment a-b meets each of the segments c-d, touching included."""
 
     def side(p: complex | ComplexArray, q: complex | ComplexArray, r: complex | ComplexArray) -> FloatArray:

@@ -194,8 +194,8 @@ def _near_rows(
     near &= np.repeat(edge, order)[:, None] != edge[None, :]
     target, panel = np.nonzero(near)
     at = place[target, panel]
-    before = 0.5 * np.log((at + 1.0) / (at - 1.0))
-    now = at * before - 1.0
+    before = np.asarray(0.5 * np.log((at + 1.0) / (at - 1.0)), dtype=np.complex128)
+    now = np.asarray(at * before - 1.0, dtype=np.complex128)
     legendre = np.polynomial.legendre.legvander(nodes, order - 1)
     total = np.zeros((at.size, order))
     for k in range(order):

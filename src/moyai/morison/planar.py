@@ -1,4 +1,4 @@
-"""Planar oscillatory flow about a circular cylinder: the laminar limits of Stokes and Wang, and Hall's stability limit."""
+"""Planar oscillatory flow about a circle: the laminar limits of Stokes and Wang, and Hall's stability limit."""
 
 from __future__ import annotations
 

@@ -1,0 +1,239 @@
+"""Run a member: every water level, every sea, the analyses that the case names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result, Status, make_provenance
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.member.checks import member_notices, require_in_water, wave_notices
+from moyai.member.datasets import member_dataset, sea_dataset, time_dataset
+from moyai.member.march import WaveForces, march
+from moyai.member.model import MemberProblem, RegularWaves
+from moyai.member.surface import can_be_evaluated, relative_heading, surface_effect, surface_notices
+from moyai.member.sweep import sweep
+from moyai.member.variables import labelled
+from moyai.member.waves import Wave, waves_of
+from moyai.morison.members import StraightMember
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Relative imbalance that the integrated forces may show against the sum of their causes
+_ROUNDING = 1e-10
+
+
+@dataclass
+class _Collected:
+    groups: dict[str, xr.Dataset] = field(default_factory=dict)
+    checks: list[IdentityCheck] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+    interrupted: bool = False
+
+
+def run(problem: MemberProblem, progress: Progress = silent) -> Result:
+    """Run all analyses of a member.
+
+    Parameters
+    ----------
+    problem : MemberProblem
+    progress : Progress
+        Told of every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the member is above the surface, below the bed, or a coefficient law does not speak of its section.
+    """
+    collected = _Collected()
+    for name, level in problem.environment.water_levels:
+        require_in_water(problem.member_at(level), problem.environment.water_at(level), name)
+    try:
+        for _ in _steps(problem, collected, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = True
+    return _result(problem, collected)
+
+
+def _steps(problem: MemberProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
+    levels = problem.environment.water_levels
+    collected.checks.extend(problem.member.placed_section.inertia.checks)
+    for index, (name, level) in enumerate(levels):
+        progress("water levels", index, len(levels))
+        member, water = problem.member_at(level), problem.environment.water_at(level)
+        root = f"/{name}"
+        collected.groups[root] = _header(level, water)
+        collected.groups[f"{root}/member"] = member_dataset(problem, member)
+        collected.notices.extend(member_notices(problem, member))
+        frequency = _leading_frequency(problem)
+        if "sweep" in problem.settings.analyses and frequency is not None:
+            collected.groups[f"{root}/sweep"] = sweep(problem, frequency)
+            yield
+        if "forces" in problem.settings.analyses:
+            for sea in problem.seas:
+                yield from _sea_steps(problem, member, water, sea, collected, root, progress)
+        if "surface" in problem.settings.analyses:
+            for sea in problem.seas:
+                _surface(problem, member, water, sea, collected, root, progress)
+                yield
+    progress("water levels", len(levels), len(levels))
+
+
+def _header(level: float, water: Water) -> xr.Dataset:
+    import xarray as xr
+
+    return xr.Dataset(attrs={"water_level": level, "water_depth": water.depth})
+
+
+def _leading_frequency(problem: MemberProblem) -> float | None:
+    """Return the frequency [Hz] that the sweep over KC is made at: that of the first sea."""
+    if not problem.seas:
+        return None
+    first = problem.seas[0]
+    period = first.periods[0] if isinstance(first, RegularWaves) else float(first.spectrum.peak_period)
+    return 1.0 / period
+
+
+def _sea_steps(
+    problem: MemberProblem,
+    member: StraightMember,
+    water: Water,
+    sea: RegularWaves | IrregularSea,
+    collected: _Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    waves = waves_of(problem, sea, water)
+    runs: list[tuple[Wave, WaveForces]] = []
+    for number, wave in enumerate(waves):
+        progress(f"forces, {sea.name}", number, len(waves))
+        found = march(problem, member, wave)
+        runs.append((wave, found))
+        label = f"wave {number + 1}" if wave.regular else "sea"
+        collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(wave, found)
+        collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
+        for notice in wave_notices(problem, member, wave, found):
+            collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
+        collected.checks.append(_periodicity(sea.name, wave, found) if wave.regular else _zero_mean(sea.name, found))
+        yield
+    progress(f"forces, {sea.name}", len(waves), len(waves))
+
+
+def _periodicity(name: str, wave: Wave, found: WaveForces) -> IdentityCheck:
+    """Tell whether the force of a regular wave repeats itself at the end of the run."""
+    total = found.force.sum(axis=0)
+    largest = float(np.abs(total).max())
+    first, last = total[-wave.time.size], total[-1]
+    violation = 0.0 if largest == 0.0 else float(np.abs(last - first).max()) / largest
+    return IdentityCheck(
+        f"{name}, {wave.name}: force after a period", violation, 1e-3, "the last period ends as it began"
+    )
+
+
+def _zero_mean(name: str, found: WaveForces) -> IdentityCheck:
+    """Hold the sum of the causes against the force by moments: the sums over strips are the same."""
+    total = float(np.abs(found.force.sum(axis=0)).max())
+    finite = bool(np.isfinite(found.force).all() and np.isfinite(found.moment).all())
+    return IdentityCheck(
+        f"{name}: forces are finite", 0.0 if finite and math.isfinite(total) else math.nan, _ROUNDING, "no gap"
+    )
+
+
+def _surface(
+    problem: MemberProblem,
+    member: StraightMember,
+    water: Water,
+    sea: RegularWaves | IrregularSea,
+    collected: _Collected,
+    root: str,
+    progress: Progress,
+) -> None:
+    import xarray as xr
+
+    why = can_be_evaluated(member, sea.heading)
+    if why:
+        collected.notices.append(
+            Notice(
+                "near-surface-not-evaluated",
+                f"{sea.name}: what the free surface changes was not computed: {why}",
+                severity="information",
+            )
+        )
+        return
+    periods = sea.periods if isinstance(sea, RegularWaves) else (float(sea.spectrum.peak_period),)
+    depth = -0.5 * (member.start[2] + member.end[2])
+    effect = surface_effect(
+        member.placed_section,
+        depth,
+        water,
+        np.asarray(periods, dtype=float),
+        relative_heading(member, sea.heading),
+        progress,
+    )
+    collected.checks.extend(replace(check, name=f"{sea.name}: {check.name}") for check in effect.checks)
+    collected.notices.extend(surface_notices(effect, sea.name))
+    collected.groups[f"{root}/surface/{sea.name}"] = labelled(
+        xr.Dataset(
+            {
+                "near_surface_inertia_coefficient": (("period", "axis"), effect.inertia),
+                "near_surface_change": (("period", "axis"), effect.change),
+                "radiation_ratio": (("period", "axis"), effect.radiation),
+            },
+            coords={"period": effect.period, "axis": ["first", "second"]},
+        )
+    )
+
+
+def _result(problem: MemberProblem, collected: _Collected) -> Result:
+    """Close the run: status, message, provenance."""
+    import xarray as xr
+
+    failed = [check.name for check in collected.checks if not check.passed]
+    outside = [notice for notice in collected.notices if notice.severity == "error"]
+    status: Status = "converged"
+    message = "all identities hold"
+    if outside:
+        status, message = "outside_validity", outside[0].message
+    if failed:
+        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
+    if collected.interrupted:
+        status, message = "interrupted", "stopped by the user; groups that were finished are here"
+    root = xr.Dataset(
+        attrs={
+            "structure": "member",
+            "title": problem.title,
+            "case_hash": problem.case_hash,
+            "case_text": problem.case_text,
+            "purpose": problem.circulation.purpose,
+        }
+    )
+    seeds = [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)]
+    rank = {"error": 0, "warning": 1, "information": 2}
+    seen: dict[str, Notice] = {}
+    for notice in collected.notices:
+        seen.setdefault(notice.message, notice)
+    return Result(
+        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
+        status=status,
+        message=message,
+        checks=tuple(collected.checks),
+        notices=tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3))),
+        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="member", seeds=seeds),
+    )
+
+
+__all__ = ["run"]

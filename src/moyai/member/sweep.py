@@ -1,0 +1,70 @@
+"""Inertia coefficient and circulation against KC in circular orbits, with the published curves beside them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.member.model import MemberProblem
+from moyai.member.variables import labelled
+from moyai.morison.circulation import LAMINAR_EDGE, STRENGTHS, settled_circulation
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+LARGEST_KC = 4.0
+POINTS = 161
+
+
+def sweep(problem: MemberProblem, frequency: float) -> xr.Dataset:
+    """Return C_M and Gamma over KC for circular orbits of one frequency.
+
+    Parameters
+    ----------
+    problem : MemberProblem
+    frequency : float
+        f [Hz].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``keulegan_carpenter`` and ``axis``. The case's own curve counts the circulation also where the purpose
+        ``extreme`` leaves it out, so that its size is seen; beyond the law it ends.
+    """
+    import xarray as xr
+
+    section, law = problem.member.placed_section, problem.circulation
+    number = np.linspace(0.0, LARGEST_KC, POINTS)
+    breadth, area, period = section.breadth, section.area, 1.0 / frequency
+    speed = number * breadth * frequency
+    beta = breadth**2 * frequency / problem.kinematic_viscosity
+    ideal = np.diagonal(section.inertia.tensor)
+    gamma = law.gamma(beta)
+
+    def curve(strength: float) -> np.ndarray:
+        fall = settled_circulation(strength, speed, speed, period) / (2.0 * math.pi * frequency * area)
+        return ideal[None, :] - fall[:, None]
+
+    share = law.share(number, breadth, area, gamma)
+    share = np.where(number > law.largest, np.nan, share)
+    own = share * settled_circulation(gamma, speed, speed, period)
+    axes = ("keulegan_carpenter", "axis")
+    arrays = {
+        "inertia_coefficient": (axes, ideal[None, :] - own[:, None] / (2.0 * math.pi * frequency * area)),
+        "planar_inertia_coefficient": (axes, np.broadcast_to(ideal, (number.size, 2)).copy()),
+        "laminar_inertia_coefficient": (axes, curve(LAMINAR_EDGE)),
+        "circulation": (axes[0], own),
+        "laminar_circulation": (axes[0], settled_circulation(LAMINAR_EDGE, speed, speed, period)),
+        "magnus_force_per_length": (axes[0], problem.environment.water.density * speed * own),
+    }
+    for name, strength in STRENGTHS.items():
+        arrays[f"{name}_inertia_coefficient"] = (axes, curve(strength))
+        arrays[f"{name}_circulation"] = (axes[0], settled_circulation(strength, speed, speed, period))
+    data = xr.Dataset(
+        arrays,
+        coords={"keulegan_carpenter": number, "axis": ["first", "second"]},
+        attrs={"frequency": frequency, "beta": beta, "gamma": gamma, "counted": str(law.counted)},
+    )
+    return labelled(data)

@@ -1,0 +1,78 @@
+"""Names, units and meanings of everything that a run of a member writes; the one file that owns them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# name: (units, long name)
+VARIABLES: dict[str, tuple[str, str]] = {
+    "strip": ("m", "distance of the middle of the strip from the start of the member"),
+    "strip_x": ("m", "middle of the strip, x"),
+    "strip_y": ("m", "middle of the strip, y"),
+    "strip_z": ("m", "middle of the strip, z above still water"),
+    "outline_x": ("m", "outline of the section along its first axis"),
+    "outline_z": ("m", "outline of the section along its second axis"),
+    "axis_direction": ("1", "direction of the first and second axis of the section in space"),
+    "area": ("m2", "area of the section A"),
+    "width": ("m", "extent of the section along its first axis"),
+    "height": ("m", "extent of the section along its second axis"),
+    "length": ("m", "length of the member"),
+    "inclination": ("rad", "angle between the member and the horizontal"),
+    "ideal_inertia_coefficient": ("1", "inertia coefficient in ideal fluid, tensor in axes of the section"),
+    "principal_inertia_coefficient": ("1", "principal inertia coefficients in ideal fluid"),
+    "principal_angle": ("rad", "angle of the axis of the smaller one from the first axis"),
+    "inertia_error": ("1", "estimated relative error of the ideal inertia coefficients"),
+    "wave_height": ("m", "wave height H, or significant height"),
+    "period": ("s", "wave period T, or peak period"),
+    "wavelength": ("m", "wave length L"),
+    "keulegan_carpenter": ("1", "Keulegan-Carpenter number u T / B"),
+    "reynolds": ("1", "Reynolds number u B / nu"),
+    "beta": ("1", "frequency parameter B2 f / nu"),
+    "orbit_ratio": ("1", "smaller over larger axis of the orbit across the member"),
+    "velocity_amplitude": ("m/s", "velocity amplitude along each axis of the section"),
+    "inertia_coefficient": ("1", "inertia coefficient without circulation"),
+    "effective_inertia_coefficient": ("1", "inertia coefficient that inertia and Magnus force show together"),
+    "drag_coefficient": ("1", "drag coefficient"),
+    "circulation": ("m2/s", "circulation, positive clockwise in axes of the section"),
+    "settled_circulation": ("m2/s", "circulation gamma vx vy T that the law gives, counted or not"),
+    "laminar_circulation": ("m2/s", "circulation at the edge of the laminar layer, 3 vx vy T"),
+    "wet_share": ("1", "share of time and length under water"),
+    "maximum_strip_force": ("N/m", "largest force per length along each axis of the section"),
+    "maximum_force": ("N", "largest force on the member, by direction"),
+    "force_deviation": ("N", "standard deviation of the force on the member"),
+    "mean_force": ("N", "mean force on the member"),
+    "maximum_total_force": ("N", "largest resultant force on the member"),
+    "maximum_moment": ("N m", "largest moment about the middle of the member, by direction"),
+    "maximum_end_force": ("N", "largest resultant at each end of the simply supported member"),
+    "surface_elevation": ("m", "surface above the middle of the member"),
+    "force": ("N", "force on the member"),
+    "inertia_force": ("N", "inertia force on the member"),
+    "drag_force": ("N", "drag force on the member"),
+    "magnus_force": ("N", "Magnus force on the member"),
+    "time": ("s", "time"),
+    "arai_inertia_coefficient": ("1", "circulation of Arai et al., gamma = 0.936"),
+    "otsuka_inertia_coefficient": ("1", "circulation of Otsuka and Ikeda, gamma = 1"),
+    "chaplin_inertia_coefficient": ("1", "circulation of Chaplin, gamma = 1.036"),
+    "planar_inertia_coefficient": ("1", "planar flow: no reduction below KC about 5"),
+    "laminar_inertia_coefficient": ("1", "laminar ceiling of the circulation, gamma = 3"),
+    "arai_circulation": ("m2/s", "circulation of Arai et al., circular orbit"),
+    "otsuka_circulation": ("m2/s", "circulation that Otsuka and Ikeda's formula amounts to"),
+    "chaplin_circulation": ("m2/s", "circulation that Chaplin's formula amounts to"),
+    "magnus_force_per_length": ("N/m", "amplitude of the Magnus force, circular orbit"),
+    "near_surface_inertia_coefficient": ("1", "inertia coefficient under the free surface by potential theory"),
+    "near_surface_change": ("1", "its departure from the ideal one, over the ideal one"),
+    "radiation_ratio": ("1", "wave damping over omega rho A"),
+}
+
+
+def labelled(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
+    out = dataset.copy()
+    for name in list(out.variables):
+        entry = VARIABLES.get(str(name))
+        if entry is not None:
+            out[name].attrs = {"units": entry[0], "long_name": entry[1], **out[name].attrs}
+    return out

@@ -1,0 +1,266 @@
+"""Coefficients of a strip of a member: ideal inertia, sourced drag laws by KC, Re and roughness, or given numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.morison.planar import hall_limit, stokes_wang_drag, stokes_wang_inertia
+from moyai.morison.sections import MemberSection
+from moyai.tables.member_drag import DragEntry, api_circle, steady_circle, steady_rectangle
+
+Array = NDArray[np.float64]
+
+#: Laws of the drag coefficient by name: what they are for
+DRAG_LAWS: dict[str, str] = {
+    "dnv_c205": "circle by KC and roughness, post-critical (DNV-RP-C205, 6.7 and 6.9)",
+    "api": "circle in storm waves, smooth or rough (API RP 2A)",
+    "stokes_wang": "circle, laminar planar flow at small KC",
+    "steady": "steady flow: circle below the drag crisis, rectangles by their proportions",
+}
+#: Laws that give an inertia coefficient as well; "ideal" is the boundary integral of the section
+INERTIA_LAWS: dict[str, str] = {
+    "ideal": "ideal fluid, from the section",
+    "dnv_c205": DRAG_LAWS["dnv_c205"],
+    "api": DRAG_LAWS["api"],
+    "stokes_wang": DRAG_LAWS["stokes_wang"],
+}
+#: Relative roughness k/D from which API's values for rough members are taken
+API_ROUGH = 1e-4
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """The flow at a strip, by axis of the section where it differs.
+
+    Parameters
+    ----------
+    keulegan_carpenter : float
+        KC = u T / D with the larger amplitude and the larger extent [-].
+    reynolds : float
+        Re = u D / nu [-].
+    beta : float
+        D^2 f / nu [-].
+    relative_roughness : float
+        k / D [-].
+    """
+
+    keulegan_carpenter: float
+    reynolds: float
+    beta: float
+    relative_roughness: float = 0.0
+
+
+@dataclass(frozen=True)
+class StripCoefficients:
+    """Coefficients of one strip in axes of the section.
+
+    Parameters
+    ----------
+    inertia : ndarray, shape (2, 2)
+        C_M before the circulation.
+    drag : ndarray, shape (2,)
+        C_D on the width across each axis.
+    notices : tuple of Notice
+    """
+
+    inertia: Array
+    drag: Array
+    notices: tuple[Notice, ...] = ()
+
+
+@dataclass(frozen=True)
+class CoefficientRule:
+    """Where the coefficients of a member come from.
+
+    Parameters
+    ----------
+    drag : tuple of float or str
+        C_D along both axes, or a law of ``DRAG_LAWS``.
+    inertia : tuple of float or str
+        C_M along both axes, or a law of ``INERTIA_LAWS``.
+    """
+
+    drag: tuple[float, float] | str
+    inertia: tuple[float, float] | str = "ideal"
+
+    def __post_init__(self) -> None:
+        for name, value, laws in (("drag", self.drag, DRAG_LAWS), ("inertia", self.inertia, INERTIA_LAWS)):
+            if isinstance(value, str):
+                if value not in laws:
+                    raise InputError(f"unknown {name} law '{value}'", path=name, allowed=", ".join(laws))
+            elif not all(math.isfinite(item) and item >= 0.0 for item in value):
+                raise InputError(f"{name} coefficients are {value}", path=name, allowed="at least 0")
+
+    def at(self, section: MemberSection, flow: Conditions) -> StripCoefficients:
+        """Return the coefficients of a section in a flow.
+
+        Raises
+        ------
+        InputError
+            When a law does not speak of this section.
+        """
+        notices: list[Notice] = []
+        inertia = self._inertia(section, flow, notices)
+        drag = self._drag(section, flow, notices)
+        return StripCoefficients(inertia, drag, tuple(notices))
+
+    def _inertia(self, section: MemberSection, flow: Conditions, notices: list[Notice]) -> Array:
+        if not isinstance(self.inertia, str):
+            return np.diag(np.asarray(self.inertia, dtype=float))
+        if self.inertia == "ideal":
+            return section.inertia.tensor
+        _require_circle(section, self.inertia, "inertia")
+        if self.inertia == "stokes_wang":
+            notices.extend(_laminar_notices(flow))
+            return np.eye(2) * float(stokes_wang_inertia(flow.beta))
+        if self.inertia == "api":
+            entry = api_circle(rough=flow.relative_roughness >= API_ROUGH)
+            notices.extend(_range_notices("API RP 2A", entry, flow))
+            return np.eye(2) * entry.inertia
+        notices.extend(_dnv_notices(flow))
+        return np.eye(2) * (1.0 + dnv_added_mass(flow.keulegan_carpenter, flow.relative_roughness))
+
+    def _drag(self, section: MemberSection, flow: Conditions, notices: list[Notice]) -> Array:
+        if not isinstance(self.drag, str):
+            return np.asarray(self.drag, dtype=float)
+        if self.drag == "steady":
+            return _steady(section, flow, notices)
+        _require_circle(section, self.drag, "drag")
+        if self.drag == "stokes_wang":
+            notices.extend(_laminar_notices(flow))
+            return np.full(2, float(stokes_wang_drag(max(flow.keulegan_carpenter, 1e-9), flow.beta)))
+        if self.drag == "api":
+            entry = api_circle(rough=flow.relative_roughness >= API_ROUGH)
+            notices.extend(_range_notices("API RP 2A", entry, flow))
+            return np.full(2, entry.drag)
+        notices.extend(_dnv_notices(flow))
+        return np.full(2, dnv_drag(flow.keulegan_carpenter, flow.relative_roughness))
+
+
+def dnv_steady_drag(relative_roughness: float) -> float:
+    """Return the steady drag coefficient of a circle in post-critical flow by its roughness k/D (DNV-RP-C205, 6.7.1).
+
+    0.65 below 1e-4, (29 + 4 log10(k/D)) / 20 up to 1e-2, 1.05 above [eq:morison-dnv-steady].
+    """
+    if relative_roughness <= 1e-4:
+        return 0.65
+    if relative_roughness >= 1e-2:
+        return 1.05
+    return (29.0 + 4.0 * math.log10(relative_roughness)) / 20.0
+
+
+def dnv_drag(keulegan_carpenter: float, relative_roughness: float) -> float:
+    """Return C_D = C_DS psi(KC) of a circle (DNV-RP-C205, 6.7.2) [eq:morison-dnv-drag].
+
+    Beyond KC = 12, where the recommended practice gives a figure, the factor keeps its value of KC = 12, the crest of
+    that figure.
+    """
+    steady = dnv_steady_drag(relative_roughness)
+    level = 1.50 - 0.024 * (12.0 / steady - 10.0)
+    if keulegan_carpenter < 0.75:
+        factor = level - 1.0 - 2.0 * (keulegan_carpenter - 0.75)
+    elif keulegan_carpenter < 2.0:
+        factor = level - 1.0
+    else:
+        factor = level + 0.10 * (min(keulegan_carpenter, 12.0) - 12.0)
+    return steady * factor
+
+
+def dnv_added_mass(keulegan_carpenter: float, relative_roughness: float) -> float:
+    """Return C_A of a circle by KC and roughness (DNV-RP-C205, 6.9.1) [eq:morison-dnv-inertia]."""
+    if keulegan_carpenter < 3.0:
+        return 1.0
+    steady = dnv_steady_drag(relative_roughness)
+    return max(1.0 - 0.044 * (keulegan_carpenter - 3.0), 0.6 - (steady - 0.65))
+
+
+def _steady(section: MemberSection, flow: Conditions, notices: list[Notice]) -> Array:
+    if section.is_circle:
+        entry = steady_circle()
+        notices.extend(_range_notices("the drag of a circle in steady flow", entry, flow))
+        drag = np.full(2, entry.drag)
+    elif section.name in ("rectangle", "square"):
+        along, up = section.extents
+        entries = (steady_rectangle(along / up), steady_rectangle(up / along))
+        notices.extend(_range_notices("the drag of a rectangle in steady flow", entries[0], flow))
+        drag = np.array([entry.drag for entry in entries])
+    else:
+        raise InputError(
+            f"there is no steady drag of a {section.name}", path="drag", remedy="give the two coefficients as numbers"
+        )
+    if flow.keulegan_carpenter < 20.0:
+        notices.append(
+            Notice(
+                "steady-drag-in-waves",
+                f"drag of steady flow is used at KC = {flow.keulegan_carpenter:.3g}; sharp sections in waves show more",
+                value=flow.keulegan_carpenter,
+                limit=20.0,
+                severity="information",
+                remedy="give measured coefficients where drag matters",
+            )
+        )
+    return drag
+
+
+def _require_circle(section: MemberSection, law: str, name: str) -> None:
+    if not section.is_circle:
+        raise InputError(
+            f"the law '{law}' speaks of circles, the section is a {section.name}",
+            path=name,
+            allowed="circle",
+            remedy="use 'ideal' or give numbers" if name == "inertia" else "use 'steady' or give numbers",
+        )
+
+
+def _range_notices(what: str, entry: DragEntry, flow: Conditions) -> list[Notice]:
+    if entry.reynolds_low <= flow.reynolds <= entry.reynolds_high:
+        return []
+    limit = entry.reynolds_low if flow.reynolds < entry.reynolds_low else entry.reynolds_high
+    return [
+        Notice(
+            "drag-reynolds",
+            f"{what} was found at Re {'above' if limit == entry.reynolds_low else 'below'} {limit:.0e}, here "
+            f"Re = {flow.reynolds:.2g}",
+            value=flow.reynolds,
+            limit=limit,
+            remedy="give measured coefficients",
+        )
+    ]
+
+
+def _dnv_notices(flow: Conditions) -> list[Notice]:
+    notices = _range_notices("DNV-RP-C205's drag", DragEntry(math.nan, math.nan, 1e6, math.inf, False, "D"), flow)
+    if flow.keulegan_carpenter > 12.0:
+        notices.append(
+            Notice(
+                "drag-keulegan-carpenter",
+                f"the amplification of drag keeps its crest of KC = 12 at KC = {flow.keulegan_carpenter:.3g}",
+                value=flow.keulegan_carpenter,
+                limit=12.0,
+                severity="information",
+                source="DNV-RP-C205, 6.7.2",
+            )
+        )
+    return notices
+
+
+def _laminar_notices(flow: Conditions) -> list[Notice]:
+    limit = float(hall_limit(flow.beta))
+    if flow.keulegan_carpenter <= limit:
+        return []
+    return [
+        Notice(
+            "stokes-wang-unstable",
+            f"Stokes and Wang's laminar flow is unstable at KC = {flow.keulegan_carpenter:.3g}, above {limit:.2g}",
+            value=flow.keulegan_carpenter,
+            limit=limit,
+            remedy="give measured coefficients; the laminar drag is too small there",
+            source="Hall (1984)",
+        )
+    ]

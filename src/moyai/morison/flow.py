@@ -1,0 +1,128 @@
+"""The flow past a member: linear, irregular and finite-height waves behind one call, current beside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.sea.components import WaveComponents
+from moyai.sea.kinematics import Stretching, stretching_code, wheeler_elevation
+from moyai.sea.nonlinear import NonlinearWave
+
+Array = NDArray[np.float64]
+
+#: Nodes of the interpolation over the heights that Wheeler's stretching reaches at one point
+_WHEELER_NODES = 14
+
+
+@dataclass(frozen=True, eq=False)
+class FlowSample:
+    """Orbital motion at points over time, without current.
+
+    Parameters
+    ----------
+    elevation : ndarray, shape (times, points)
+        Surface above each point [m].
+    velocity, acceleration : ndarray, shape (times, points, 3)
+        [m/s], [m/s2]; above the surface whatever the theory continues to, see the wetted share.
+    """
+
+    elevation: Array
+    velocity: Array
+    acceleration: Array
+
+
+class Flow(Protocol):
+    """Waves that can be asked for their motion at fixed points."""
+
+    def sample(self, time: Array, points: Array) -> FlowSample:
+        """Return the motion at times [s] at points (n, 3) [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class LinearFlow:
+    """Linear waves, regular or irregular, with a treatment of the region above still water.
+
+    Parameters
+    ----------
+    components : WaveComponents
+        With their water.
+    stretching : {"constant", "linear", "wheeler"}
+        See :func:`moyai.sea.kinematics.stretching_code`.
+    """
+
+    components: WaveComponents
+    stretching: Stretching = "wheeler"
+
+    def __post_init__(self) -> None:
+        stretching_code(self.stretching)
+        if self.components.water is None:
+            raise InputError("the components know no water", path="components", remedy="give water=Water(...)")
+
+    def sample(self, time: Array, points: Array) -> FlowSample:
+        """Return the motion at times [s] at points (n, 3) [m]."""
+        sea, at = self.components, np.asarray(points, dtype=float)
+        x, y, z = at.T
+        elevation = np.asarray(sea.elevation(time, x, y), dtype=float)
+        if self.stretching != "wheeler":
+            moved, pushed = sea.transfer_functions(x, y, z, self.stretching)
+            return FlowSample(elevation, sea.respond(moved, time), sea.respond(pushed, time))
+        velocity = np.empty((*elevation.shape, 3))
+        acceleration = np.empty_like(velocity)
+        for number in range(len(at)):
+            self._wheeler(time, at[number], elevation[:, number], velocity[:, number], acceleration[:, number])
+        return FlowSample(elevation, velocity, acceleration)
+
+    def _wheeler(self, time: Array, point: Array, elevation: Array, velocity: Array, acceleration: Array) -> None:
+        """Fill the motion at one point: linear motion at a few heights, interpolated to the stretched height."""
+        depth = float(self.components.water.depth)  # type: ignore[union-attr]
+        level = np.clip(wheeler_elevation(point[2], elevation, depth), -depth, 0.0)
+        low, high = float(level.min()), float(level.max())
+        count = _WHEELER_NODES if high - low > 1e-12 else 1
+        nodes = np.cos(math.pi * (np.arange(count) + 0.5) / count) if count > 1 else np.zeros(1)
+        heights = 0.5 * (low + high) + 0.5 * (high - low) * nodes
+        x, y = np.full(count, point[0]), np.full(count, point[1])
+        transfer = np.concatenate(self.components.transfer_functions(x, y, heights), axis=-2)
+        values = self.components.respond(transfer, time)
+        share = np.ones((time.size, 1)) if count == 1 else _lagrange(nodes, (2.0 * level - low - high) / (high - low))
+        both = np.einsum("tn,tna->ta", share, values)
+        velocity[:], acceleration[:] = both[:, :3], both[:, 3:]
+
+
+def _lagrange(nodes: Array, at: Array) -> Array:
+    """Return the values of the Lagrange polynomials of Chebyshev nodes, shape (points, nodes)."""
+    count = len(nodes)
+    angle = math.pi * (np.arange(count) + 0.5) / count
+    weight = np.where(np.arange(count) % 2 == 0, 1.0, -1.0) * np.sin(angle)
+    gap = at[:, None] - nodes
+    exact = np.abs(gap) < 1e-15
+    share = weight / np.where(exact, 1.0, gap)
+    share = np.where(exact.any(axis=1, keepdims=True), exact.astype(float), share)
+    return np.asarray(share / share.sum(axis=1, keepdims=True))
+
+
+@dataclass(frozen=True, eq=False)
+class NonlinearFlow:
+    """A regular wave of finite height (Stokes, stream function); its uniform current is taken out.
+
+    Parameters
+    ----------
+    wave : NonlinearWave
+        Kinematics reach the crest; the acceleration is that of water particles, convective part included.
+    """
+
+    wave: NonlinearWave
+
+    def sample(self, time: Array, points: Array) -> FlowSample:
+        """Return the motion at times [s] at points (n, 3) [m]."""
+        x, y, z = np.asarray(points, dtype=float).T
+        velocity = self.wave.velocity(time, x, y, z)
+        current = self.wave.current_along_wave
+        velocity[..., 0] -= current * math.cos(self.wave.heading)
+        velocity[..., 1] -= current * math.sin(self.wave.heading)
+        return FlowSample(self.wave.elevation(time, x, y), velocity, self.wave.acceleration(time, x, y, z))
