@@ -5,6 +5,7 @@ from __future__ import annotations
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import islice
 from typing import Any
 
 from moyai.core.errors import InputError
@@ -50,7 +51,7 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
             return future
 
         room = max(1, _FLIGHT * sum(client.nthreads().values()))
-        futures = as_completed([submit(case) for case, _ in zip(waiting, range(room))])
+        futures = as_completed([submit(case) for case in islice(waiting, room)], loop=client.loop)
         try:
             for future in futures:
                 combination = jobs.pop(future.key)

@@ -24,7 +24,7 @@ from moyai.study.variations import Axis, Combination, axes_of, combinations
 LARGEST = 1_000_000
 """Number of cases above which a study is refused as a slip."""
 
-_CHECKED_ALL = 2_000
+_CHECKED_ALL = 500
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ class Study:
 def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Study:
     """Read a study file and check every case that it describes.
 
-    Up to 2000 cases are all checked one by one. Of more, every point of every axis is checked, with the other axes at
-    their first point, and 2000 cases spread over the study; what is left shows as a labelled failure when it runs.
+    Up to 500 cases are all checked one by one. Of more, every point of every axis is checked, with the other axes at
+    their first point, and 500 cases spread over the study; what is left shows as a labelled failure when it runs.
 
     Parameters
     ----------
@@ -100,8 +100,8 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     try:
         base = varied(base, Combination(-1, (), tuple(block.set.items())))
     except InputError as error:
-        place = ("study", "set", error.fault.path)
-        faults.append(document.fault(place, error.fault.message, remedy=error.fault.remedy, of_key=True))
+        changed: KeyPath = ("study", "set", error.fault.path)
+        faults.append(document.fault(changed, error.fault.message, remedy=error.fault.remedy, of_key=True))
     axes: list[Axis] = []
     for number, variation in enumerate(block.variations):
         where: KeyPath = ("study", "variations", number)

@@ -90,10 +90,10 @@ def axes_of(variation: schema.Variation, base: Any, folder: Path) -> tuple[Axis,
         given = getattr(variation, kind)
         if given is not None and given is not False:
             axes = build(given, base, folder)
-            for axis in axes:
-                for point in axis.points:
-                    for path in (*(path for path, _ in point.assignments), *point.removals):
-                        resolve(base, path)
+            points = [point for axis in axes for point in axis.points]
+            named = [path for point in points for path in (*dict(point.assignments), *point.removals)]
+            for path in dict.fromkeys(named):
+                resolve(base, path)
             return axes
     return ()
 

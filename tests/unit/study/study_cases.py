@@ -1,0 +1,121 @@
+"""Cases for the tests of studies: a stand-in for the analysis that costs nothing and is known exactly."""
+
+import math
+import os
+import signal
+import time
+
+import xarray as xr
+
+from moyai.core.errors import InputError
+from moyai.core.results import Result
+
+BASE = """\
+moyai: 1
+title: base
+site: {water_depth: 10 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+waves:
+  - {name: storm, kind: jonswap, significant_height: 1.0 m, peak_period: 5 s, peak_enhancement: 3.3, heading_deg: 0,
+     duration: 600 s, seed: 1}
+structure:
+  kind: breakwater
+  length: 20 m
+  section: {shape: rectangle, beam: 10 m, height: 4.5 m}
+  draught: 3 m
+  centre_of_gravity_above_keel: 2.29 m
+  roll_gyradius: 2.67 m
+lines:
+  - name: seaward
+    count: 2
+    fairlead: {x: -5 m, above_keel: 0 m}
+    anchor: {x: -57.5 m}
+    segments:
+      - {catalogue: studless_chain_R3, diameter: 68 mm, length: 54.5 m}
+  - name: shoreward
+    fairlead: {x: 5 m, above_keel: 0 m}
+    anchor: {x: 57.5 m}
+    segments:
+      - {catalogue: studless_chain_R3, diameter: 68 mm, length: 54.5 m}
+analyses: [statics]
+"""
+
+
+def write_base(folder):
+    path = folder / "base.yaml"
+    path.write_text(BASE, encoding="utf-8")
+    return path
+
+
+def write_text(folder, variations, **further):
+    write_base(folder)
+    lines = ["moyai: 1", "study:", "  title: test", "  base: base.yaml"]
+    lines += [f"  {key}: {value}" for key, value in further.items()]
+    lines += ["  variations:", *("    " + line for line in variations.strip().splitlines())]
+    path = folder / "study.yaml"
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def write_study(folder, heights, seeds, **further):
+    values = ", ".join(f"{0.2 + 0.05 * index:.2f} m" for index in range(heights))
+    return write_text(
+        folder,
+        f"- grid: {{'waves[storm].significant_height': [{values}]}}\n"
+        f"- seeds: {{path: 'waves[storm].seed', count: {seeds}}}",
+        **further,
+    )
+
+
+def response(height, period, seed):
+    return math.sin(height * 7.0 + seed) * period / 3.0
+
+
+def fast_case(case, progress):
+    sea = case.model.waves[0]
+    value = response(sea.significant_height, sea.peak_period, sea.seed)
+    names = [line.name for line in case.model.lines]
+    data = {
+        "response": ((), value, {"units": "m", "long_name": "response"}),
+        "tension": (("line",), [value * (1 + number) for number in range(len(names))], {"units": "N"}),
+        "count": (("line",), [float(line.count) for line in case.model.lines], {"units": "1"}),
+        "series": (("time",), [value, 2 * value, 3 * value], {"units": "N", "long_name": "series"}),
+    }
+    dataset = xr.Dataset(data, coords={"line": names, "time": [0.0, 1.0, 2.0]})
+    return Result(xr.DataTree.from_dict({"/": xr.Dataset(), "/SWL": dataset}))
+
+
+def slow_case(case, progress):
+    for step in range(4):
+        time.sleep(0.05)
+        progress("step", step, 4)
+    return fast_case(case, progress)
+
+
+def long_case(case, progress):
+    for step in range(600):
+        time.sleep(0.05)
+        progress("step", step, 600)
+    return fast_case(case, progress)
+
+
+def failing_case(case, progress):
+    if case.model.waves[0].seed == 2:
+        raise InputError("the float sinks", path="structure.draught", remedy="make it lighter")
+    if case.model.waves[0].seed == 3:
+        raise ZeroDivisionError("a fault of the program")
+    return fast_case(case, progress)
+
+
+def deadly_case(case, progress):
+    if case.model.waves[0].seed == 2:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return fast_case(case, progress)
+
+
+def once_deadly_case(case, progress):
+    mark = os.environ["MOYAI_TEST_MARK"]
+    if case.model.waves[0].seed == 2 and not os.path.exists(mark):
+        with open(mark, "w", encoding="utf-8"):
+            pass
+        os.kill(os.getpid(), signal.SIGKILL)
+    return fast_case(case, progress)

@@ -1,0 +1,241 @@
+"""Reading a study file: every kind of variation, and one clear message for every slip."""
+
+import math
+
+import numpy as np
+import pytest
+import study_cases
+
+from moyai.case.yaml_reader import parse_yaml
+from moyai.core.errors import CaseError, InputError
+from moyai.study.paths import resolve, value_of
+from moyai.study.plan import case_at, load_study
+from moyai.study.scatter import read_scatter
+
+
+def faults(tmp_path, variations, **further):
+    with pytest.raises(CaseError) as caught:
+        load_study(study_cases.write_text(tmp_path, variations, **further))
+    return "\n".join(str(fault) for fault in caught.value.faults)
+
+
+@pytest.mark.parametrize(
+    ("path", "places"),
+    [
+        ("site.water_depth", [("site", "water_depth")]),
+        ("waves[storm].seed", [("waves", 0, "seed")]),
+        ("waves.storm.seed", [("waves", 0, "seed")]),
+        ("waves[0].seed", [("waves", 0, "seed")]),
+        ("lines[*].segments[0].length", [("lines", 0, "segments", 0, "length"), ("lines", 1, "segments", 0, "length")]),
+        ("lines[shoreward].count", [("lines", 1, "count")]),
+        ("site.water_levels", [("site", "water_levels")]),
+    ],
+)
+def test_paths_find_their_places(path, places):
+    data = parse_yaml(study_cases.BASE).data
+    assert list(resolve(data, path)) == places
+
+
+def test_a_block_in_place_of_a_list_of_one_is_found_by_number_and_name():
+    data = parse_yaml("waves: {name: storm, seed: 3}").data
+    for path in ("waves[0].seed", "waves.seed", "waves[storm].seed", "waves[*].seed"):
+        (place,) = resolve(data, path)
+        assert value_of(data, place) == 3
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        ("waves[strom].seed", ["no entry 'strom'", "did you mean 'storm'"]),
+        ("waves[3].seed", ["1 entry", "no [3]"]),
+        ("sight.water_depth", ["no key 'sight'", "site"]),
+        ("site.water_depth.x", ["nothing below 'site.water_depth'"]),
+        ("site..water_depth", ["no path"]),
+        ("", ["empty"]),
+        ("lines[0", ["no path"]),
+    ],
+)
+def test_paths_that_lead_nowhere_say_where_they_end(path, words):
+    with pytest.raises(InputError) as caught:
+        resolve(parse_yaml(study_cases.BASE).data, path)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_a_misspelt_last_key_is_told_by_the_schema_of_the_case(tmp_path):
+    told = faults(tmp_path, "- grid: {'waves[storm].significant_hight': [1 m]}")
+    assert "unknown key 'significant_hight'" in told and "case 1 of 1" in told
+
+
+def test_a_path_that_does_not_exist_is_told_with_its_line(tmp_path):
+    told = faults(tmp_path, "- grid: {'waves[strom].seed': [1, 2]}")
+    assert "study.yaml:6" in told and "did you mean 'storm'" in told
+
+
+def test_a_grid_runs_every_value_with_every_other_the_last_fastest(tmp_path):
+    study = load_study(
+        study_cases.write_text(
+            tmp_path,
+            "- grid:\n    'waves[storm].significant_height': [0.5 m, 60 cm]\n"
+            "    'waves[storm].peak_period': {from: 4 s, to: 5 s, count: 3}",
+        )
+    )
+    assert study.shape == (2, 3)
+    seas = [case_at(study, case).model.waves[0] for case in study.cases]
+    assert [sea.significant_height for sea in seas] == [0.5] * 3 + [0.6] * 3
+    assert [sea.peak_period for sea in seas] == [4.0, 4.5, 5.0] * 2
+    assert study.axes[0].coordinates() == {"waves[storm].significant_height": ([0.5, 0.6], "m")}
+
+
+def test_a_list_sets_several_values_and_leaves_out_others(tmp_path):
+    study = load_study(
+        study_cases.write_text(
+            tmp_path,
+            "- list:\n    name: layout\n    cases:\n"
+            "      - {label: long, set: {'lines[*].segments[0].length': 55 m, 'structure.draught': 2.9 m}}\n"
+            "      - {label: one-sided, remove: ['lines[shoreward]']}",
+        )
+    )
+    long, one_sided = (case_at(study, case).model for case in study.cases)
+    assert [line.segments[0].length for line in long.lines] == [55.0, 55.0]
+    assert long.structure.draught == 2.9
+    assert [line.name for line in one_sided.lines] == ["seaward"]
+
+
+def test_a_table_gives_a_case_a_row(tmp_path):
+    (tmp_path / "seas.csv").write_text("Hs;Tp;note\n0.5;4;calm\n0.8;5,5;x\n".replace("5,5", "5.5"), encoding="utf-8")
+    study = load_study(
+        study_cases.write_text(
+            tmp_path,
+            "- table:\n    file: seas.csv\n    units: {Hs: m}\n"
+            "    columns: {Hs: 'waves[storm].significant_height', Tp: 'waves[0].peak_period'}",
+        )
+    )
+    seas = [case_at(study, case).model.waves[0] for case in study.cases]
+    assert [(sea.significant_height, sea.peak_period) for sea in seas] == [(0.5, 4.0), (0.8, 5.5)]
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("", "empty"),
+        ("Hs,Tp\n", "no rows"),
+        ("Hs,Tp\n1,\n", "row 2: column 'Tp' is empty"),
+        ("a,b\n1,2\n", "no column"),
+    ],
+)
+def test_bad_tables_are_told_by_row_and_column(tmp_path, text, word):
+    (tmp_path / "seas.csv").write_text(text, encoding="utf-8")
+    told = faults(
+        tmp_path,
+        "- table: {file: seas.csv, columns: {Hs: 'waves[0].significant_height', Tp: 'waves[0].peak_period'}}",
+    )
+    assert word in told
+
+
+def test_return_periods_pair_the_rarest_waves_with_the_next_rarer_current_and_the_reverse(tmp_path):
+    study = load_study(
+        study_cases.write_text(
+            tmp_path,
+            "- return_periods:\n"
+            "    waves: {1 yr: {'waves[0].significant_height': 0.5 m}, 10 yr: {'waves[0].significant_height': 0.8 m},"
+            " 50 yr: {'waves[0].significant_height': 1 m}}\n"
+            "    current: {1 yr: {current: {speed: 0.1 m/s, heading_deg: 0}},"
+            " 10 yr: {current: {speed: 0.3 m/s, heading_deg: 0}}, 50 yr: {current: {speed: 0.4 m/s, heading_deg: 0}}}",
+            set="{structure.current_drag_coefficient: 1.5}",
+        )
+    )
+    assert [case.labels for case in study.cases] == [("waves 50 yr, current 10 yr",), ("waves 10 yr, current 50 yr",)]
+    first = case_at(study, study.cases[0]).model
+    assert first.waves[0].significant_height == 1.0 and first.current.speed == 0.3
+
+
+def test_scatter_diagrams_carry_their_probabilities(tmp_path):
+    (tmp_path / "scatter.csv").write_text("Hs\\Tp,4,5,6\n0.5,10,20,0\n0.8,,5,5\n", encoding="utf-8")
+    study = load_study(
+        study_cases.write_text(
+            tmp_path,
+            "- scatter: {file: scatter.csv, significant_height: 'waves[0].significant_height',"
+            " period: 'waves[0].peak_period', counts: true}",
+        )
+    )
+    points = study.axes[0].points
+    assert len(points) == 4
+    assert math.isclose(sum(point.probability for point in points), 1.0)
+    assert [round(point.probability, 3) for point in points] == [0.25, 0.5, 0.125, 0.125]
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("Hs,4,5\n0.5,0,0\n", "empty"),
+        ("", "empty"),
+        ("Hs,4,5\n0.5,0.3,0.3\n", "sum to 0.6"),
+        ("Hs,4,5\n0.5,x,0.3\n", "row 2, column 2"),
+        ("Hs,4,5\n0.5,-1,0.3\n", "row 2, column 2"),
+        ("significant_height,peak_period,probability\n0.5,4\n", "three columns"),
+    ],
+)
+def test_bad_scatter_diagrams_are_told(tmp_path, text, word):
+    file = tmp_path / "scatter.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=word):
+        read_scatter(file)
+
+
+@pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
+def test_samples_follow_their_distributions_and_their_seed(tmp_path, method):
+    text = (
+        f"- sample:\n    method: {method}\n    count: 64\n    seed: 4\n    variables:\n"
+        "      'waves[0].significant_height': {uniform: [50 cm, 1 m]}\n"
+        "      'structure.draught': {normal: [3 m, 10 cm]}\n"
+        "      'waves[0].peak_period': {lognormal: [5 s, 0.5 s]}\n"
+    )
+    study = load_study(study_cases.write_text(tmp_path, text))
+    again = load_study(study_cases.write_text(tmp_path, text))
+    assert study.key == again.key
+    coordinates = study.axes[0].coordinates()
+    height = np.array(coordinates["waves[0].significant_height"][0])
+    draught = np.array(coordinates["structure.draught"][0])
+    period = np.array(coordinates["waves[0].peak_period"][0])
+    assert height.min() >= 0.5 and height.max() <= 1.0 and abs(height.mean() - 0.75) < 1e-2
+    assert abs(draught.mean() - 3.0) < 1e-2 and abs(draught.std() - 0.1) < 1e-2
+    assert abs(period.mean() - 5.0) < 5e-2 and abs(period.std() - 0.5) < 6e-2
+
+
+def test_faults_of_cases_are_told_once_with_the_first_case_that_shows_them(tmp_path):
+    told = faults(tmp_path, "- grid: {'structure.draught': [3 m, -1 m], 'waves[0].peak_period': [4 s, 5 s]}")
+    assert "draught -1 m" in told and "and 1 more cases" in told and told.count("structure.draught") == 1
+
+
+@pytest.mark.parametrize(
+    ("variations", "word"),
+    [
+        ("- grid: {'waves[0].seed': []}", "waves[0].seed"),
+        ("- gird: {'waves[0].seed': [1]}", "did you mean 'grid'"),
+        ("- {grid: {'waves[0].seed': [1]}, lines_lost: true}", "exclude each other"),
+        ("- grid: {'waves[0].seed': [1]}\n- seeds: {path: 'waves[0].seed', count: 2}", "two axes"),
+        ("- grid: {'waves[0].seed': [1]}\n- seeds: {name: n, path: 'waves[0].seed', count: 2}", "varied by both"),
+        ("- sample: {count: 4, seed: 1, variables: {'structure.draught': {uniform: [3 m, 2 m]}}}", "empty"),
+        ("- sample: {count: 4, seed: 1, variables: {'structure.draught': {uniform: [3 m, 2 s]}}}", "one kind"),
+        ("- seeds: {path: 'waves[0].seed', count: 0}", "count"),
+        ("- table: {file: none.csv, columns: {a: 'waves[0].seed'}}", "no such file"),
+        ("- seeds: {path: 'waves[0].seed', count: 400000}\n- lines_lost: true", "1200000 cases"),
+    ],
+)
+def test_slips_of_a_study_file_are_told(tmp_path, variations, word):
+    assert word in faults(tmp_path, variations)
+
+
+def test_a_base_case_that_is_not_there_is_told(tmp_path):
+    path = study_cases.write_text(tmp_path, "- lines_lost: true")
+    (tmp_path / "base.yaml").unlink()
+    with pytest.raises(CaseError, match="no such file"):
+        load_study(path)
+
+
+def test_shared_changes_reach_every_case(tmp_path):
+    study = load_study(
+        study_cases.write_text(tmp_path, "- seeds: {path: 'waves[0].seed', count: 2}", set="{structure.draught: 2.8 m}")
+    )
+    assert [case_at(study, case).model.structure.draught for case in study.cases] == [2.8, 2.8]

@@ -1,0 +1,89 @@
+"""A real scheduler and two real workers on loopback; one of them is killed on the way."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import study_cases
+
+from moyai.core.errors import InputError
+from moyai.study.execute import run_study
+from moyai.study.plan import load_study
+
+distributed = pytest.importorskip("distributed", reason="needs dask.distributed (extra 'cluster')")
+
+pytestmark = pytest.mark.slow
+
+
+def _start(*arguments):
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    return subprocess.Popen(
+        [sys.executable, "-m", *arguments], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    address = tmp_path / "scheduler.json"
+    scheduler = _start(
+        "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
+        "--scheduler-file", str(address),
+    )  # fmt: skip
+    workers = []
+    try:
+        for _ in range(300):
+            if address.exists() and address.stat().st_size:
+                break
+            time.sleep(0.1)
+        workers = [
+            _start(
+                "distributed.cli.dask_worker", "--scheduler-file", str(address), "--nthreads", "1", "--no-dashboard",
+                "--no-nanny", "--local-directory", str(tmp_path),
+            )
+            for _ in range(2)
+        ]  # fmt: skip
+        client = distributed.Client(scheduler_file=str(address), set_as_default=False)
+        client.wait_for_workers(2, timeout=60)
+        yield client, workers
+        client.close()
+    finally:
+        for process in (*workers, scheduler):
+            process.kill()
+            process.wait()
+
+
+def test_a_killed_worker_costs_no_case_and_no_bit(cluster, tmp_path):
+    client, workers = cluster
+    study = load_study(study_cases.write_study(tmp_path, heights=12, seeds=4))
+    killed = []
+
+    def watch(standing):
+        if standing.done == 10:
+            os.kill(workers[0].pid, signal.SIGKILL)
+            killed.append(standing.done)
+
+    on_cluster = run_study(study, tmp_path / "cluster", study_cases.slow_case, workers=1, on=client, watch=watch)
+    here = run_study(study, tmp_path / "here", study_cases.fast_case, workers=1)
+    assert killed
+    assert on_cluster.status == here.status == "converged"
+    assert np.array_equal(
+        on_cluster.tree["SWL"]["response"].values.view(np.int64), here.tree["SWL"]["response"].values.view(np.int64)
+    )
+
+
+def test_nobody_at_the_address_says_how_to_start_a_scheduler(tmp_path, monkeypatch):
+    monkeypatch.setattr("moyai.study.on_dask._CONNECT", 1.0)
+    study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=1))
+    with pytest.raises(InputError, match="dask scheduler"):
+        run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, on="dask://127.0.0.1:9")
+
+
+def test_an_address_of_another_kind_is_refused(tmp_path):
+    study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=1))
+    with pytest.raises(InputError, match="dask://host:port"):
+        run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, on="tcp://127.0.0.1:8786")
