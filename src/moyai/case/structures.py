@@ -44,6 +44,13 @@ STRUCTURES = {
         derived="moyai.case.derived_breakwater:derived_numbers",
         run="moyai.breakwater.analysis:run",
     ),
+    "member": Structure(
+        schema="moyai.case.schema_member:MemberCase",
+        check="moyai.case.check_member:check",
+        build="moyai.case.build_member:build_problem",
+        derived="moyai.case.derived_member:derived_numbers",
+        run="moyai.member.analysis:run",
+    ),
 }
 
 

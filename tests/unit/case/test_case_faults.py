@@ -57,7 +57,7 @@ SINGLE = {
     "misspelt kind of sea": ("kind: jonswap", "kind: jonswop", "jonswop", "waves[1].kind", "'jonswop' is not known here; allowed: regular, jonswap, pierson_moskowitz, bretschneider_mitsuyasu, tma, spectrum_file; did you mean 'jonswap'?"),
     "kind of sea missing": ("    kind: jonswap\n", "", "name: storm", "waves[1].kind", "the key 'kind' is missing; allowed: regular, jonswap"),
     "misspelt shape": ("shape: rectangle", "shape: rectangel", "rectangel", "structure.section.shape", "did you mean 'rectangle'?"),
-    "misspelt structure": ("kind: breakwater", "kind: breakwatr", "breakwatr", "structure.kind", "'breakwatr' is not a known structure; allowed: breakwater; did you mean 'breakwater'?"),
+    "misspelt structure": ("kind: breakwater", "kind: breakwatr", "breakwatr", "structure.kind", "'breakwatr' is not a known structure; allowed: breakwater"),
     "no structure": ("structure:", "structur:", "structur", "structur", "unknown key 'structur'; did you mean 'structure'?"),
     "structure without kind": ("  kind: breakwater\n", "", "structure", "structure.kind", "the key 'kind' is missing; allowed: breakwater"),
     "required key missing": ("  density: 1025 kg/m3\n", "", "site:", "site.density", "the key 'density' is missing; give it: Density of the water, for instance '1025 kg/m3'"),

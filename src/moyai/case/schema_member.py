@@ -1,0 +1,283 @@
+"""Schema of the submerged member case."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+
+from moyai.case.schema_environment import (
+    BretschneiderMitsuyasu,
+    Current,
+    Jonswap,
+    Periods,
+    PiersonMoskowitz,
+    RegularWaves,
+    Site,
+    SpectrumFile,
+    Tma,
+    refuse_no_seas,
+)
+from moyai.case.schema_types import (
+    Block,
+    Duration,
+    Heading,
+    KeyGroups,
+    Length,
+    Name,
+    NonNegativeLength,
+    NonNegativeNumber,
+    OneOrMany,
+    PositiveLength,
+    PositiveNumber,
+    QuantityOf,
+    Whole,
+    once_each,
+    refuse,
+)
+from moyai.core import quantities
+
+Analysis = Literal["sweep", "forces", "surface"]
+Viscosity = Annotated[float, QuantityOf(quantities.VISCOSITY, above=0.0)]
+Strips = Annotated[int, Field(strict=True, ge=1, le=2000)]
+Steps = Annotated[int, Field(strict=True, ge=16, le=10_000)]
+
+
+class CircularMember(Block):
+    """A circular cylinder."""
+
+    shape: Literal["circle"] = Field(description="Circle.")
+    diameter: PositiveLength = Field(description="Diameter.")
+
+
+class RectangularMember(Block):
+    """A sharp rectangle."""
+
+    shape: Literal["rectangle"] = Field(description="Rectangle with sharp corners.")
+    width: PositiveLength = Field(description="Side along the first axis (of a member along the crests: of the waves).")
+    height: PositiveLength = Field(description="Side along the second axis (upwards).")
+
+
+class SquareMember(Block):
+    """A sharp square."""
+
+    shape: Literal["square"] = Field(description="Square with sharp corners.")
+    width: PositiveLength = Field(description="Side.")
+
+
+class RoundedMember(Block):
+    """A rectangle with round corners."""
+
+    shape: Literal["rounded_rectangle"] = Field(description="Rectangle with quarter circles at its corners.")
+    width: PositiveLength = Field(description="Side along the first axis.")
+    height: PositiveLength = Field(description="Side along the second axis.")
+    corner_radius: PositiveLength = Field(description="Radius of the corners, less than half of the smaller side.")
+
+
+class PolygonMember(Block):
+    """Any closed outline of straight edges."""
+
+    shape: Literal["polygon"] = Field(description="Closed outline through given points.")
+    points: Annotated[tuple[tuple[Length, Length], ...], Field(min_length=3, max_length=500)] = Field(
+        description="Corners along the first and second axis, in order around the section, either way.",
+        examples=[[["-1 m", "0 m"], ["1 m", "0 m"], ["0 m", "1.5 m"]]],
+    )
+
+
+MemberSection = Annotated[
+    CircularMember | RectangularMember | SquareMember | RoundedMember | PolygonMember, Field(discriminator="shape")
+]
+
+
+class End(Block):
+    """One end of the axis of the member."""
+
+    x: Length = Field(default=0.0, description="x. Default: 0.")
+    y: Length = Field(default=0.0, description="y. Default: 0.")
+    z: Length = Field(description="Height above datum, negative under it.")
+
+
+class DragTable(Block):
+    """Drag from a law of the literature."""
+
+    law: Literal["dnv_c205", "api", "stokes_wang", "steady"] = Field(
+        description="dnv_c205: circle by KC and roughness; api: circle in storm waves; stokes_wang: laminar circle; "
+        "steady: steady flow, circle or rectangle."
+    )
+    roughness: NonNegativeLength = Field(default=0.0, description="Height of the roughness k. Default: 0, smooth.")
+
+
+def _drag_form(value: Any) -> str:
+    if isinstance(value, (dict, DragTable)):
+        return "<law>"
+    return "<pair>" if isinstance(value, (list, tuple)) else "<number>"
+
+
+def _inertia_form(value: Any) -> str:
+    if isinstance(value, str) and not value.strip()[:1].isdigit():
+        return "<law>"
+    return "<pair>" if isinstance(value, (list, tuple)) else "<number>"
+
+
+Drag = Annotated[
+    Annotated[DragTable, Tag("<law>")]
+    | Annotated[tuple[NonNegativeNumber, NonNegativeNumber], Tag("<pair>")]
+    | Annotated[NonNegativeNumber, Tag("<number>")],
+    Discriminator(_drag_form),
+]
+Inertia = Annotated[
+    Annotated[Literal["ideal", "dnv_c205", "api", "stokes_wang"], Tag("<law>")]
+    | Annotated[tuple[NonNegativeNumber, NonNegativeNumber], Tag("<pair>")]
+    | Annotated[NonNegativeNumber, Tag("<number>")],
+    Discriminator(_inertia_form),
+]
+
+
+def _rising(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    values = [row[0] for row in rows]
+    if any(b <= a for a, b in itertools.pairwise(values)):
+        raise refuse("the first column does not rise", allowed="rows in rising order")
+    return rows
+
+
+Rows = Annotated[tuple[tuple[PositiveNumber, NonNegativeNumber], ...], Field(max_length=1000), AfterValidator(_rising)]
+
+
+def _strength_form(value: Any) -> str:
+    return "<name>" if isinstance(value, str) and not value.strip()[:1].isdigit() else "<number>"
+
+
+class Circulation(Block):
+    """The circulation of orbital flow at small KC, which lowers the inertia force."""
+
+    purpose: Literal["extreme", "response"] = Field(
+        description="extreme: the reduction is left out (safe side); response: it is counted (motions, fatigue)."
+    )
+    strength: Annotated[
+        Annotated[Literal["arai", "otsuka", "chaplin"], Tag("<name>")] | Annotated[NonNegativeNumber, Tag("<number>")],
+        Discriminator(_strength_form),
+    ] = Field(
+        default="arai", description="gamma of Gamma = gamma vx vy T: arai 0.936, otsuka 1, chaplin 1.036, or a number."
+    )
+    relaxation_periods: PositiveNumber = Field(
+        default=5.0, description="Wave periods that the circulation takes to relax. Default: 5."
+    )
+    start: Literal["settled", "calm"] = Field(
+        default="settled", description="Whether the circulation is there from the start or grows from calm."
+    )
+    table: Annotated[Rows, Field(max_length=1000)] = Field(
+        default=(), description="Rows [KC, reduction of C_M] of your own for KC 2 to 4; they replace the law there."
+    )
+    beta_table: Rows = Field(default=(), description="Rows [beta, gamma] that replace 'strength'.")
+
+
+class MemberMotion(Block):
+    """A harmonic translation of the whole member."""
+
+    x: NonNegativeLength = Field(default=0.0, description="Amplitude along x. Default: 0.")
+    y: NonNegativeLength = Field(default=0.0, description="Amplitude along y. Default: 0.")
+    z: NonNegativeLength = Field(default=0.0, description="Amplitude along z. Default: 0.")
+    phase_x_deg: Heading = Field(default=0.0, description="Phase of x: amplitude cos(phase - omega t). Default: 0.")
+    phase_y_deg: Heading = Field(default=0.0, description="Phase of y. Default: 0.")
+    phase_z_deg: Heading = Field(default=0.0, description="Phase of z. Default: 0.")
+    period: Duration | None = Field(
+        default=None, description="Period; that of each regular wave when absent, needed in irregular seas."
+    )
+
+
+class MemberStructure(Block):
+    """A straight submerged member."""
+
+    kind: Literal["member"] = Field(description="Submerged member.")
+    section: MemberSection = Field(description="Shape of the section.")
+    section_angle_deg: Heading = Field(
+        default=0.0, description="Angle by which the section is turned about the member. Default: 0."
+    )
+    start: End = Field(description="One end of the axis.")
+    end: End = Field(description="The other end of the axis.")
+    inertia: Inertia = Field(
+        default="ideal",
+        description="C_M: ideal (from the section), a law, a number, or two along the axes of the section.",
+    )
+    drag: Drag = Field(description="C_D: a number, two along the axes of the section, or {law: name}.")
+    drag_form: Literal["component", "vector"] = Field(
+        default="component", description="Drag u|u| along each axis, or u|U| with the common speed."
+    )
+    kinematic_viscosity: Viscosity = Field(description="Of the water, 1.14e-6 m2/s at 15 degrees Celsius.")
+    circulation: Circulation = Field(description="What is done about the circulation at small KC.")
+    motion: MemberMotion | None = Field(default=None, description="Motion of the member; drag is relative to it.")
+
+
+class MemberRegularWaves(RegularWaves):
+    """Regular waves: every height with every period."""
+
+    exactly_one: ClassVar[KeyGroups] = (
+        ("heading_deg", "from_bearing_deg"),
+        ("period", "periods"),
+        ("height", "heights"),
+    )
+
+    height: PositiveLength | None = Field(default=None, description="Wave height H, crest to trough.")  # type: ignore[assignment]
+    heights: Annotated[tuple[PositiveLength, ...], Field(min_length=1, max_length=1000), AfterValidator(once_each)] = (
+        Field(default=(), description="Wave heights: a list; each is run with every period.")
+    )
+    periods: Periods | None = Field(
+        default=None, description="Wave periods: a list, or evenly spaced {from, to, count}; each is run."
+    )
+    theory: Literal["linear", "stokes", "stream_function"] = Field(  # type: ignore[assignment]
+        default="linear", description="Wave theory: linear, Stokes of fifth order, or stream function."
+    )
+
+    def all_heights(self) -> tuple[float, ...]:
+        """Return every height [m]."""
+        return (self.height,) if self.height is not None else tuple(self.heights)
+
+    @property
+    def highest(self) -> float:
+        """Largest height [m]."""
+        return max(self.all_heights())
+
+
+MemberSeaState = Annotated[
+    MemberRegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile,
+    Field(discriminator="kind"),
+]
+
+
+class MemberSettings(Block):
+    """How the analyses are run."""
+
+    strips: Strips = Field(default=40, description="Strips along the member. Default: 40.")
+    stretching: Literal["wheeler", "linear", "constant"] = Field(
+        default="wheeler", description="Linear kinematics above still water."
+    )
+    steps_per_period: Steps = Field(default=200, description="Time steps in a period of regular waves. Default: 200.")
+    irregular_steps: Steps = Field(
+        default=40, description="Time steps in the peak period of irregular seas. Default: 40."
+    )
+    periods: Whole | None = Field(
+        default=None, description="Periods shown of regular waves; chosen by the start of the circulation when absent."
+    )
+    water_levels: Annotated[
+        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+        Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
+    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+
+
+class MemberCase(Block):
+    """A submerged member from its site to its forces."""
+
+    moyai: Literal[1] = Field(description="Version of the case file format.")
+    title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
+    site: Site = Field(description="The water of the site.")
+    waves: Annotated[tuple[MemberSeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
+        description="One sea state, or a list of them; each is run."
+    )
+    current: Current | None = Field(default=None, description="Steady current.")
+    structure: MemberStructure = Field(description="The member.")
+    analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
+        description="What is computed: sweep over KC, forces, what the surface changes.",
+        examples=[["sweep", "forces", "surface"]],
+    )
+    settings: MemberSettings = Field(default_factory=MemberSettings, description="How the analyses are run.")
