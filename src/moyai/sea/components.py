@@ -190,7 +190,8 @@ class WaveComponents:
         """
         nodes = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (x, y, z)))
         shape = nodes[0].shape
-        flat = [np.ascontiguousarray(item).reshape(-1) for item in nodes]
+        # copies, since arrays that were broadcast cannot be handed to compiled kernels for good
+        flat = [np.array(item).reshape(-1) for item in nodes]
         elevation = np.empty(flat[0].size)
         velocity, acceleration = np.empty((flat[0].size, 3)), np.empty((flat[0].size, 3))
         kinematics.linear_velocity_acceleration(
@@ -233,7 +234,8 @@ class WaveComponents:
                 remedy="use kinematics() or velocity()",
             )
         nodes = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (x, y, z)))
-        flat = [np.ascontiguousarray(item).reshape(-1) for item in nodes]
+        # copies, since arrays that were broadcast cannot be handed to compiled kernels for good
+        flat = [np.array(item).reshape(-1) for item in nodes]
         velocity = np.empty((flat[0].size, 3, len(self)), dtype=np.complex128)
         acceleration = np.empty_like(velocity)
         kinematics.transfer_velocity_acceleration(
