@@ -1,0 +1,170 @@
+"""Flat constants of a network for the compiled kernels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.flexible.network import FREE, Network
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Rows of ``KernelArrays.nodes``.
+NODE_ROWS = (
+    "mass", "weight", "volume", "drag", "added_mass", "bed_stiffness", "bed_damping", "height", "form",
+    "free_x", "free_y", "free_z",
+)  # fmt: skip
+#: Rows of ``KernelArrays.bars``; drag, added mass, buoyancy and displaced mass are those of half a bar.
+BAR_ROWS = (
+    "length", "spring", "viscous", "least_tension", "drag_normal", "drag_tangential", "added_normal",
+    "added_tangential", "buoyancy", "flow_factor", "radius", "per_mass", "displaced",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class KernelArrays:
+    """What the kernels read.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (12, n)
+        Rows of ``NODE_ROWS``: mass [kg], weight [N], attached volume [m3], rho/2 times drag area, attached added mass [kg],
+        stiffness [N/m] and damping [N s/m] of the bed, height [m], form, 1 where a component is free.
+    bars : ndarray, shape (13, m)
+        Rows of ``BAR_ROWS``: length [m], EA/L0 [N/m], BA/L0 [N s/m], least tension (0, or -1e300 of bars that bear
+        compression), rho/2 Cd d l, ..., radius [m], one over the mass of half a bar.
+    curve : ndarray of int, shape (m,)
+        Rope curve of each bar, -1 for a linear one.
+    curves : ndarray, shape (c, 3, points)
+        Rope curves: strain, tension, slope.
+    hinges, bending : ndarray
+        Node triples of bending and EI over the mean bar length [N m].
+    attached : ndarray of int
+        Nodes that carry volume, drag or added mass of their own.
+    """
+
+    nodes: Array
+    bars: Array
+    start: IntArray
+    end: IntArray
+    curve: IntArray
+    curves: Array
+    hinges: IntArray
+    bending: Array
+    attached: IntArray
+
+    def node(self, name: str) -> Array:
+        """Return one row of the nodes."""
+        return self.nodes[NODE_ROWS.index(name)]
+
+    def bar(self, name: str) -> Array:
+        """Return one row of the bars."""
+        return self.bars[BAR_ROWS.index(name)]
+
+    @property
+    def greatest_spring(self) -> Array:
+        """The steepest slope of each bar's force over its length [N/m]."""
+        slope = self.bar("spring").copy()
+        for slot in range(len(self.curves)):
+            chosen = self.curve == slot
+            slope[chosen] = self.curves[slot, 2].max() / self.bar("length")[chosen]
+        return slope
+
+
+def find_hinges(network: Network) -> tuple[IntArray, Array]:
+    """Return the node triples of strands that bend and EI over the mean length of their two bars [N m]."""
+    triples, stiffness = [], []
+    bending = network.bars.of_type("bending_stiffness")
+    if not np.any(bending > 0.0):
+        return np.zeros((0, 3), dtype=np.int64), np.zeros(0)
+    for strand in network.strands:
+        for left, right, one, two, three in zip(
+            strand.bars[:-1], strand.bars[1:], strand.nodes[:-2], strand.nodes[1:-1], strand.nodes[2:], strict=True
+        ):
+            value = min(bending[left], bending[right])
+            if value > 0.0:
+                triples.append((one, two, three))
+                stiffness.append(value / (0.5 * (network.bars.length[left] + network.bars.length[right])))
+    return np.array(triples, dtype=np.int64).reshape(-1, 3), np.array(stiffness)
+
+
+def _node_rows(network: Network) -> Array:
+    nodes, water = network.nodes, network.water
+    mass, area = network.node_mass, network.node_contact_area
+    stiffness, damping = (0.0, 0.0) if network.bed is None else (network.bed.stiffness, network.bed.damping)
+    moves = np.where((nodes.kind == FREE)[:, None] & ~nodes.held, 1.0, 0.0)
+    return np.stack(
+        [
+            # held nodes without mass still need a block that can be inverted
+            np.where(mass > 0.0, mass, 1.0),
+            mass * water.gravity,
+            nodes.volume,
+            0.5 * water.density * nodes.drag_area,
+            nodes.added_mass,
+            stiffness * area,
+            damping * area,
+            nodes.height,
+            nodes.form.astype(np.float64),
+            *moves.T,
+        ]
+    )
+
+
+def _bar_rows(network: Network) -> Array:
+    bars, water = network.bars, network.water
+    if len(bars) == 0:
+        return np.zeros((len(BAR_ROWS), 0))
+    half = 0.5 * bars.length
+    displaced = water.density * bars.of_type("volume_per_length") * half
+    drag = 0.5 * water.density * bars.of_type("diameter") * half
+    added = bars.of_type("added_mass_normal") * displaced
+    return np.stack(
+        [
+            bars.length,
+            bars.of_type("axial_stiffness") / bars.length,
+            bars.of_type("viscosity") / bars.length,
+            np.where(bars.of_type("tension_only") > 0.0, 0.0, -1e300),
+            bars.of_type("drag_normal") * drag,
+            bars.of_type("drag_tangential") * drag,
+            added,
+            bars.of_type("added_mass_tangential") * displaced,
+            water.gravity * displaced,
+            bars.flow_factor,
+            np.maximum(0.5 * bars.of_type("diameter"), 1e-9 * bars.length),
+            1.0 / (bars.of_type("mass_per_length") * half + added),
+            displaced,
+        ]
+    )
+
+
+def _curves(network: Network) -> tuple[IntArray, Array]:
+    known = []
+    number = np.full(len(network.bars.types), -1, dtype=np.int64)
+    for index, kind in enumerate(network.bars.types):
+        if kind.curve is not None:
+            number[index] = len(known)
+            known.append(kind.curve)
+    curves = np.zeros((len(known), 3, max((c.strain.size for c in known), default=2)))
+    for slot, curve in enumerate(known):
+        last = curve.stiffness[-1]
+        # shorter curves are continued with their last slope
+        extra = curve.strain[-1] + np.arange(1, curves.shape[2] - curve.strain.size + 1)
+        curves[slot, 0] = np.concatenate([curve.strain, extra])
+        curves[slot, 1] = np.concatenate([curve.tension, curve.tension[-1] + last * (extra - curve.strain[-1])])
+        curves[slot, 2] = np.append(np.diff(curves[slot, 1]) / np.diff(curves[slot, 0]), last)
+    return (number[network.bars.kind] if len(network.bars) else np.zeros(0, np.int64)), curves
+
+
+def kernel_arrays(network: Network) -> KernelArrays:
+    """Flatten a network."""
+    nodes = network.nodes
+    curve, curves = _curves(network)
+    hinges, bending = find_hinges(network)
+    attached = np.flatnonzero((nodes.volume > 0.0) | (nodes.drag_area > 0.0) | (nodes.added_mass > 0.0))
+    return KernelArrays(
+        _node_rows(network), _bar_rows(network), network.bars.start, network.bars.end, curve, curves, hinges, bending,
+        attached.astype(np.int64),
+    )  # fmt: skip

@@ -1,0 +1,168 @@
+"""The explicit scheme: central differences, one force evaluation a step, loads of the water every few steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.flexible import explicit_kernel as kernel
+from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import DRIVEN, Network
+from moyai.flexible.packing import pack
+from moyai.flexible.result import State
+from moyai.flexible.stability import step_limit
+
+Array = NDArray[np.float64]
+
+#: Part of the stable step that is used unless told otherwise.
+SAFETY = 0.95
+#: Steps between two evaluations of the loads, at most.
+LOAD_STEPS = 8
+#: Bound of the load interval times the fastest rate of drag.
+DRAG_SHARE = 0.2
+
+
+def driving_tables(network: Network, motions: Mapping[str, Motion]) -> tuple[Any, Any, Any, float, float]:
+    """Return driven nodes, their places at rest, and the tables of their motions on one grid."""
+    driven = np.flatnonzero(network.nodes.kind == DRIVEN)
+    pairs = np.stack([driven, network.nodes.motion[driven]], axis=1).astype(np.int64)
+    rest = np.ascontiguousarray(network.nodes.position[driven])
+    if driven.size == 0:
+        return pairs.reshape(0, 2), rest, np.zeros((1, 2, 6)), 0.0, 1e300
+    chosen = [motions[name] for name in network.motion_names]
+    lead = chosen[0]
+    if not all(
+        m.step == lead.step and m.start == lead.start and len(m.displacement) == len(lead.displacement) for m in chosen
+    ):
+        start, end, step = max(m.start for m in chosen), min(m.end for m in chosen), min(m.step for m in chosen)
+        count = max(1, math.ceil((end - start) / step - 1e-9))
+        grid = np.linspace(start, end, count + 1)
+        chosen = [Motion(start, (end - start) / count, *m.at(grid)) for m in chosen]
+        lead = chosen[0]
+    tables = np.stack([np.concatenate([m.displacement, m.velocity], axis=1) for m in chosen])
+    return pairs, rest, np.ascontiguousarray(tables), float(lead.start), float(lead.step)
+
+
+class ExplicitRun:
+    """The state of one run; :func:`moyai.flexible.simulate.simulate` makes it and asks it to advance."""
+
+    name = "explicit"
+
+    def __init__(
+        self, network: Network, motions: Mapping[str, Motion], flow: Flow, start: State, *, safety: float, load_steps: int
+    ) -> None:
+        self.network, self.flow, self.safety, self.load_steps = network, flow, safety, load_steps
+        self.arrays = kernel_arrays(network)
+        self.packed = pack(self.arrays)
+        self.driving = driving_tables(network, motions)
+        self.time, self.step = start.time, 0.0
+        # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step behind
+        self.ledger = np.zeros(6)
+        self.place[:], self.speed[:] = start.position.T, start.velocity.T
+        self.speed[:, network.nodes.kind != 0] = 0.0
+        kernel.drive(self.packed.memory, *self.driving, self.time, 0.0)
+        for node, slot in self.driving[0]:
+            self.speed[:, node] = motions[network.motion_names[slot]].at(self.time)[1]
+        self.water = flow.at(self.time, self.place)
+        self.packed.node_rows(kernel.WU, 7)[:] = self.water
+        self._loads()
+
+    @property
+    def place(self) -> Array:
+        """Positions, a view of shape (3, n)."""
+        return self.packed.node_rows(kernel.X, 3)
+
+    @property
+    def speed(self) -> Array:
+        """Velocities, a view of shape (3, n); half a step behind once the run goes."""
+        return self.packed.node_rows(kernel.U, 3)
+
+    def _loads(self) -> None:
+        water = self.network.water
+        kernel.loads(
+            self.packed.memory, self.packed.sizes, self.packed.runs, self.arrays.attached, water.density, water.gravity,
+            self._near_surface(), not self.flow.steady,
+        )  # fmt: skip
+
+    def _near_surface(self) -> bool:
+        """Whether any bar may cross the surface before the next chunk."""
+        top = float(self.place[2].max()) + float(self.arrays.bar("radius").max(initial=0.0))
+        reach = 1.0 + (2.0 * float(np.sum(self.flow.waves.amplitude)) if self.flow.waves is not None else 0.0)
+        return top > float(np.min(self.water[6])) - reach
+
+    def first_row(self, saved: Any) -> None:
+        """Write the row of the start."""
+        places, pulls, peaks, energy, nodes, bars = saved
+        memory, sizes, runs = self.packed.memory, self.packed.sizes, self.packed.runs
+        kernel.spine_forces(memory, sizes[1])
+        kernel.rib_forces(memory, runs, self.arrays.curves)
+        memory[kernel.PEAK + self.packed.place] = memory[kernel.PULL + self.packed.place]
+        places[0] = self.place.T[nodes]
+        pulls[0] = peaks[0] = self.packed.bar_row(kernel.PULL)[bars]
+        level = -1e300 if self.network.bed is None else self.network.bed.level
+        energy[0, 0] = kernel.kinetic_energy(memory, sizes[0])
+        energy[0, 1] = kernel.elastic_energy(memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, level)
+        energy[0, 2] = 0.0
+
+    def limit(self) -> tuple[float, int]:
+        """Return the largest stable step now and the node that sets it."""
+        return step_limit(self.arrays, self.place, self.packed.node_rows(kernel.IXX, 6))
+
+    def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
+        """Return step, steps per load interval and load intervals per row that fill ``row_interval``."""
+        largest = self.safety * self.limit()[0] if wanted is None else wanted
+        least = max(1, math.ceil(row_interval / largest * (1.0 - 1e-12)))
+        per_load = min(self.load_steps, least)
+        drag = float(self.packed.bar_row(kernel.RATE).max(initial=0.0))
+        while per_load > 1 and per_load * row_interval / least * drag > DRAG_SHARE:
+            per_load -= 1
+        # the number of load intervals that wastes least of the step
+        per_row = math.ceil(least / per_load)
+        per_load = math.ceil(least / per_row)
+        return row_interval / (per_row * per_load), per_load, per_row
+
+    def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
+        """March ``rows`` rows of the result; return how many were good."""
+        step, per_load, per_row = self.choose(row_interval, wanted)
+        packed, arrays = self.packed, self.arrays
+        if self.step and abs(step - self.step) > 1e-12 * step:
+            # velocities stand half an old step before now: bring them to half a new step before now
+            kernel.kick_and_drift(packed.memory, packed.sizes[0], 0.5 * (self.step - step), 0.0)
+        self.step, self.per_load = step, per_load
+        end = self.time + rows * row_interval
+        rate = np.zeros_like(self.water)
+        if not self.flow.steady:
+            rate = (self.flow.at(end, self.place + (end - self.time) * self.speed) - self.water) / (end - self.time)
+        bed = self.network.bed
+        places, pulls, peaks, energy, nodes, bars = saved
+        good = kernel.march(
+            packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
+            np.array([self.network.water.density, self.network.water.gravity]),
+            (not self.flow.steady, self._near_surface(), np.ascontiguousarray(self._padded(self.water)), self._padded(rate), self.time),
+            self.driving,
+            (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
+            (self.time, step, per_load, per_row, rows, first),
+            self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]),
+        )  # fmt: skip
+        self.time = end
+        if not self.flow.steady:
+            self.water = self.flow.at(end, self.place)
+        return int(good)
+
+    def _padded(self, values: Array) -> Array:
+        return np.pad(values, ((0, 0), (0, int(self.packed.sizes[0]) - values.shape[1])))
+
+    def state(self) -> State:
+        """Return the state at the present time (the forces of the last row give the half step)."""
+        memory, before = self.packed.memory, self.speed.copy()
+        if self.step:
+            kernel.kick_and_drift(memory, self.packed.sizes[0], 0.5 * self.step, 0.0)
+        speed = self.speed.copy()
+        self.speed[:] = before
+        return State(self.time, self.place.T.copy(), np.ascontiguousarray(speed.T))

@@ -1,0 +1,579 @@
+"""Compiled kernels of the explicit scheme: bar forces every step, loads of water and weight every few steps.
+
+Central differences in leapfrog form [eq:flexible-leapfrog]. Everything lies in one array whose rows are ``ROW`` apart, a
+constant: the compiler then knows that rows do not overlap and turns every loop into vector instructions, also for
+lines of a dozen bars. ``ROW`` is no power of two, so that rows fall on different lines of the cache.
+
+Bars between neighbours in memory form the *spine*: bar i joins nodes i and i + 1, and gaps hold bars without stiffness. All
+others are *ribs*, in runs (a, b, first, count, curve): rib first + i joins nodes a + i and b + i. Of a rib the same
+rows hold its constants, shifted by ``RIB``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+#: Which re-orderings the compiler may make: none that assumes the absence of NaN, which marks a blow-up.
+FAST: Any = {"contract", "arcp", "nsz", "reassoc"}
+
+#: Keeps the direction of bars without stiffness finite where their nodes coincide.
+TINY = 1e-200
+#: Distance of rows; networks of up to about this many nodes fit. Memory that is not touched costs nothing.
+ROW = 131072 + 24
+#: Rows by name. Nodes: position, velocity, force in use, new load, load before, inverse mass, mass block.
+X, Y, Z, U, V, W = 0 * ROW, 1 * ROW, 2 * ROW, 3 * ROW, 4 * ROW, 5 * ROW
+PX, PY, PZ, QX, QY, QZ = 6 * ROW, 7 * ROW, 8 * ROW, 9 * ROW, 10 * ROW, 11 * ROW
+BX, BY, BZ = 12 * ROW, 13 * ROW, 14 * ROW
+IXX, IXY, IXZ, IYY, IYZ, IZZ = 15 * ROW, 16 * ROW, 17 * ROW, 18 * ROW, 19 * ROW, 20 * ROW
+MXX, MXY, MXZ, MYY, MYZ, MZZ = 21 * ROW, 22 * ROW, 23 * ROW, 24 * ROW, 25 * ROW, 26 * ROW
+#: Nodes: what does not change, and the water (velocity, acceleration, elevation).
+MASS, WEIGHT, VOLUME, DRAG, ADDED, STIFF, DAMP, HEIGHT, FORM = (row * ROW for row in range(27, 36))
+FREE_X, FREE_Y, FREE_Z = 36 * ROW, 37 * ROW, 38 * ROW
+WU, WV, WW, WA, WB, WC, ETA = (row * ROW for row in range(39, 46))
+TX, TY, TZ = 46 * ROW, 47 * ROW, 48 * ROW
+#: Bars: constants, force on the first node, tension, its highest value, loads of the water on both ends, added mass.
+LENGTH, SPRING, VISCOUS, LIMIT, ACROSS, SKIN, CROSS, ALONG, LIFT, SHARE, RADIUS, LIGHT, DISPLACED = (
+    row * ROW for row in range(49, 62)
+)
+FX, FY, FZ, PULL, PEAK, WET, RATE = (row * ROW for row in range(62, 69))
+AX, AY, AZ, EX, EY, EZ = (row * ROW for row in range(69, 75))
+DXX, DXY, DXZ, DYY, DYZ, DZZ = (row * ROW for row in range(75, 81))
+ROWS_OF_NODES, ROWS = 49, 81
+#: Ribs repeat the rows of bars, from here on.
+RIB = (ROWS - ROWS_OF_NODES) * ROW
+TOTAL_ROWS = ROWS + ROWS - ROWS_OF_NODES
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def spine_forces(A: Any, count: int) -> None:
+    """Write force, tension and highest tension of the spine's bars [eq:flexible-bar]."""
+    for i in range(count):
+        dx, dy, dz = A[X + i + 1] - A[X + i], A[Y + i + 1] - A[Y + i], A[Z + i + 1] - A[Z + i]
+        square = dx * dx + dy * dy + dz * dz + TINY
+        inverse = 1.0 / math.sqrt(square)
+        along = dx * (A[U + i + 1] - A[U + i]) + dy * (A[V + i + 1] - A[V + i]) + dz * (A[W + i + 1] - A[W + i])
+        elastic = A[SPRING + i] * (square * inverse - A[LENGTH + i])
+        pull = elastic + A[VISCOUS + i] * along * inverse
+        limit = A[LIMIT + i]
+        pull = pull if pull > limit else limit
+        # a slack bar pulls at nothing, whatever its rate
+        pull = pull if elastic > limit else limit
+        A[PULL + i] = pull
+        A[PEAK + i] = pull if pull > A[PEAK + i] else A[PEAK + i]
+        per = pull * inverse
+        A[FX + i] = per * dx
+        A[FY + i] = per * dy
+        A[FZ + i] = per * dz
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def rib_forces(A: Any, runs: Any, curves: Any) -> None:
+    """Do the same for the ribs and add their forces to the total of the nodes."""
+    for r in range(runs.shape[0]):
+        a0, b0, k0, count, curve = runs[r, 0], runs[r, 1], runs[r, 2], runs[r, 3], runs[r, 4]
+        if curve < 0:
+            for i in range(count):
+                a, b, k = a0 + i, b0 + i, RIB + k0 + i
+                dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
+                square = dx * dx + dy * dy + dz * dz + TINY
+                inverse = 1.0 / math.sqrt(square)
+                along = dx * (A[U + b] - A[U + a]) + dy * (A[V + b] - A[V + a]) + dz * (A[W + b] - A[W + a])
+                elastic = A[SPRING + k] * (square * inverse - A[LENGTH + k])
+                pull = elastic + A[VISCOUS + k] * along * inverse
+                limit = A[LIMIT + k]
+                pull = pull if pull > limit else limit
+                pull = pull if elastic > limit else limit
+                A[PULL + k] = pull
+                A[PEAK + k] = pull if pull > A[PEAK + k] else A[PEAK + k]
+                per = pull * inverse
+                A[FX + k] = per * dx
+                A[FY + k] = per * dy
+                A[FZ + k] = per * dz
+        else:
+            for i in range(count):
+                _curved(A, a0 + i, b0 + i, RIB + k0 + i, curves[curve])
+        for axis in range(3):
+            node, bar = TX + axis * ROW, FX + axis * ROW + RIB + k0
+            for i in range(count):
+                A[node + a0 + i] += A[bar + i]
+            for i in range(count):
+                A[node + b0 + i] -= A[bar + i]
+
+
+@njit(cache=True, error_model="numpy")
+def _curved(A: Any, a: int, b: int, k: int, curve: Any) -> None:
+    """Write the force of one rib whose tension follows a rope curve (rows: strain, tension, slope)."""
+    dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
+    size = math.sqrt(dx * dx + dy * dy + dz * dz)
+    strain = size / A[LENGTH + k] - 1.0
+    j = 0
+    while j + 2 < curve.shape[1] and strain > curve[0, j + 1]:
+        j += 1
+    elastic = curve[1, j] + curve[2, j] * (strain - curve[0, j])
+    rate = (dx * (A[U + b] - A[U + a]) + dy * (A[V + b] - A[V + a]) + dz * (A[W + b] - A[W + a])) / size
+    pull = max(elastic + A[VISCOUS + k] * rate, A[LIMIT + k]) if elastic > A[LIMIT + k] else A[LIMIT + k]
+    A[PULL + k] = pull
+    A[PEAK + k] = max(A[PEAK + k], pull)
+    A[FX + k], A[FY + k], A[FZ + k] = pull / size * dx, pull / size * dy, pull / size * dz
+
+
+@njit(cache=True, error_model="numpy")
+def bending_forces(A: Any, hinges: Any, stiffness: Any) -> None:
+    """Add the forces of the bending energy EI/l (1 - t1 . t2) of every hinge to the total [eq:flexible-bending]."""
+    for h in range(hinges.shape[0]):
+        a, b, c = hinges[h, 0], hinges[h, 1], hinges[h, 2]
+        px, py, pz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
+        qx, qy, qz = A[X + c] - A[X + b], A[Y + c] - A[Y + b], A[Z + c] - A[Z + b]
+        ip, iq = 1.0 / math.sqrt(px * px + py * py + pz * pz), 1.0 / math.sqrt(qx * qx + qy * qy + qz * qz)
+        px, py, pz, qx, qy, qz = px * ip, py * ip, pz * ip, qx * iq, qy * iq, qz * iq
+        cosine = px * qx + py * qy + pz * qz
+        kp, kq = stiffness[h] * ip, stiffness[h] * iq
+        # the gradient of t1 . t2 over one side is the direction of the other less its part along the first
+        gx, gy, gz = kp * (qx - cosine * px), kp * (qy - cosine * py), kp * (qz - cosine * pz)
+        hx, hy, hz = kq * (px - cosine * qx), kq * (py - cosine * qy), kq * (pz - cosine * qz)
+        A[TX + a] -= gx
+        A[TY + a] -= gy
+        A[TZ + a] -= gz
+        A[TX + b] += gx - hx
+        A[TY + b] += gy - hy
+        A[TZ + b] += gz - hz
+        A[TX + c] += hx
+        A[TY + c] += hy
+        A[TZ + c] += hz
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def kick_and_drift(A: Any, count: int, push: float, move: float) -> None:
+    """Advance velocities by ``push`` times inverse mass times force, positions by ``move`` times velocity.
+
+    The element before the first of a force row belongs to the unused end of another row and is zero.
+    """
+    for i in range(count):
+        fx = push * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = push * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = push * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + A[IZZ + i] * fz
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
+        A[Z + i] += move * w
+
+
+@njit(cache=True, error_model="numpy")
+def contact(A: Any, count: int, level: float, friction: float, time: float) -> None:
+    """Apply the impulses of the bed to the velocities: implicit spring and dashpot, Coulomb friction that sticks.
+
+    [eq:flexible-bed]
+    """
+    for i in range(count):
+        depth = level - A[Z + i]
+        if depth > 0.0 and A[IZZ + i] > 0.0:
+            stiff, damp, share = A[STIFF + i], A[DAMP + i], A[IZZ + i]
+            # depth - time w replaces depth: a stiff bed then needs no smaller step
+            push = time * (stiff * depth - (stiff * time + damp) * A[W + i])
+            push = push / (1.0 + time * (stiff * time + damp) * share)
+            if push > 0.0:
+                A[U + i] += A[IXZ + i] * push
+                A[V + i] += A[IYZ + i] * push
+                A[W + i] += share * push
+                if friction > 0.0:
+                    speed, light = math.hypot(A[U + i], A[V + i]), max(A[IXX + i], A[IYY + i])
+                    if speed > 0.0 and light > 0.0:
+                        hold = min(speed / light, friction * push) / speed
+                        px, py = hold * A[U + i], hold * A[V + i]
+                        A[U + i] -= A[IXX + i] * px + A[IXY + i] * py
+                        A[V + i] -= A[IXY + i] * px + A[IYY + i] * py
+
+
+@njit(cache=True, error_model="numpy")
+def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float, now: float, time: float) -> None:
+    """Put driven nodes at their place at ``now``; their velocity is the mean over the last ``time``."""
+    last = tables.shape[1] - 1
+    place = (now - start) / step
+    row = int(place)
+    row = 0 if row < 0 else (last - 1 if row > last - 1 else row)
+    s = place - row
+    # cubic through displacement and velocity at both ends of the interval
+    h1 = s * s * (3.0 - 2.0 * s)
+    h2, h3 = s * (1.0 - s) * (1.0 - s) * step, s * s * (s - 1.0) * step
+    for d in range(driven.shape[0]):
+        node, table = driven[d, 0], driven[d, 1]
+        for axis in range(3):
+            p0, p1 = tables[table, row, axis], tables[table, row + 1, axis]
+            v0, v1 = tables[table, row, 3 + axis], tables[table, row + 1, 3 + axis]
+            target = rest[d, axis] + p0 + h1 * (p1 - p0) + h2 * v0 + h3 * v1
+            if time > 0.0:
+                A[U + axis * ROW + node] = (target - A[X + axis * ROW + node]) / time
+            A[X + axis * ROW + node] = target
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def wetness(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
+    """Write the immersed part of bars, cut by the surface over them [eq:flexible-immersion]."""
+    for i in range(count):
+        a, b, k = a0 + i, b0 + i, k0 + i
+        ha, hb = A[Z + a] - A[ETA + a], A[Z + b] - A[ETA + b]
+        low = (ha if ha < hb else hb) - A[RADIUS + k]
+        high = (hb if ha < hb else ha) + A[RADIUS + k]
+        part = -low / (high - low)
+        part = part if part < 1.0 else 1.0
+        A[WET + k] = part if part > 0.0 else 0.0
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool) -> None:
+    """Write the loads of the water on both ends of bars and their added mass, half for each end.
+
+    Normal and tangential drag of the relative velocity at each end, buoyancy, and the inertia of the water
+    [eq:flexible-morison]; ``RATE`` is the rate at which drag damps the lighter end [1/s].
+    """
+    for i in range(count):
+        a, b, k = a0 + i, b0 + i, k0 + i
+        tx, ty, tz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
+        inverse = 1.0 / math.sqrt(tx * tx + ty * ty + tz * tz + TINY)
+        tx, ty, tz = tx * inverse, ty * inverse, tz * inverse
+        wet, share = A[WET + k], A[SHARE + k]
+        across, skin, lift = wet * A[ACROSS + k], wet * A[SKIN + k], wet * A[LIFT + k]
+        more, even = wet * (A[ALONG + k] - A[CROSS + k]), wet * A[CROSS + k]
+        A[DXX + k] = even + more * tx * tx
+        A[DXY + k] = more * tx * ty
+        A[DXZ + k] = more * tx * tz
+        A[DYY + k] = even + more * ty * ty
+        A[DYZ + k] = more * ty * tz
+        A[DZZ + k] = even + more * tz * tz
+        ux, uy, uz = share * A[WU + a] - A[U + a], share * A[WV + a] - A[V + a], share * A[WW + a] - A[W + a]
+        along = ux * tx + uy * ty + uz * tz
+        ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
+        size = across * math.sqrt(ux * ux + uy * uy + uz * uz)
+        slide = skin * abs(along) * along
+        A[AX + k] = size * ux + slide * tx
+        A[AY + k] = size * uy + slide * ty
+        A[AZ + k] = size * uz + slide * tz + lift
+        ux, uy, uz = share * A[WU + b] - A[U + b], share * A[WV + b] - A[V + b], share * A[WW + b] - A[W + b]
+        along = ux * tx + uy * ty + uz * tz
+        ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
+        other = across * math.sqrt(ux * ux + uy * uy + uz * uz)
+        slide = skin * abs(along) * along
+        A[EX + k] = other * ux + slide * tx
+        A[EY + k] = other * uy + slide * ty
+        A[EZ + k] = other * uz + slide * tz + lift
+        A[RATE + k] = (size + other) * A[LIGHT + k]
+    if waves:
+        for i in range(count):
+            a, b, k = a0 + i, b0 + i, k0 + i
+            whole = A[WET + k] * A[DISPLACED + k]
+            xx, xy, xz, yy, yz, zz = A[DXX + k], A[DXY + k], A[DXZ + k], A[DYY + k], A[DYZ + k], A[DZZ + k]
+            p, q, s = A[WA + a], A[WB + a], A[WC + a]
+            A[AX + k] += whole * p + xx * p + xy * q + xz * s
+            A[AY + k] += whole * q + xy * p + yy * q + yz * s
+            A[AZ + k] += whole * s + xz * p + yz * q + zz * s
+            p, q, s = A[WA + b], A[WB + b], A[WC + b]
+            A[EX + k] += whole * p + xx * p + xy * q + xz * s
+            A[EY + k] += whole * q + xy * p + yy * q + yz * s
+            A[EZ + k] += whole * s + xz * p + yz * q + zz * s
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def node_loads(A: Any, count: int, spine: int) -> None:
+    """Sum weight and the loads and added mass of the spine at the nodes."""
+    for i in range(count):
+        A[QX + i] = A[AX + i] + A[EX + i - 1]
+        A[QY + i] = A[AY + i] + A[EY + i - 1]
+        A[QZ + i] = A[AZ + i] + A[EZ + i - 1] - A[WEIGHT + i]
+    for i in range(count):
+        A[MXX + i] = A[MASS + i] + A[DXX + i] + A[DXX + i - 1]
+        A[MXY + i] = A[DXY + i] + A[DXY + i - 1]
+        A[MXZ + i] = A[DXZ + i] + A[DXZ + i - 1]
+        A[MYY + i] = A[MASS + i] + A[DYY + i] + A[DYY + i - 1]
+        A[MYZ + i] = A[DYZ + i] + A[DYZ + i - 1]
+        A[MZZ + i] = A[MASS + i] + A[DZZ + i] + A[DZZ + i - 1]
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def add_ribs(A: Any, runs: Any) -> None:
+    """Add the loads and added mass of the ribs to their nodes."""
+    for r in range(runs.shape[0]):
+        a0, b0, k0, count = runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3]
+        for axis in range(3):
+            node, one, two = QX + axis * ROW, AX + axis * ROW + k0, EX + axis * ROW + k0
+            for i in range(count):
+                A[node + a0 + i] += A[one + i]
+            for i in range(count):
+                A[node + b0 + i] += A[two + i]
+        for row in range(6):
+            node, bar = MXX + row * ROW, DXX + row * ROW + k0
+            for i in range(count):
+                A[node + a0 + i] += A[bar + i]
+            for i in range(count):
+                A[node + b0 + i] += A[bar + i]
+
+
+@njit(cache=True, error_model="numpy")
+def attached_loads(A: Any, attached: Any, rho: float, gravity: float) -> None:
+    """Add the loads on attached floats and weights, partly immersed [eq:flexible-immersion], and their added mass."""
+    for n in range(attached.size):
+        i = attached[n]
+        part = 1.0
+        if A[HEIGHT + i] > 0.0:
+            part = min(max(0.5 - (A[Z + i] - A[ETA + i]) / A[HEIGHT + i], 0.0), 1.0)
+            if A[FORM + i] == 1.0:
+                part = part * part * (3.0 - 2.0 * part)
+        ux, uy, uz = A[WU + i] - A[U + i], A[WV + i] - A[V + i], A[WW + i] - A[W + i]
+        size = part * A[DRAG + i] * math.sqrt(ux * ux + uy * uy + uz * uz)
+        inertia = part * (A[ADDED + i] + rho * A[VOLUME + i])
+        A[QX + i] += size * ux + inertia * A[WA + i]
+        A[QY + i] += size * uy + inertia * A[WB + i]
+        A[QZ + i] += size * uz + inertia * A[WC + i] + part * rho * gravity * A[VOLUME + i]
+        more = part * A[ADDED + i]
+        A[MXX + i] += more
+        A[MYY + i] += more
+        A[MZZ + i] += more
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def invert_blocks(A: Any, count: int) -> None:
+    """Invert the symmetric mass blocks; components that are held get rows and columns of zero."""
+    for i in range(count):
+        mx, my, mz = A[FREE_X + i], A[FREE_Y + i], A[FREE_Z + i]
+        # a held component loses its coupling before and its own term after the inversion
+        a, b, c = A[MXX + i], A[MXY + i] * mx * my, A[MXZ + i] * mx * mz
+        d, e, f = A[MYY + i], A[MYZ + i] * my * mz, A[MZZ + i]
+        p, q, s = d * f - e * e, c * e - b * f, b * e - c * d
+        whole = 1.0 / (a * p + b * q + c * s)
+        A[IXX + i] = mx * p * whole
+        A[IXY + i] = mx * my * q * whole
+        A[IXZ + i] = mx * mz * s * whole
+        A[IYY + i] = my * (a * f - c * c) * whole
+        A[IYZ + i] = my * mz * (b * c - a * e) * whole
+        A[IZZ + i] = mz * (a * d - b * b) * whole
+
+
+@njit(cache=True, error_model="numpy")
+def loads(A: Any, sizes: Any, runs: Any, attached: Any, rho: float, gravity: float, surface: bool, waves: bool) -> None:
+    """Write weight, buoyancy, drag and inertia of the water at every node, and the inverse mass blocks."""
+    count, spine = sizes[0], sizes[1]
+    if surface:
+        wetness(A, 0, 1, 0, spine)
+        for r in range(runs.shape[0]):
+            wetness(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3])
+    bar_loads(A, 0, 1, 0, spine, waves)
+    node_loads(A, count, spine)
+    if runs.shape[0] > 0:
+        for r in range(runs.shape[0]):
+            bar_loads(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3], waves)
+        add_ribs(A, runs)
+    if attached.size > 0:
+        attached_loads(A, attached, rho, gravity)
+    invert_blocks(A, count)
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def extrapolate(A: Any, count: int) -> None:
+    """Take the loads in the middle of the coming interval: straight continuation of the last two."""
+    for i in range(count):
+        A[PX + i] = 1.5 * A[QX + i] - 0.5 * A[BX + i]
+        A[PY + i] = 1.5 * A[QY + i] - 0.5 * A[BY + i]
+        A[PZ + i] = 1.5 * A[QZ + i] - 0.5 * A[BZ + i]
+        A[BX + i], A[BY + i], A[BZ + i] = A[QX + i], A[QY + i], A[QZ + i]
+    for i in range(count):
+        A[TX + i], A[TY + i], A[TZ + i] = A[PX + i], A[PY + i], A[PZ + i]
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def kinetic_energy(A: Any, count: int) -> float:
+    """Return the kinetic energy of what is free, with its added mass [J]."""
+    kinetic = 0.0
+    for i in range(count):
+        u, v, w = A[FREE_X + i] * A[U + i], A[FREE_Y + i] * A[V + i], A[FREE_Z + i] * A[W + i]
+        kinetic += 0.5 * (A[MXX + i] * u * u + A[MYY + i] * v * v + A[MZZ + i] * w * w)
+        kinetic += A[MXY + i] * u * v + A[MXZ + i] * u * w + A[MYZ + i] * v * w
+    return kinetic
+
+
+@njit(cache=True, error_model="numpy")
+def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stiffness: Any, level: float) -> float:
+    """Return the energy of bars, hinges and bed contact [J]."""
+    elastic = 0.0
+    for r in range(runs.shape[0] + 1):
+        a0, b0, k0, count, curve = 0, 1, 0, sizes[1], -1
+        if r > 0:
+            a0, b0, k0, count, curve = runs[r - 1, 0], runs[r - 1, 1], RIB + runs[r - 1, 2], runs[r - 1, 3], runs[r - 1, 4]
+        for i in range(count):
+            a, b, k = a0 + i, b0 + i, k0 + i
+            dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
+            stretch = math.sqrt(dx * dx + dy * dy + dz * dz) - A[LENGTH + k]
+            if curve < 0:
+                if A[SPRING + k] * stretch > A[LIMIT + k]:
+                    elastic += 0.5 * A[SPRING + k] * stretch * stretch
+            elif stretch > 0.0:
+                strain, j, area = stretch / A[LENGTH + k], 0, 0.0
+                while j + 2 < curves.shape[2] and strain > curves[curve, 0, j + 1]:
+                    area += 0.5 * (curves[curve, 1, j] + curves[curve, 1, j + 1]) * (
+                        curves[curve, 0, j + 1] - curves[curve, 0, j]
+                    )
+                    j += 1
+                rest = strain - curves[curve, 0, j]
+                elastic += A[LENGTH + k] * (area + rest * (curves[curve, 1, j] + 0.5 * curves[curve, 2, j] * rest))
+    for h in range(hinges.shape[0]):
+        a, b, c = hinges[h, 0], hinges[h, 1], hinges[h, 2]
+        dot = one = two = 0.0
+        for axis in range(3):
+            p = A[X + axis * ROW + b] - A[X + axis * ROW + a]
+            q = A[X + axis * ROW + c] - A[X + axis * ROW + b]
+            dot, one, two = dot + p * q, one + p * p, two + q * q
+        elastic += stiffness[h] * (1.0 - dot / math.sqrt(one * two))
+    for i in range(sizes[0]):
+        depth = level - A[Z + i]
+        if depth > 0.0 and A[FREE_Z + i] > 0.0:
+            elastic += 0.5 * A[STIFF + i] * depth * depth
+    return elastic
+
+
+@njit(cache=True, error_model="numpy")
+def _touching(A: Any, count: int, level: float, ahead: float) -> bool:
+    """Whether a free node can reach the bed within ``ahead`` seconds at twice its speed."""
+    for i in range(count):
+        if A[Z + i] - 2.0 * ahead * abs(A[W + i]) < level + 1e-3 and A[FREE_Z + i] > 0.0:
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy")
+def _node_force(A: Any, node: int, axis: int) -> float:
+    """Return the force of bars and hinges on a node (without the loads)."""
+    row = axis * ROW + node
+    return A[TX + row] - A[PX + row] + A[FX + row] - A[FX + row - 1]
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def _load_work(A: Any, count: int, sign: float) -> float:
+    """Return the sum of load times position over what is free."""
+    work = 0.0
+    for i in range(count):
+        work += A[FREE_X + i] * A[PX + i] * A[X + i] + A[FREE_Y + i] * A[PY + i] * A[Y + i]
+        work += A[FREE_Z + i] * A[PZ + i] * A[Z + i]
+    return sign * work
+
+
+@njit(cache=True, error_model="numpy")
+def march(
+    A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, waves: Any,
+    driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any,
+) -> int:  # fmt: skip
+    """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
+
+    ``waves`` is (water moves, part may be dry, water at the start (7, n), its rate, time of the start); ``timing`` is
+    (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0 work
+    of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
+    velocities stand half a step behind. ``saved`` is (position (rows, nodes, 3), tension (rows, bars), highest tension since
+    the last row, energies and work (rows, 3), kept nodes, kept bars as places in ``A``). Returns the number of good
+    rows, fewer than asked for when values are no longer finite.
+    """
+    count, spine = sizes[0], sizes[1]
+    driven, rest, tables, table_start, table_step = driving
+    level, friction, has_bed = bed
+    moving, surface, water, water_rate, water_time = waves
+    start, step, per_load, per_row, rows, first_row = timing
+    places, pulls, peaks, energy, keep_nodes, keep_bars = saved
+    loose = runs.shape[0] > 0 or hinges.shape[0] > 0
+    moved, drawn = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3))
+    keep = np.empty((3, count))
+    for row in range(rows):
+        for part in range(per_row):
+            index = (row * per_row + part) * per_load
+            now = start + index * step
+            if moving:
+                for r in range(7):
+                    for i in range(count):
+                        A[WU + r * ROW + i] = water[r, i] + (now - water_time) * water_rate[r, i]
+            turning = kinetic_energy(A, count)
+            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving)
+            if ledger[4] == 0.0:
+                for axis in range(3):
+                    for i in range(count):
+                        A[BX + axis * ROW + i] = A[QX + axis * ROW + i]
+                ledger[4] = 1.0
+            else:
+                ledger[2] += kinetic_energy(A, count) - turning
+            extrapolate(A, count)
+            ledger[0] += _load_work(A, count, -1.0)
+            touching = has_bed and _touching(A, count, level, per_load * step)
+            for inner in range(per_load):
+                if loose:
+                    for axis in range(3):
+                        for i in range(count):
+                            A[TX + axis * ROW + i] = A[PX + axis * ROW + i]
+                    rib_forces(A, runs, curves)
+                    bending_forces(A, hinges, bending)
+                spine_forces(A, spine)
+                for d in range(driven.shape[0]):
+                    node = driven[d, 0]
+                    for axis in range(3):
+                        # work against the bars, by the trapezoidal rule over the path
+                        pull = -_node_force(A, node, axis)
+                        ledger[1] += 0.5 * (pull + drawn[d, axis]) * moved[d, axis]
+                        drawn[d, axis] = pull
+                        moved[d, axis] = A[X + axis * ROW + node]
+                push = step
+                if ledger[5] == 0.0:
+                    push = 0.5 * step
+                    ledger[5] = 1.0
+                if touching:
+                    kick_and_drift(A, count, push, 0.0)
+                    contact(A, count, level, friction, push)
+                    for axis in range(3):
+                        for i in range(count):
+                            A[X + axis * ROW + i] += step * A[U + axis * ROW + i]
+                else:
+                    kick_and_drift(A, count, push, step)
+                drive(A, driven, rest, tables, table_start, table_step, start + (index + inner + 1) * step, step)
+                for d in range(driven.shape[0]):
+                    for axis in range(3):
+                        moved[d, axis] = A[X + axis * ROW + driven[d, 0]] - moved[d, axis]
+            ledger[0] += _load_work(A, count, 1.0)
+        # the state at the time of the row: forces here, half a kick
+        if loose:
+            for axis in range(3):
+                for i in range(count):
+                    A[TX + axis * ROW + i] = A[PX + axis * ROW + i]
+            rib_forces(A, runs, curves)
+            bending_forces(A, hinges, bending)
+        spine_forces(A, spine)
+        for d in range(driven.shape[0]):
+            for axis in range(3):
+                pull = -_node_force(A, driven[d, 0], axis)
+                ledger[1] += 0.5 * (pull + drawn[d, axis]) * moved[d, axis]
+                drawn[d, axis] = pull
+                moved[d, axis] = 0.0
+        for axis in range(3):
+            for i in range(count):
+                keep[axis, i] = A[U + axis * ROW + i]
+        kick_and_drift(A, count, 0.5 * step, 0.0)
+        kinetic = kinetic_energy(A, count)
+        for axis in range(3):
+            for i in range(count):
+                A[U + axis * ROW + i] = keep[axis, i]
+        elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, level if has_bed else -1e300)
+        out = first_row + row
+        energy[out, 0], energy[out, 1], energy[out, 2] = kinetic, elastic, ledger[0] + ledger[1] + ledger[2]
+        for j in range(keep_nodes.size):
+            for axis in range(3):
+                places[out, j, axis] = A[X + axis * ROW + keep_nodes[j]]
+        for j in range(keep_bars.size):
+            pulls[out, j] = A[PULL + keep_bars[j]]
+            peaks[out, j] = A[PEAK + keep_bars[j]]
+        for i in range(spine):
+            A[PEAK + i] = A[PULL + i]
+        for r in range(runs.shape[0]):
+            for i in range(runs[r, 3]):
+                k = RIB + runs[r, 2] + i
+                A[PEAK + k] = A[PULL + k]
+        if not (kinetic + elastic < np.inf):
+            return row
+    return rows

@@ -1,0 +1,125 @@
+"""The water around a network: current and waves at its nodes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.sea.components import WaveComponents
+from moyai.sea.kinematics import Stretching, linear_velocity_acceleration, stretching_code
+
+Array = NDArray[np.float64]
+
+
+class Current(Protocol):
+    """Anything that knows the horizontal velocity over the height (the profiles of :mod:`moyai.sea.current`)."""
+
+    def velocity(self, z: ArrayLike) -> Array:
+        """Return the velocity (..., 2) at heights z."""
+
+
+@dataclass(frozen=True, eq=False)
+class Flow:
+    """Motion of the water: a uniform velocity, a profile over the height, waves, or all of them together.
+
+    Parameters
+    ----------
+    velocity : array_like (3,)
+        Uniform and steady [m/s].
+    current : Current, optional
+        Profile over the height.
+    ramp : float
+        Time over which velocity, current and waves grow from zero, half a cosine [s].
+    waves : WaveComponents, optional
+        Linear waves; they need their ``water``.
+    stretching : {"wheeler", "linear", "constant"}
+        Kinematics above still water.
+    interval : float, optional
+        Time between two evaluations, joined linearly [s]; a fiftieth of the shortest wave period that carries energy
+        when left out.
+
+    Raises
+    ------
+    InputError
+        For a velocity that is not finite, waves without water, or an interval that is not positive.
+    """
+
+    velocity: Array | tuple[float, float, float] = (0.0, 0.0, 0.0)
+    current: Current | None = None
+    ramp: float = 0.0
+    waves: WaveComponents | None = None
+    stretching: Stretching = "wheeler"
+    interval: float | None = None
+
+    def __post_init__(self) -> None:
+        given = np.array(self.velocity, dtype=np.float64)
+        if given.shape != (3,) or not np.isfinite(given).all():
+            raise InputError(f"velocity of the flow is {self.velocity}", path="flow.velocity", allowed="three finite numbers")
+        given.setflags(write=False)
+        object.__setattr__(self, "velocity", given)
+        if self.waves is not None and self.waves.water is None:
+            raise InputError("the waves do not know their water", path="flow.waves", allowed="waves with water")
+        if not (math.isfinite(self.ramp) and self.ramp >= 0.0):
+            raise InputError(f"ramp of the flow is {self.ramp:g} s", path="flow.ramp", allowed="0 or more")
+        if self.interval is not None and not self.interval > 0.0:
+            raise InputError(f"interval of the flow is {self.interval:g} s", path="flow.interval", allowed="greater than 0")
+        stretching_code(self.stretching)
+
+    @property
+    def steady(self) -> bool:
+        """Whether the water at a node changes neither with time nor with its place."""
+        return self.waves is None and self.current is None and self.ramp == 0.0
+
+    @property
+    def update_interval(self) -> float:
+        """Time between two evaluations [s]."""
+        if self.interval is not None:
+            return self.interval
+        if self.waves is not None:
+            order = np.argsort(self.waves.omega)
+            share = np.cumsum(self.waves.amplitude[order] ** 2)
+            fastest = self.waves.omega[order][int(np.searchsorted(share, 0.995 * share[-1]))]
+            return 2.0 * math.pi / float(fastest) / 50.0
+        return self.ramp / 50.0 if self.ramp > 0.0 else 0.1
+
+    def at(self, time: float, position: Array) -> Array:
+        """Return velocity, acceleration and elevation of the water at nodes, shape (7, n).
+
+        Parameters
+        ----------
+        time : float
+            [s].
+        position : ndarray, shape (3, n)
+            Nodes [m].
+        """
+        count = position.shape[1]
+        out = np.zeros((7, count))
+        grown, rate = 1.0, 0.0
+        if time < self.ramp:
+            angle = math.pi * max(time, 0.0) / self.ramp
+            grown, rate = 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.ramp * math.sin(angle)
+        out[:3] = np.asarray(self.velocity)[:, None]
+        if self.current is not None:
+            depth = self.waves.water.depth if self.waves is not None and self.waves.water is not None else math.inf
+            out[:2] += self.current.velocity(np.clip(position[2], -depth, None)).T
+        if self.waves is not None and self.waves.water is not None:
+            sea = self.waves
+            elevation, velocity, acceleration = np.empty(count), np.empty((count, 3)), np.empty((count, 3))
+            linear_velocity_acceleration(
+                sea.omega, np.asarray(sea.intrinsic_omega), sea.amplitude, sea.phase, sea.heading, sea.wave_number,
+                float(sea.water.depth), np.ascontiguousarray(position[0]), np.ascontiguousarray(position[1]),
+                np.ascontiguousarray(position[2]), time, stretching_code(self.stretching), elevation, velocity, acceleration,
+            )  # fmt: skip
+            out[:3] += velocity.T
+            out[3:6] = acceleration.T
+            out[6] = elevation
+        if grown < 1.0:
+            out[3:6] = grown * out[3:6] + rate * out[:3]
+            out[:3] *= grown
+            out[6] *= grown
+        return out

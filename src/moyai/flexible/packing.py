@@ -1,0 +1,99 @@
+"""Place a network in the one array of the explicit kernels: spine, ribs, and where each bar went."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.flexible import explicit_kernel as kernel
+from moyai.flexible.arrays import KernelArrays
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Loops run over whole vectors of this many numbers.
+_LANES = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Packed:
+    """A network in the array of the kernels.
+
+    Parameters
+    ----------
+    memory : ndarray
+        The array; its rows are named in :mod:`moyai.flexible.explicit_kernel`.
+    sizes : ndarray of int
+        Nodes and spine bars that the loops run over (filled up to whole vectors).
+    runs : ndarray of int, shape (r, 5)
+        Runs of ribs.
+    place : ndarray of int, shape (m,)
+        Where each bar of the network lies, relative to a row of bars.
+    nodes : int
+        Number of nodes of the network.
+    """
+
+    memory: Array
+    sizes: IntArray
+    runs: IntArray
+    place: IntArray
+    nodes: int
+
+    def node_rows(self, first: int, rows: int) -> Array:
+        """Return a view of ``rows`` rows of nodes from row ``first``, shape (rows, n)."""
+        whole = self.memory[first : first + rows * kernel.ROW].reshape(rows, kernel.ROW)
+        return whole[:, : self.nodes]
+
+    def bar_row(self, row: int) -> Array:
+        """Return a copy of a row of bars in the order of the network."""
+        return self.memory[row + self.place]
+
+
+def _runs(start: IntArray, end: IntArray, curve: IntArray) -> IntArray:
+    if start.size == 0:
+        return np.zeros((0, 5), dtype=np.int64)
+    broken = (np.diff(start) != 1) | (np.diff(end) != 1) | (np.diff(curve) != 0)
+    first = np.concatenate([[0], np.flatnonzero(broken) + 1])
+    size = np.diff(np.concatenate([first, [start.size]]))
+    return np.ascontiguousarray(np.stack([start[first], end[first], first, size, curve[first]], axis=1))
+
+
+def pack(arrays: KernelArrays) -> Packed:
+    """Place a network.
+
+    Raises
+    ------
+    InputError
+        When it has more nodes or bars than a row holds.
+    """
+    count, bars = arrays.nodes.shape[1], arrays.start.size
+    if max(count, bars) + 2 * _LANES > kernel.ROW:
+        raise InputError(f"{max(count, bars)} nodes or bars", path="network", allowed=f"up to {kernel.ROW - 2 * _LANES} in the explicit scheme")
+    memory = np.zeros(kernel.TOTAL_ROWS * kernel.ROW)
+    # a bar between neighbours goes on the spine, the first one for each pair; its direction may be reversed
+    low = np.minimum(arrays.start, arrays.end)
+    neighbours = (np.abs(arrays.end - arrays.start) == 1) & (arrays.curve < 0)
+    spine = np.zeros(bars, dtype=bool)
+    candidates = np.flatnonzero(neighbours)
+    spine[candidates[np.unique(low[candidates], return_index=True)[1]]] = True
+    rest = np.flatnonzero(~spine)
+    order = rest[np.lexsort((arrays.start[rest], arrays.end[rest] - arrays.start[rest], arrays.curve[rest]))]
+    place = np.empty(bars, dtype=np.int64)
+    place[spine] = low[spine]
+    place[order] = kernel.RIB + np.arange(order.size)
+    sizes = np.array([-(-count // _LANES) * _LANES, -(-(count - 1) // _LANES) * _LANES], dtype=np.int64)
+    for row, name in enumerate(("MASS", "WEIGHT", "VOLUME", "DRAG", "ADDED", "STIFF", "DAMP", "HEIGHT", "FORM", "FREE_X", "FREE_Y", "FREE_Z")):
+        first = getattr(kernel, name)
+        memory[first : first + count] = arrays.nodes[row]
+    memory[kernel.MASS + count : kernel.MASS + sizes[0]] = 1.0
+    fill = np.arange(sizes[1] + 1 - count + 1)
+    memory[kernel.X + count : kernel.X + count + fill.size] = fill
+    memory[kernel.LENGTH : kernel.LENGTH + sizes[1]] = 1.0
+    memory[kernel.RADIUS : kernel.RADIUS + sizes[1]] = 1.0
+    for row in range(arrays.bars.shape[0]):
+        memory[kernel.LENGTH + row * kernel.ROW + place] = arrays.bars[row]
+    memory[kernel.WET + place] = 1.0
+    return Packed(memory, sizes, _runs(arrays.start[order], arrays.end[order], arrays.curve[order]), place, count)

@@ -1,0 +1,177 @@
+"""Run a network through time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import IdentityCheck
+from moyai.flexible.explicit import LOAD_STEPS, SAFETY, ExplicitRun
+from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import Network
+from moyai.flexible.result import History, RunStatus, State
+
+Method = Literal["explicit"]
+
+#: Energy that may appear from nowhere before a run is stopped, as a part of the energy that went through it.
+ENERGY_TOLERANCE = 0.02
+
+
+def _rows(duration: float, output_step: float) -> tuple[int, float]:
+    if not (math.isfinite(duration) and duration > 0.0):
+        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0")
+    if not (math.isfinite(output_step) and output_step > 0.0):
+        raise InputError(f"output step is {output_step:g} s", path="output_step", allowed="greater than 0")
+    rows = max(1, round(duration / output_step))
+    return rows, duration / rows
+
+
+def _check_motions(network: Network, motions: Mapping[str, Motion], start: float, end: float) -> None:
+    for name in network.motion_names:
+        if name not in motions:
+            raise InputError(f"driven points follow the motion {name!r}, which is not given", path="motions", allowed=", ".join(network.motion_names))
+        motion = motions[name]
+        slack = 1e-9 * max(1.0, abs(end))
+        if motion.start > start + slack or motion.end < end - slack:
+            raise InputError(
+                f"motion {name!r} covers {motion.start:g} to {motion.end:g} s, the run {start:g} to {end:g} s",
+                path=f"motions.{name}", allowed="a motion over the whole run", remedy="shorten the run or lengthen the motion",
+            )  # fmt: skip
+    for name in motions:
+        if name not in network.motion_names:
+            raise InputError(f"no point follows a motion {name!r}", path="motions", allowed=", ".join(network.motion_names) or "none")
+
+
+def _kept(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
+    kept = np.arange(count) if given is None else np.atleast_1d(np.array(given, dtype=np.int64))
+    if kept.size and (kept.min() < 0 or kept.max() >= count):
+        raise InputError(f"{path} names {int(kept.max())} of {count}", path=path, allowed=f"0 to {count - 1}")
+    return kept
+
+
+def simulate(
+    network: Network,
+    motions: Mapping[str, Motion] | None = None,
+    *,
+    duration: float,
+    output_step: float,
+    flow: Flow | None = None,
+    start: State | None = None,
+    method: Method = "explicit",
+    step: float | None = None,
+    safety: float = SAFETY,
+    load_steps: int = LOAD_STEPS,
+    keep_nodes: ArrayLike | None = None,
+    keep_bars: ArrayLike | None = None,
+    progress: Progress = silent,
+) -> History:
+    """Run a network through time.
+
+    Parameters
+    ----------
+    network : Network
+        The network.
+    motions : mapping of str to Motion, optional
+        One for every name in ``network.motion_names``.
+    duration, output_step : float
+        Length of the run and spacing of the rows of the result [s]; peaks are taken at every step all the same.
+    flow : Flow, optional
+        Motion of the water; still water when left out.
+    start : State, optional
+        Where to start; as built and at rest when left out (:func:`moyai.flexible.statics.solve_equilibrium` gives the state at rest).
+    method : {"explicit"}
+        Scheme.
+    step : float, optional
+        Time step [s]; the largest stable one times ``safety`` when left out. Rounded down to fill an output step.
+    safety : float
+        Part of the largest stable step, 0 to 1.
+    load_steps : int
+        Steps between two evaluations of the loads of the water, at most.
+    keep_nodes, keep_bars : array_like of int, optional
+        Which to keep in the result; all when left out.
+    progress : Progress
+        Told the simulated time.
+
+    Returns
+    -------
+    History
+        With status ``not_converged`` and all rows up to there when the run had to stop.
+
+    Raises
+    ------
+    InputError
+        For motions that are missing, unknown or too short, and numbers out of range.
+    """
+    flow = flow or Flow()
+    start = start or State.at_rest(network)
+    rows, interval = _rows(duration, output_step)
+    _check_motions(network, motions or {}, start.time, start.time + duration)
+    if method != "explicit":
+        raise InputError(f"unknown method {method!r}", path="method", allowed="explicit")
+    if not 0.0 < safety <= 1.0:
+        raise InputError(f"safety is {safety:g}", path="safety", allowed="above 0, at most 1")
+    nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
+    run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps)
+    saved = (
+        np.full((rows + 1, nodes.size, 3), np.nan), np.full((rows + 1, bars.size), np.nan),
+        np.full((rows + 1, bars.size), np.nan), np.full((rows + 1, 3), np.nan), nodes, bars,
+    )  # fmt: skip
+    run.first_row(saved)
+    per_chunk = max(1, rows // 40)
+    if not flow.steady:
+        per_chunk = max(1, min(per_chunk, int(flow.update_interval / interval + 1e-9)))
+    done, status, message, steps, smallest = 0, "converged", "", 0, math.inf
+    throughput = 0.0
+    try:
+        while done < rows:
+            count = min(per_chunk, rows - done)
+            good = run.advance(count, 1 + done, interval, step, saved)
+            steps += good * round(interval / run.step)
+            smallest = min(smallest, run.step)
+            energy = saved[3][: 1 + done + good]
+            total = energy[:, 0] + energy[:, 1]
+            throughput = max(throughput, float(np.max(total)), float(np.max(np.abs(energy[:, 2]))))
+            gain = total[-1] - total[0] - energy[-1, 2]
+            done += good
+            if good < count or not gain <= ENERGY_TOLERANCE * throughput:
+                status = "not_converged"
+                worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
+                message = (
+                    f"stopped at t = {start.time + done * interval:g} s: "
+                    + ("values are no longer finite" if good < count else f"energy of {gain:.3g} J came from nowhere")
+                    + f", fastest at node {worst}; step {run.step:.3g} s, stable below {_limit(run):.3g} s"
+                )
+                break
+            progress("network", done * interval, duration)
+    except KeyboardInterrupt:
+        status, message = "interrupted", f"interrupted at t = {start.time + done * interval:g} s"
+    last = done + 1
+    return _history(network, run, saved, last, start.time, interval, steps, smallest, status, message, throughput)  # type: ignore[arg-type]
+
+
+def _limit(run: ExplicitRun) -> float:
+    return run.limit()[0] if np.isfinite(run.place).all() else math.nan
+
+
+def _history(
+    network: Network, run: ExplicitRun, saved: tuple[np.ndarray, ...], last: int, begin: float, interval: float, steps: int, smallest: float,
+    status: RunStatus, message: str, throughput: float,
+) -> History:  # fmt: skip
+    energy = saved[3][:last]
+    total = energy[:, 0] + energy[:, 1]
+    gain = float(np.max(total - total[0] - (energy[:, 2] - energy[0, 2]))) if last else math.nan
+    check = IdentityCheck(
+        "energy from nowhere", max(gain, 0.0) / throughput if throughput > 0.0 else 0.0, ENERGY_TOLERANCE,
+        "rise of kinetic and elastic energy beyond the work done, over the energy that went through the network",
+    )  # fmt: skip
+    return History(
+        network, begin + interval * np.arange(last), saved[4], saved[5], saved[0][:last], saved[1][:last], saved[2][:last],
+        energy[:, 0], energy[:, 1], energy[:, 2], run.state(), "explicit", smallest, steps, status, message, (check,),
+    )  # fmt: skip
