@@ -262,18 +262,18 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
         raise InputError(
             f"every segment of {size} samples lacks a sample", path="segment", remedy="take shorter segments"
         )
-    density = total * (2.0 * step / (power * used))
+    density: ComplexArray = total * (2.0 * step / (power * used))
     density[0] *= 0.5
     if size % 2 == 0:
         density[-1] *= 0.5
-    frequency = np.fft.rfftfreq(size, step)
+    frequency = np.asarray(np.fft.rfftfreq(size, step), dtype=np.float64)
     freedom = degrees_of_freedom(window, shift, used)
     if options.bands > 1:
         # The mean value is no wave: bands begin above zero frequency
         count = (frequency.size - 1) // options.bands
         kept = slice(1, 1 + count * options.bands)
-        density = density[kept].reshape(count, options.bands, *density.shape[1:]).mean(axis=1)
-        frequency = frequency[kept].reshape(count, options.bands).mean(axis=1)
+        density = np.asarray(density[kept].reshape(count, options.bands, *density.shape[1:]).mean(axis=1))
+        frequency = np.asarray(frequency[kept].reshape(count, options.bands).mean(axis=1), dtype=np.float64)
         freedom *= options.bands * _band_efficiency(window, options.bands)
     notices = []
     left_out = starts.size - used

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -40,7 +40,7 @@ class WaveOptions:
     """
 
     crossing: Literal["up", "down"] = "up"
-    detrend: Detrend = Detrend()
+    detrend: Detrend = field(default_factory=Detrend)
     dead_band: float = 0.0
     crest: Literal["sample", "parabola"] = "parabola"
     share: Rounding = "nearest"
