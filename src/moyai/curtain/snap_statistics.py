@@ -1,0 +1,373 @@
+"""How large snaps become: exceedance fitted above a threshold, their rate, the largest in some hours.
+
+Peaks above a threshold come as a Poisson process; their excess follows Weibull's or the generalised Pareto law. All
+intervals come from samples drawn from the fit and fitted again, the number of peaks drawn with them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+
+Array = NDArray[np.float64]
+SnapLaw = Literal["weibull", "pareto"]
+
+_FEWEST = 10
+_FEW = 30
+_SHAPES = 60
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A number with its bounds.
+
+    Parameters
+    ----------
+    value, low, high : float
+        Estimate and bounds.
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False)
+class SnapFit:
+    """Law of the peaks above a threshold.
+
+    Parameters
+    ----------
+    law : {"weibull", "pareto"}
+        exp(-(y/a)^c), or (1 + c y/a)^(-1/c), y the excess over the threshold [eq:curtain-snap-exceedance].
+    threshold : float
+        [N].
+    shape, scale : Interval
+        c [-] and a [N].
+    rate : Interval
+        Peaks above the threshold per hour; exact bounds of Poisson's law.
+    peaks : ndarray
+        Peaks above the threshold, largest first [N].
+    hours : float
+        Observed time [h].
+    confidence : float
+        Of all intervals.
+    distance : float
+        Largest difference of empirical and fitted probability (Kolmogorov and Smirnov).
+    resampled : ndarray, shape (n, 3)
+        Shape, scale and rate of the samples behind the intervals.
+    notices : tuple of Notice
+        Where the fit is thin.
+    """
+
+    law: SnapLaw
+    threshold: float
+    shape: Interval
+    scale: Interval
+    rate: Interval
+    peaks: Array
+    hours: float
+    confidence: float
+    distance: float
+    resampled: Array
+    notices: tuple[Notice, ...]
+
+    def exceedance(self, tension: ArrayLike) -> Array:
+        """Return the probability that a peak above the threshold exceeds a tension [N]."""
+        return np.exp(_log_exceedance(self.law, np.asarray(tension) - self.threshold, self.shape.value, self.scale.value))
+
+    @property
+    def empirical(self) -> Array:
+        """Exceedance i/(n + 1) of :attr:`peaks`."""
+        return np.arange(1, self.peaks.size + 1) / (self.peaks.size + 1.0)
+
+    def most_probable_maximum(self, hours: float) -> Interval:
+        """Return the most probable largest tension in so many hours [N] [eq:curtain-snap-maximum].
+
+        Raises
+        ------
+        InputError
+            When the time is not positive, or so short that no peak above the threshold is expected.
+        """
+        _check_hours(hours)
+        if self.rate.value * hours < 2.0:
+            raise InputError(
+                f"{self.rate.value * hours:.3g} peaks above the threshold are expected in {hours:g} h",
+                path="hours",
+                allowed=f"at least {2.0 / self.rate.value:.3g} h",
+                remedy="ask for a longer time, or lower the threshold",
+            )
+        return self._interval(lambda shape, scale, rate: _mode(self.law, shape, scale, max(rate * hours, 1.0)))
+
+    def maximum_not_exceeded(self, hours: float, probability: float) -> Interval:
+        """Return the tension that the largest in so many hours stays below with a probability [N]."""
+        _check_hours(hours)
+        if not 0.0 < probability < 1.0:
+            raise InputError(f"probability is {probability:g}", path="probability", allowed="between 0 and 1")
+        lack = -math.log(probability)
+
+        def quantile(shape: float, scale: float, rate: float) -> float:
+            return _excess_at(self.law, min(lack / (rate * hours), 1.0), shape, scale)
+
+        return self._interval(quantile)
+
+    def _interval(self, function) -> Interval:  # type: ignore[no-untyped-def]
+        values = np.array([function(*row) for row in self.resampled])
+        best = function(self.shape.value, self.scale.value, self.rate.value)
+        found = _reflected(best, values, self.confidence, in_proportion=True)
+        return Interval(self.threshold + found.value, self.threshold + found.low, self.threshold + found.high)
+
+
+def _reflected(value: float, samples: Array, confidence: float, *, in_proportion: bool) -> Interval:
+    """Return bounds from fits of drawn samples, reflected at the estimate: so their bias is taken off, not doubled."""
+    tail = 50.0 * (1.0 - confidence)
+    low, high = (float(bound) for bound in np.percentile(samples, [tail, 100.0 - tail]))
+    if in_proportion and value > 0.0 and low > 0.0:
+        return Interval(value, value * value / high, value * value / low)
+    return Interval(value, 2.0 * value - high, 2.0 * value - low)
+
+
+def _check_hours(hours: float) -> None:
+    if not (math.isfinite(hours) and hours > 0.0):
+        raise InputError(f"hours is {hours:g}", path="hours", allowed="greater than 0")
+
+
+def _log_exceedance(law: SnapLaw, excess: ArrayLike, shape: float, scale: float) -> Array:
+    z = np.maximum(np.asarray(excess, dtype=np.float64), 0.0) / scale
+    if law == "weibull":
+        return -(z**shape)
+    if abs(shape) < 1e-9:
+        return -z
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(1.0 + shape * z > 0.0, -np.log1p(np.maximum(shape * z, -1.0)) / shape, -np.inf)
+
+
+def _excess_at(law: SnapLaw, probability: float, shape: float, scale: float) -> float:
+    """Return the excess that is exceeded with a probability."""
+    lack = -math.log(probability)
+    if law == "weibull":
+        return float(scale * lack ** (1.0 / shape))
+    return scale * lack if abs(shape) < 1e-9 else scale * math.expm1(shape * lack) / shape
+
+
+def _mode(law: SnapLaw, shape: float, scale: float, count: float) -> float:
+    """Return the most probable excess of the largest of a Poisson number of peaks with mean ``count``."""
+    if law == "pareto":
+        # n Q = 1 + c
+        return _excess_at(law, min((1.0 + shape) / count, 1.0), shape, scale)
+    # n e^-t = 1 - (c - 1)/(c t), t = (y/a)^c
+    t = max(math.log(count), 1e-3)
+    for _ in range(100):
+        right = 1.0 - (shape - 1.0) / (shape * t)
+        new = math.log(count) - math.log(right) if right > 0.0 else 0.5 * t
+        new = max(new, 1e-6)
+        if abs(new - t) <= 1e-12 * t:
+            break
+        t = new
+    return float(scale * t ** (1.0 / shape))
+
+
+def _weibull(excess: Array) -> tuple[float, float]:
+    """Return shape and scale of greatest likelihood."""
+    logs = np.log(excess)
+    top, mean = float(logs.max()), float(logs.mean())
+    spread = float(logs.std())
+    shape = 1.28 / spread if spread > 0.0 else 1e3
+    for _ in range(_SHAPES):
+        weight = np.exp(shape * (logs - top))
+        total = float(weight.sum())
+        first, second = float(weight @ logs) / total, float(weight @ (logs * logs)) / total
+        value = first - 1.0 / shape - mean
+        step = value / (second - first * first + 1.0 / shape**2)
+        shape = max(shape - step, 0.2 * shape)
+        if abs(step) <= 1e-12 * shape:
+            break
+    return shape, math.exp(top + math.log(float(np.mean(np.exp(shape * (logs - top))))) / shape)
+
+
+def _pareto(excess: Array) -> tuple[float, float]:
+    """Return shape and scale of greatest likelihood, along Grimshaw's line of one parameter."""
+    from scipy.optimize import minimize_scalar
+
+    mean, largest = float(excess.mean()), float(excess.max())
+
+    def cost(ratio: float) -> float:
+        # ratio = shape/scale in units of the mean excess
+        rate = ratio / mean
+        if abs(ratio) < 1e-9:
+            return math.log(mean) + 1.0
+        shape = float(np.mean(np.log1p(rate * excess)))
+        # shapes below -1/2 have no regular maximum
+        return math.log(shape / rate) + shape + 1.0 if shape > -0.5 else 1e9
+
+    border = -mean / largest
+    grid = np.concatenate([border * (1.0 - np.geomspace(1e-4, 1.0, 30, endpoint=False)), np.geomspace(1e-3, 20.0, 40)])
+    grid.sort()
+    values = np.array([cost(float(ratio)) for ratio in grid])
+    best = int(np.argmin(values))
+    low, high = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
+    found = float(minimize_scalar(cost, bounds=(low, high), method="bounded", options={"xatol": 1e-9}).x)
+    if abs(found) < 1e-7:
+        return 0.0, mean
+    shape = float(np.mean(np.log1p(found / mean * excess)))
+    return shape, shape * mean / found
+
+
+def fit_snaps(
+    peaks: ArrayLike,
+    hours: float,
+    *,
+    threshold: float,
+    law: SnapLaw = "weibull",
+    confidence: float = 0.95,
+    resamples: int = 300,
+    seed: int = 0,
+) -> SnapFit:
+    """Fit a law to the peaks above a threshold by greatest likelihood [eq:curtain-snap-exceedance].
+
+    Parameters
+    ----------
+    peaks : array_like
+        One peak for each snap [N].
+    hours : float
+        Observed time [h].
+    threshold : float
+        [N]; 0 takes all peaks. The Pareto law is right for high thresholds only.
+    law : {"weibull", "pareto"}
+        Which law.
+    confidence : float
+        Of the intervals.
+    resamples : int
+        Samples drawn for the intervals.
+    seed : int
+        Of these samples.
+
+    Raises
+    ------
+    InputError
+        When fewer than ten peaks are above the threshold, they are all equal, or a number is out of range.
+    """
+    _check_hours(hours)
+    given = np.asarray(peaks, dtype=np.float64).reshape(-1)
+    if not np.isfinite(given).all():
+        raise InputError("a peak is not a number", path="peaks", allowed="finite tensions")
+    if law not in get_args(SnapLaw):
+        raise InputError(f"unknown law {law!r}", path="law", allowed=", ".join(get_args(SnapLaw)))
+    if not 0.5 <= confidence < 1.0:
+        raise InputError(f"confidence is {confidence:g}", path="confidence", allowed="0.5 to below 1")
+    if resamples < 50:
+        raise InputError(f"resamples is {resamples}", path="resamples", allowed="at least 50")
+    if not math.isfinite(threshold):
+        raise InputError(f"threshold is {threshold:g} N", path="threshold", allowed="finite")
+    chosen = np.sort(given[given > threshold])[::-1].copy()
+    if chosen.size < _FEWEST or chosen[0] == chosen[-1]:
+        raise InputError(
+            f"{chosen.size} different peaks above {threshold:g} N",
+            path="peaks",
+            allowed=f"at least {_FEWEST}, not all equal",
+            remedy="simulate a longer sea, more seeds, or lower the threshold",
+        )
+    fit = _weibull if law == "weibull" else _pareto
+    excess = chosen - threshold
+    shape, scale = fit(excess)
+    rng = np.random.default_rng(seed)
+    counts = np.maximum(rng.poisson(chosen.size, resamples), 5)
+    rows = np.empty((resamples, 3))
+    for row, count in zip(rows, counts):
+        uniform = np.maximum(rng.random(count), 1e-300)
+        lack = -np.log(uniform)
+        if law == "weibull":
+            sample = scale * lack ** (1.0 / shape)
+        else:
+            sample = scale * (lack if abs(shape) < 1e-9 else np.expm1(shape * lack) / shape)
+        row[:2] = fit(np.maximum(sample, 1e-300))
+        row[2] = count / hours
+    below = -np.expm1(_log_exceedance(law, excess[::-1], shape, scale))
+    steps = np.arange(chosen.size + 1) / chosen.size
+    distance = float(np.maximum(np.abs(below - steps[1:]), np.abs(below - steps[:-1])).max())
+    return SnapFit(
+        law,
+        threshold,
+        _reflected(shape, rows[:, 0], confidence, in_proportion=law == "weibull"),
+        _reflected(scale, rows[:, 1], confidence, in_proportion=True),
+        poisson_rate(chosen.size, hours, confidence),
+        chosen,
+        hours,
+        confidence,
+        distance,
+        rows,
+        _check_fit(law, chosen.size, shape, distance),
+    )
+
+
+def poisson_rate(count: int, hours: float, confidence: float = 0.95) -> Interval:
+    """Return events per hour with the exact bounds of Poisson's law (Garwood)."""
+    from scipy.special import chdtri
+
+    _check_hours(hours)
+    tail = 0.5 * (1.0 - confidence)
+    low = 0.5 * float(chdtri(2 * count, 1.0 - tail)) if count > 0 else 0.0
+    return Interval(count / hours, low / hours, 0.5 * float(chdtri(2 * count + 2, tail)) / hours)
+
+
+def dispersion(time: ArrayLike, start: float, duration: float, blocks: int) -> float:
+    """Return variance over mean of the number of events in equal blocks of time: 1 for a Poisson process.
+
+    Raises
+    ------
+    InputError
+        For fewer than two blocks, or no events.
+    """
+    if blocks < 2:
+        raise InputError(f"blocks is {blocks}", path="blocks", allowed="at least 2")
+    counts, _ = np.histogram(np.asarray(time), bins=blocks, range=(start, start + duration))
+    if counts.sum() == 0:
+        raise InputError("no event lies in the blocks", path="time", allowed="at least one event")
+    return float(counts.var(ddof=1) / counts.mean())
+
+
+def _check_fit(law: SnapLaw, count: int, shape: float, distance: float) -> tuple[Notice, ...]:
+    notices = []
+    if count < _FEW:
+        notices.append(
+            Notice(
+                "snap-few",
+                f"{count} peaks carry the fit; the law of the largest is hardly determined",
+                float(count),
+                float(_FEW),
+                remedy="simulate a longer sea or more seeds",
+                source="width of the intervals",
+            )
+        )
+    # Kolmogorov's bound of 1 %, on the safe side for fitted parameters
+    limit = 1.63 / math.sqrt(count)
+    if distance > limit:
+        notices.append(
+            Notice(
+                "snap-fit",
+                f"The {law} law is off by {distance:.3g} in probability",
+                distance,
+                limit,
+                remedy="raise the threshold, or take the other law",
+                source="Kolmogorov and Smirnov, 1 %",
+            )
+        )
+    if law == "pareto" and shape > 0.3:
+        notices.append(
+            Notice(
+                "snap-heavy",
+                f"A Pareto shape of {shape:.3g} has a heavy tail: extrapolation is not safe",
+                shape,
+                0.3,
+                remedy="raise the threshold or add data",
+                source="variance grows without bound towards 0.5",
+            )
+        )
+    return tuple(notices)
