@@ -1,0 +1,362 @@
+"""Extremes of a response: distributions fitted to peaks and maxima, with what they are worth.
+
+Theory in docs/theory/extremes.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq, minimize_scalar
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.validity import Notice
+
+Array = NDArray[np.float64]
+Family = Literal["gumbel", "weibull", "generalised_pareto"]
+
+_LEAST = {"gumbel": 5, "weibull": 5, "generalised_pareto": 10}
+_EULER = 0.5772156649015329
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A distribution of peaks or maxima.
+
+    Parameters
+    ----------
+    family : str
+        ``gumbel`` (maxima of blocks), ``weibull`` (peaks above a location), ``generalised_pareto`` (peaks above a
+        threshold).
+    location : float
+        Of the unit of the data: mode of the Gumbel, lower end of the others.
+    scale : float
+        Of the unit of the data.
+    shape : float
+        Weibull exponent, or Pareto shape (positive: heavy tail); 0 for the Gumbel.
+    count : int
+        Number of values.
+    log_likelihood : float
+        Of the values under the fit.
+    """
+
+    family: Family
+    location: float
+    scale: float
+    shape: float
+    count: int
+    log_likelihood: float
+
+    def exceedance(self, level: ArrayLike) -> Array:
+        """Return the probability that a value exceeds ``level``; accurate also where it is tiny."""
+        y = (np.asarray(level, dtype=float) - self.location) / self.scale
+        if self.family == "gumbel":
+            return np.asarray(-np.expm1(-np.exp(-y)))
+        y = np.maximum(y, 0.0)
+        if self.family == "weibull":
+            return np.asarray(np.exp(-(y**self.shape)))
+        if abs(self.shape) < 1e-9:
+            return np.asarray(np.exp(-y))
+        return np.asarray(np.maximum(1.0 + self.shape * y, 0.0) ** (-1.0 / self.shape))
+
+    def level(self, exceedance: ArrayLike) -> Array:
+        """Return the level that is exceeded with the given probability."""
+        p = np.asarray(exceedance, dtype=float)
+        if np.any((p <= 0.0) | (p >= 1.0)):
+            raise InputError("a probability of exceedance lies between 0 and 1", path="exceedance")
+        if self.family == "gumbel":
+            return np.asarray(self.location - self.scale * np.log(-np.log1p(-p)))
+        if self.family == "weibull":
+            return np.asarray(self.location + self.scale * (-np.log(p)) ** (1.0 / self.shape))
+        if abs(self.shape) < 1e-9:
+            return np.asarray(self.location - self.scale * np.log(p))
+        return np.asarray(self.location + self.scale * np.expm1(-self.shape * np.log(p)) / self.shape)
+
+    def most_probable_maximum(self, count: float) -> float:
+        """Return the level that is exceeded once in ``count`` values on the average: the mode of their maximum."""
+        if not count > 1.0:
+            raise InputError(f"the maximum of {count:g} values has no mode", path="count", allowed="more than 1")
+        if self.family == "gumbel":
+            return self.location + self.scale * math.log(count)
+        return float(self.level(1.0 / count))
+
+    def maximum_level(self, count: float, probability: float) -> float:
+        """Return the level that the maximum of ``count`` values stays below with ``probability``."""
+        if not 0.0 < probability < 1.0:
+            raise InputError("a probability lies between 0 and 1", path="probability")
+        # 1 - probability**(1 / count), without cancellation for many values
+        return float(self.level(-math.expm1(math.log(probability) / count)))
+
+    def sample(self, count: int, generator: np.random.Generator) -> Array:
+        """Draw values."""
+        return self.level(np.clip(generator.random(count), 1e-300, 1.0 - 1e-16))
+
+
+@dataclass(frozen=True)
+class Interval:
+    """An estimate with its confidence interval.
+
+    Parameters
+    ----------
+    value, lower, upper : float
+        Of the unit of the data.
+    confidence : float
+        Probability that the interval covers.
+    """
+
+    value: float
+    lower: float
+    upper: float
+    confidence: float
+
+
+def fit(values: ArrayLike, family: Family, *, location: float | None = None) -> Fit:
+    """Fit a distribution by maximum likelihood.
+
+    Parameters
+    ----------
+    values : array_like (n,)
+        Maxima of blocks (Gumbel), peaks (Weibull, generalised Pareto).
+    family : str
+        See :class:`Fit`.
+    location : float
+        Lower end of the Weibull (0 for peaks above a mean) or threshold of the Pareto; values below it are left out.
+        Not for the Gumbel.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    InputError
+        For too few or equal values, or a location that is missing or in the way.
+    ConvergenceError
+        Where the likelihood has no maximum.
+
+    Notes
+    -----
+    Coles (2001), ch. 3 and 4 [eq:extremes-gumbel] [eq:extremes-weibull] [eq:extremes-pareto]; the equations of the
+    Gumbel and Weibull reduce to one unknown, that of the Pareto to a search along one (Grimshaw 1993).
+    """
+    data = np.asarray(values, dtype=float).ravel()
+    if not np.isfinite(data).all():
+        raise InputError("the values hold NaN or infinity", path="values", remedy="leave them out knowingly")
+    if family == "gumbel":
+        if location is not None:
+            raise InputError("the location of a Gumbel distribution is fitted", path="location", remedy="leave it out")
+        _require(data, family)
+        return _gumbel(data)
+    if location is None:
+        raise InputError(
+            f"a {family} fit needs the lower end of the values",
+            path="location",
+            remedy="give the threshold, or 0 for peaks above the mean",
+        )
+    above = data[data > location]
+    _require(above, family)
+    return _weibull(above, location) if family == "weibull" else _pareto(above, location)
+
+
+def _require(data: Array, family: Family) -> None:
+    if data.size < _LEAST[family]:
+        raise InputError(
+            f"{data.size} values are too few for a {family} fit",
+            path="values",
+            allowed=f"at least {_LEAST[family]}",
+            remedy="run more seeds or longer seas, or lower the threshold",
+        )
+    if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
+        raise InputError("all values are equal: there is nothing to fit", path="values")
+
+
+def _gumbel(data: Array) -> Fit:
+    mean, spread = float(np.mean(data)), float(np.std(data))
+    x = (data - mean) / spread
+
+    def residual(scale: float) -> float:
+        # Weights of the smallest value would overflow; only differences matter
+        weight = np.exp(-(x - x.min()) / scale)
+        return float(scale - np.mean(x) + np.sum(x * weight) / np.sum(weight))
+
+    scale = float(brentq(residual, 1e-3, 20.0, xtol=1e-14, rtol=1e-13))
+    location = x.min() - scale * math.log(np.mean(np.exp(-(x - x.min()) / scale)))
+    y = (x - location) / scale
+    likelihood = float(-x.size * math.log(scale * spread) - np.sum(y) - np.sum(np.exp(-y)))
+    return Fit("gumbel", mean + spread * location, spread * scale, 0.0, data.size, likelihood)
+
+
+def _weibull(data: Array, location: float) -> Fit:
+    excess = data - location
+    log = np.log(excess / np.max(excess))
+
+    def residual(shape: float) -> float:
+        power = np.exp(shape * log)
+        return float(np.sum(power * log) / np.sum(power) - 1.0 / shape - np.mean(log))
+
+    shape = float(brentq(residual, 1e-3, 1e3, xtol=1e-13, rtol=1e-12))
+    scale = float(np.max(excess) * np.mean(np.exp(shape * log)) ** (1.0 / shape))
+    y = excess / scale
+    likelihood = float(data.size * math.log(shape / scale) + (shape - 1.0) * np.sum(np.log(y)) - np.sum(y**shape))
+    return Fit("weibull", location, scale, shape, data.size, likelihood)
+
+
+def _pareto(data: Array, location: float) -> Fit:
+    excess = data - location
+    unit = float(np.mean(excess))
+    x = excess / unit
+    largest = float(np.max(x))
+
+    def shape_of(theta: float) -> float:
+        return float(np.mean(np.log1p(theta * x)))
+
+    def minus_likelihood(theta: float) -> float:
+        # Profile likelihood of theta = shape / scale; the exponential is its limit at zero
+        if abs(theta) < 1e-7:
+            return float(x.size * (math.log(np.mean(x)) + 1.0))
+        shape = shape_of(theta)
+        ratio = shape / theta
+        return float(x.size * (math.log(ratio) + shape + 1.0)) if ratio > 0.0 else math.inf
+
+    # Below a shape of -1 the likelihood has no maximum (it grows without end as the end point meets the largest value)
+    low = -1.0 / largest * (1.0 - 1e-6)
+    grid = np.concatenate([low * np.geomspace(1.0, 1e-4, 60), [0.0], np.geomspace(1e-4, 50.0, 80)])
+    values = np.array([minus_likelihood(theta) if shape_of(theta) > -0.95 else math.inf for theta in grid])
+    best = int(np.argmin(values))
+    if not math.isfinite(values[best]) or best == grid.size - 1:
+        raise ConvergenceError(
+            "the likelihood of the generalised Pareto fit has no maximum",
+            path="values",
+            remedy="choose another threshold, or a Weibull fit",
+        )
+    lower, upper = grid[max(best - 1, 0)], grid[best + 1]
+    found = minimize_scalar(minus_likelihood, bounds=(lower, upper), method="bounded", options={"xatol": 1e-12})
+    theta = float(found.x) if found.fun <= values[best] else float(grid[best])
+    shape = shape_of(theta) if abs(theta) >= 1e-7 else 0.0
+    scale = shape / theta if abs(theta) >= 1e-7 else float(np.mean(x))
+    likelihood = -minus_likelihood(theta) - x.size * math.log(unit)
+    return Fit("generalised_pareto", location, scale * unit, shape, data.size, likelihood)
+
+
+def maximum_interval(
+    fitted: Fit,
+    count: float,
+    *,
+    seed: int,
+    probability: float | None = None,
+    confidence: float = 0.9,
+    repetitions: int = 400,
+) -> Interval:
+    """Return the most probable maximum of ``count`` values with its confidence interval.
+
+    Parameters
+    ----------
+    fitted : Fit
+    count : float
+        Number of values whose maximum is meant: peaks in the storm, or 1 block for a quantile of block maxima.
+    seed : int
+        Of the parametric bootstrap.
+    probability : float, optional
+        Give the level that the maximum stays below with this probability, instead of its mode.
+    confidence : float
+        Of the interval.
+    repetitions : int
+        Fits to samples drawn from ``fitted``.
+
+    Returns
+    -------
+    Interval
+        Basic bootstrap of the logarithmic distance from the location, so that it never falls below the location.
+    """
+
+    def level(one: Fit) -> float:
+        return one.most_probable_maximum(count) if probability is None else one.maximum_level(count, probability)
+
+    generator = np.random.default_rng(seed)
+    found = []
+    for _ in range(repetitions):
+        drawn = fitted.sample(fitted.count, generator)
+        try:
+            again = fit(drawn, fitted.family, location=None if fitted.family == "gumbel" else fitted.location)
+        except (InputError, ConvergenceError):
+            continue
+        found.append(level(again))
+    value = level(fitted)
+    tail = 50.0 * (1.0 - confidence)
+    if fitted.family == "gumbel":
+        low, high = np.percentile(found, [tail, 100.0 - tail])
+        return Interval(value, float(2.0 * value - high), float(2.0 * value - low), confidence)
+    distance = np.log(np.maximum(np.array(found) - fitted.location, 1e-300) / (value - fitted.location))
+    low, high = np.percentile(distance, [tail, 100.0 - tail])
+    reach = value - fitted.location
+    return Interval(
+        value, fitted.location + reach * math.exp(-high), fitted.location + reach * math.exp(-low), confidence
+    )
+
+
+def check_fit(fitted: Fit, values: ArrayLike) -> tuple[Notice, ...]:
+    """Return notices about what a fit is worth: distance from the data, few values, heavy tail.
+
+    The distance is that of Anderson and Darling, which weighs the tails; above 2.5 a fit is doubtful at the 5 % level
+    where the parameters are known, and well above it where they were fitted.
+    """
+    notices = []
+    data = np.sort(np.asarray(values, dtype=float).ravel())
+    data = data[data > fitted.location] if fitted.family != "gumbel" else data
+    n = data.size
+    above = np.clip(fitted.exceedance(data), 1e-300, 1.0 - 1e-16)
+    order = np.arange(1, n + 1)
+    distance = float(-n - np.sum((2 * order - 1) * (np.log1p(-above) + np.log(above[::-1]))) / n)
+    if distance > 2.5:
+        notices.append(
+            Notice(
+                "extremes-distance",
+                f"the {fitted.family} fit is far from the data (Anderson-Darling distance {distance:.2f}, limit 2.5)",
+                distance,
+                2.5,
+                remedy="choose another family or threshold; fit snap peaks apart from the others",
+                source="Anderson and Darling (1954)",
+            )
+        )
+    if n < 20:
+        notices.append(
+            Notice(
+                "extremes-few",
+                f"{n} values stand behind the fit; below 20 its interval is rough",
+                float(n),
+                20.0,
+                remedy="run more seeds",
+            )
+        )
+    if fitted.family == "generalised_pareto" and fitted.shape > 0.5:
+        notices.append(
+            Notice(
+                "extremes-heavy-tail",
+                f"the tail is so heavy (shape {fitted.shape:.2f}, limit 0.5) that its variance does not exist",
+                fitted.shape,
+                0.5,
+                remedy="look for peaks of two kinds in the data, and fit them apart",
+            )
+        )
+    return tuple(notices)
+
+
+def gumbel_of_peaks(peaks: Fit, count: float) -> Fit:
+    """Return the Gumbel distribution that the maximum of ``count`` Weibull peaks tends to.
+
+    [eq:extremes-asymptote]: mode and scale from the level and slope of the parent at exceedance ``1 / count``.
+    """
+    if peaks.family != "weibull":
+        raise InputError("the asymptote is given for Weibull peaks", path="peaks")
+    y = math.log(count)
+    scale = peaks.scale / peaks.shape * y ** (1.0 / peaks.shape - 1.0)
+    return Fit("gumbel", peaks.most_probable_maximum(count), scale, 0.0, peaks.count, math.nan)
+
+
+def mean_of_gumbel(fitted: Fit) -> float:
+    """Return the mean of a Gumbel distribution, its mode plus 0.5772 of its scale."""
+    return fitted.location + _EULER * fitted.scale

@@ -1,0 +1,183 @@
+"""Fatigue of lines: cycles counted, curves of endurance, damage.
+
+Theory in docs/theory/fatigue.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import gamma
+
+from moyai.core.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class EnduranceCurve:
+    """Cycles to failure ``N = capacity / range^exponent``.
+
+    Parameters
+    ----------
+    name : str
+    exponent : float
+        Inverse slope m.
+    capacity : float
+        Number of cycles at a range of one (ratio to the breaking load, or stress in ``unit``).
+    unit : str
+        ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N).
+    confirmed : bool
+        Whether the values were held against the standard itself.
+    source : str
+    """
+
+    name: str
+    exponent: float
+    capacity: float
+    unit: str
+    confirmed: bool
+    source: str
+
+    def cycles_to_failure(self, ranges: ArrayLike) -> Array:
+        """Return the number of cycles to failure; infinite at zero range [eq:fatigue-curve]."""
+        r = np.asarray(ranges, dtype=float)
+        with np.errstate(divide="ignore"):
+            return np.asarray(self.capacity / r**self.exponent)
+
+
+def count_cycles(series: ArrayLike) -> tuple[Array, Array, Array]:
+    """Count rainflow cycles of a record (ASTM E1049).
+
+    Parameters
+    ----------
+    series : array_like (n,)
+        Tension or stress.
+
+    Returns
+    -------
+    ranges, means, counts : ndarray
+        Of the unit of the series; counts are 1 or 0.5.
+
+    Raises
+    ------
+    InputError
+        For a record with NaN or fewer than three values.
+    """
+    import rainflow
+
+    data = np.asarray(series, dtype=float).ravel()
+    if data.size < 3 or not np.isfinite(data).all():
+        raise InputError("a record to count has at least three finite values", path="series")
+    cycles = [(size, mean, count) for size, mean, count, _, _ in rainflow.extract_cycles(data)]
+    if not cycles:
+        return np.empty(0), np.empty(0), np.empty(0)
+    ranges, means, counts = (np.array(column, dtype=float) for column in zip(*cycles))
+    return ranges, means, counts
+
+
+def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float:
+    """Return the Palmgren-Miner sum of counted cycles [eq:fatigue-miner].
+
+    Parameters
+    ----------
+    ranges : array_like (n,)
+        In the unit of the curve.
+    counts : array_like (n,)
+        Numbers of cycles.
+    curve : EnduranceCurve
+    """
+    r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
+    if np.any(r < 0.0) or np.any(n < 0.0):
+        raise InputError("ranges and numbers of cycles are zero or more", path="ranges")
+    return float(np.sum(n * r**curve.exponent) / curve.capacity)
+
+
+def equivalent_range(ranges: ArrayLike, counts: ArrayLike, exponent: float, cycles: float) -> float:
+    """Return the constant range that does the same damage in ``cycles`` cycles [eq:fatigue-equivalent]."""
+    if not cycles > 0.0:
+        raise InputError(f"{cycles:g} cycles", path="cycles", allowed="above 0")
+    r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
+    return float((np.sum(n * r**exponent) / cycles) ** (1.0 / exponent))
+
+
+def narrow_band_damage(deviation: float, crossing_frequency: float, duration: float, curve: EnduranceCurve) -> float:
+    """Return the damage of a narrow-banded Gaussian response, whose ranges follow Rayleigh [eq:fatigue-narrow].
+
+    Parameters
+    ----------
+    deviation : float
+        Standard deviation, in the unit of the curve.
+    crossing_frequency : float
+        Mean number of up-crossings a second [Hz].
+    duration : float
+        [s].
+    curve : EnduranceCurve
+
+    Notes
+    -----
+    An upper bound for wide-banded responses; compare with :func:`dirlik_damage`.
+    """
+    m = curve.exponent
+    mean_power = (2.0 * math.sqrt(2.0) * deviation) ** m * float(gamma(1.0 + m / 2.0))
+    return crossing_frequency * duration * mean_power / curve.capacity
+
+
+def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) -> float:
+    """Return the damage of a Gaussian response by Dirlik's formula [eq:fatigue-dirlik].
+
+    Parameters
+    ----------
+    moments : array_like (5,)
+        Spectral moments m0 to m4 in frequency [unit^2 Hz^n]; m3 is not used.
+    duration : float
+        [s].
+    curve : EnduranceCurve
+
+    Notes
+    -----
+    Dirlik (1985); fitted to spectra with irregularity between 0.16 and 0.99.
+    """
+    m0, m1, m2, _, m4 = np.asarray(moments, dtype=float)
+    if min(m0, m1, m2, m4) <= 0.0:
+        raise InputError("spectral moments are above zero", path="moments")
+    peaks = math.sqrt(m4 / m2)
+    irregularity = m2 / math.sqrt(m0 * m4)
+    mean_frequency = m1 / m0 * math.sqrt(m2 / m4)
+    d1 = 2.0 * (mean_frequency - irregularity**2) / (1.0 + irregularity**2)
+    r = (irregularity - mean_frequency - d1**2) / (1.0 - irregularity - d1 + d1**2)
+    d2 = (1.0 - irregularity - d1 + d1**2) / (1.0 - r)
+    d3 = 1.0 - d1 - d2
+    q = 1.25 * (irregularity - d3 - d2 * r) / d1
+    m = curve.exponent
+    power = (2.0 * math.sqrt(m0)) ** m * (
+        d1 * q**m * gamma(1.0 + m) + math.sqrt(2.0) ** m * float(gamma(1.0 + m / 2.0)) * (d2 * abs(r) ** m + d3)
+    )
+    return float(peaks * duration * power / curve.capacity)
+
+
+def life(damage_of_states: ArrayLike, probability: ArrayLike, duration: float) -> float:
+    """Return the fatigue life over a scatter diagram [years].
+
+    Parameters
+    ----------
+    damage_of_states : array_like (n,)
+        Damage of every sea state in ``duration``.
+    probability : array_like (n,)
+        Share of the time of every sea state; sums to one.
+    duration : float
+        [s].
+
+    Returns
+    -------
+    float
+        Years until the sum of Palmgren and Miner reaches one; divide by the safety factor of the code.
+    """
+    share = np.asarray(probability, dtype=float)
+    if abs(share.sum() - 1.0) > 1e-3:
+        raise InputError(f"the probabilities sum to {share.sum():.6g}, not to 1", path="probability")
+    rate = float(np.sum(share * np.asarray(damage_of_states, dtype=float))) / duration
+    return math.inf if rate == 0.0 else 1.0 / (rate * 365.25 * 86400.0)

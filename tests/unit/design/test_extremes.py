@@ -1,0 +1,197 @@
+"""Extremes against distributions whose answers are known."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from moyai.core.errors import InputError
+from moyai.design.acer import acer_interval, exceedance_rates, fit_tail
+from moyai.design.extremes import check_fit, fit, gumbel_of_peaks, maximum_interval
+from moyai.design.long_term import (
+    YEAR,
+    JointSea,
+    environmental_contour,
+    fit_joint_sea,
+    long_term_exceedance,
+    reliability_index,
+    return_level,
+)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_fits_are_the_maxima_of_scipys_likelihoods(seed):
+    rng = np.random.default_rng(seed)
+    gumbel = stats.gumbel_r.rvs(rng.uniform(-5, 50), rng.uniform(0.1, 20), size=60, random_state=rng)
+    found = fit(gumbel, "gumbel")
+    mode, scale = stats.gumbel_r.fit(gumbel)
+    assert found.log_likelihood >= stats.gumbel_r.logpdf(gumbel, mode, scale).sum() - 1e-6
+    assert math.isclose(
+        found.log_likelihood, stats.gumbel_r.logpdf(gumbel, found.location, found.scale).sum(), rel_tol=1e-10
+    )
+    shape = rng.uniform(0.6, 3.0)
+    weibull = 2.0 + stats.weibull_min.rvs(shape, scale=rng.uniform(0.1, 9), size=80, random_state=rng)
+    found = fit(weibull, "weibull", location=2.0)
+    c, _, s = stats.weibull_min.fit(weibull, floc=2.0)
+    assert found.shape == pytest.approx(c, rel=1e-3) and found.scale == pytest.approx(s, rel=1e-3)
+    assert found.log_likelihood >= stats.weibull_min.logpdf(weibull, c, 2.0, s).sum() - 1e-6
+    pareto = 1.0 + stats.genpareto.rvs(rng.uniform(-0.3, 0.4), scale=rng.uniform(0.1, 9), size=200, random_state=rng)
+    found = fit(pareto, "generalised_pareto", location=1.0)
+    c, _, s = stats.genpareto.fit(pareto, floc=1.0)
+    assert found.log_likelihood >= stats.genpareto.logpdf(pareto, c, 1.0, s).sum() - 1e-5
+    assert math.isclose(
+        found.log_likelihood, stats.genpareto.logpdf(pareto, found.shape, 1.0, found.scale).sum(), rel_tol=1e-9
+    )
+
+
+@pytest.mark.parametrize("family", ["gumbel", "weibull", "generalised_pareto"])
+def test_levels_and_exceedances_undo_each_other_far_into_the_tail(family):
+    rng = np.random.default_rng(3)
+    location = None if family == "gumbel" else 0.0
+    values = 3.0 + rng.gumbel(size=50) if family == "gumbel" else rng.weibull(1.5, 50)
+    found = fit(values, family, location=location)
+    for p in (0.5, 1e-3, 1e-9, 1e-14):
+        level = float(found.level(p))
+        if family != "generalised_pareto" or found.shape > 0:
+            assert float(found.exceedance(level)) == pytest.approx(p, rel=1e-6)
+
+
+def test_the_maximum_of_rayleigh_peaks_is_known():
+    # Rayleigh peaks of deviation 1: mode of the maximum of n is sqrt(2 ln n), and P(max <= x) = (1 - exp(-x^2/2))^n
+    found = fit(np.sqrt(-2.0 * np.log(1.0 - (np.arange(20000) + 0.5) / 20000)), "weibull", location=0.0)
+    assert found.shape == pytest.approx(2.0, rel=2e-3)
+    assert found.most_probable_maximum(1000) == pytest.approx(math.sqrt(2 * math.log(1000)), rel=2e-3)
+    exact = math.sqrt(-2.0 * math.log(1.0 - 0.9 ** (1.0 / 1000.0)))
+    assert found.maximum_level(1000, 0.9) == pytest.approx(exact, rel=2e-3)
+    asymptote = gumbel_of_peaks(found, 1000)
+    assert float(asymptote.level(0.1)) == pytest.approx(exact, rel=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("family", "confidence"), [("gumbel", 0.9), ("weibull", 0.9)])
+def test_intervals_cover_as_often_as_they_say(family, confidence):
+    rng = np.random.default_rng(11)
+    covered = 0
+    repetitions = 250
+    for number in range(repetitions):
+        if family == "gumbel":
+            data, location = 10.0 + 2.0 * rng.gumbel(size=30), None
+            truth, count, probability = 10.0 - 2.0 * math.log(-math.log(0.9)), 1.0, 0.9
+        else:
+            data, location = rng.weibull(1.4, 200), 0.0
+            truth, count, probability = math.log(5000.0) ** (1 / 1.4), 5000.0, None
+        interval = maximum_interval(
+            fit(data, family, location=location), count, seed=number, probability=probability, confidence=confidence,
+            repetitions=200,
+        )  # fmt: skip
+        covered += interval.lower <= truth <= interval.upper
+    # Two and a half deviations of the binomial count, and 3 % for the bootstrap's own bias at these sizes
+    slack = 2.5 * math.sqrt(confidence * (1 - confidence) / repetitions) + 0.03
+    assert abs(covered / repetitions - confidence) < slack
+
+
+def test_average_conditional_exceedance_finds_the_maximum_of_correlated_peaks():
+    # A Gaussian sequence with correlation 0.7: its maximum is known from simulation-free theory only for the
+    # independent one, so the truth is the maximum of many long realisations
+    rng = np.random.default_rng(2)
+
+    def sequence(count):
+        x = np.empty(count)
+        x[0] = rng.standard_normal()
+        noise = rng.standard_normal(count) * math.sqrt(1 - 0.7**2)
+        for j in range(1, count):
+            x[j] = 0.7 * x[j - 1] + noise[j]
+        return x
+
+    realisations = [sequence(1000) for _ in range(20)]
+    maxima = np.array([sequence(1000).max() for _ in range(600)])
+    tail = fit_tail(exceedance_rates(realisations, order=4))
+    found = acer_interval(tail, 1000, 0.5, confidence=0.95)
+    truth = float(np.median(maxima))
+    assert found.lower - 0.02 <= truth <= found.upper + 0.02
+    assert abs(found.value - truth) < 0.1
+    # Counting every exceedance ignores the correlation: it can only be larger
+    first = fit_tail(exceedance_rates(realisations, order=1))
+    assert first.maximum_level(1000, 0.5) > found.value - 0.02
+
+
+def test_average_conditional_exceedance_of_independent_rayleigh_peaks_is_exact():
+    rng = np.random.default_rng(8)
+    peaks = [np.sqrt(-2.0 * np.log(rng.random(2000))) for _ in range(10)]
+    tail = fit_tail(exceedance_rates(peaks, order=1))
+    exact = math.sqrt(2.0 * math.log(1e5))
+    assert tail.most_probable_maximum(1e5) == pytest.approx(exact, rel=0.06)
+
+
+def test_the_long_term_of_one_sea_state_is_its_short_term():
+    def exceeds(level):
+        return 1.0 - np.exp(-1000.0 * np.exp(-(level**2) / 2.0))
+
+    years = 100.0
+    found = return_level(years, [1.0], [exceeds], 10800.0, (1.0, 20.0))
+    states = years * YEAR / 10800.0
+    exact = math.sqrt(2.0 * math.log(1000.0 * states))
+    assert found == pytest.approx(exact, rel=1e-9)
+
+
+def test_the_long_term_of_two_sea_states_is_governed_by_the_worse():
+    def calm(level):
+        return np.exp(-level)
+
+    def storm(level):
+        return np.exp(-level / 3.0)
+
+    rate = long_term_exceedance([40.0], [0.99, 0.01], [calm, storm], 10800.0)[0]
+    assert rate == pytest.approx(YEAR / 10800.0 * (0.99 * math.exp(-40.0) + 0.01 * math.exp(-40.0 / 3.0)), rel=1e-5)
+
+
+def test_probabilities_that_do_not_sum_are_refused():
+    with pytest.raises(InputError, match="sum to"):
+        long_term_exceedance([1.0], [0.5, 0.4], [np.exp, np.exp], 10800.0)
+
+
+def test_the_top_of_the_contour_is_the_marginal_return_value_and_its_inside_holds_the_right_share():
+    rng = np.random.default_rng(6)
+    sea = JointSea(fit(rng.weibull(1.4, 5000) * 1.2 + 0.1, "weibull", location=0.1), (0.7, 0.9, 0.3), (0.05, 0.2, -0.4))
+    height, period = environmental_contour(sea, 50.0, 10800.0, count=720)
+    assert height.max() == pytest.approx(float(sea.height.level(10800.0 / (50.0 * YEAR))), rel=1e-6)
+    assert np.isfinite(period).all() and (period > 0).all()
+    # A half plane that touches the contour is exceeded with the probability of the return period: one sea state in
+    # N falls beyond the tangent at the top
+    assert reliability_index(50.0, 10800.0) == pytest.approx(-stats.norm.ppf(10800.0 / (50 * YEAR)), rel=1e-9)
+
+
+def test_the_joint_distribution_is_recovered_from_its_own_samples():
+    rng = np.random.default_rng(12)
+    n = 40000
+    h = 0.2 + 1.5 * rng.weibull(1.5, n)
+    t = np.exp(0.8 + 0.9 * h**0.35 + (0.06 + 0.25 * np.exp(-0.5 * h)) * rng.standard_normal(n))
+    sea = fit_joint_sea(h, t, lower_end=0.2, classes=25)
+    assert sea.height.shape == pytest.approx(1.5, rel=0.03) and sea.height.scale == pytest.approx(1.5, rel=0.03)
+    for height in (0.6, 1.5, 3.0, 4.5):
+        assert float(sea.period(height, 0.0)) == pytest.approx(math.exp(0.8 + 0.9 * height**0.35), rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("values", "family", "location", "word"),
+    [
+        ([1.0, 2.0], "gumbel", None, "too few"),
+        ([1.0] * 30, "gumbel", None, "equal"),
+        ([1.0, math.nan] * 20, "gumbel", None, "NaN"),
+        (list(range(30)), "weibull", None, "lower end"),
+        (list(range(30)), "gumbel", 3.0, "leave it out"),
+        (list(range(30)), "generalised_pareto", 28.0, "too few"),
+    ],
+)
+def test_data_that_cannot_be_fitted_are_told(values, family, location, word):
+    with pytest.raises(InputError, match=word):
+        fit(values, family, location=location)
+
+
+def test_two_kinds_of_peaks_in_one_fit_are_noticed():
+    rng = np.random.default_rng(1)
+    mixed = np.concatenate([rng.weibull(2.0, 400), 6.0 + rng.weibull(1.0, 40)])
+    assert any(notice.code == "extremes-distance" for notice in check_fit(fit(mixed, "weibull", location=0.0), mixed))
+    clean = rng.weibull(2.0, 400)
+    assert not check_fit(fit(clean, "weibull", location=0.0), clean)
