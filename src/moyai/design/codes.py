@@ -1,0 +1,235 @@
+"""Lines held against a design code: utilisation, pass or fail, and what stands behind the factors.
+
+Theory in docs/theory/design_checks.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.tables.design_codes import CodeRule, code_rules
+
+
+@dataclass(frozen=True)
+class LineLoad:
+    """Tension of a line in one condition.
+
+    Parameters
+    ----------
+    line : str
+        Name of the line.
+    maximum_tension, mean_tension : float
+        [N]
+    breaking_load : float
+        Minimum breaking load of the new line [N].
+    component : str
+        ``chain``, ``rope``, ``wire``, ``knotted_rope``, ``shackle`` or ``used_chain``.
+    lost : str
+        Name of the line that is lost, empty when intact.
+    """
+
+    line: str
+    maximum_tension: float
+    mean_tension: float
+    breaking_load: float
+    component: str
+    lost: str = ""
+
+
+@dataclass(frozen=True)
+class DesignCode:
+    """A code as it is applied: which analysis, which class, which of its values the user has confirmed.
+
+    Parameters
+    ----------
+    name : str
+        Name of the code.
+    rules : tuple of CodeRule
+    analysis : str
+        How the tensions were found: ``dynamic``, ``quasi_static`` or ``static``.
+    consequence : str
+        Class of the code, empty where it has none.
+    """
+
+    name: str
+    rules: tuple[CodeRule, ...]
+    analysis: str
+    consequence: str = ""
+
+    def value(self, rule: str, condition: str, component: str) -> CodeRule | None:
+        """Return the rule that applies, the most special first; ``None`` when the code has none."""
+        found = [
+            one
+            for one in self.rules
+            if one.rule == rule
+            and one.condition in (condition, "any")
+            and one.analysis in (self.analysis, "any")
+            and one.consequence in (self.consequence, "any")
+            and one.component in (component, "any")
+        ]
+        return min(found, key=lambda one: [one.component == "any", one.analysis == "any"], default=None)
+
+
+@dataclass(frozen=True)
+class LineCheck:
+    """Outcome of a line under a code.
+
+    Parameters
+    ----------
+    load : LineLoad
+    code : str
+    utilisation : float
+        Design tension over design strength; above 1 fails. NaN where the breaking load is unknown.
+    breaking_load : float
+        After the corrosion allowance [N].
+    factors : str
+        The factors in words.
+    confirmed : bool
+        Whether every factor was confirmed.
+    """
+
+    load: LineLoad
+    code: str
+    utilisation: float
+    breaking_load: float
+    factors: str
+    confirmed: bool
+
+    @property
+    def passed(self) -> bool:
+        """Whether the line holds (an unknown breaking load never does)."""
+        return bool(self.utilisation <= 1.0)
+
+
+def design_code(
+    name: str, *, analysis: str, consequence: str = "", confirmed: Iterable[str] = (), own: Sequence[CodeRule] = ()
+) -> DesignCode:
+    """Return a code of the table, or the user's own.
+
+    Parameters
+    ----------
+    name : str
+        Name in the table, or any name when ``own`` is given.
+    analysis : str
+        ``dynamic``, ``quasi_static`` or ``static``.
+    consequence : str
+        Class, for codes that have classes.
+    confirmed : iterable of str
+        Editions or names of codes whose values the user has held against the standard.
+    own : sequence of CodeRule
+        Values of the user's own in place of the table's.
+
+    Raises
+    ------
+    InputError
+        For an unknown code, analysis or class.
+    """
+    if analysis not in ("dynamic", "quasi_static", "static"):
+        raise InputError(f"unknown analysis '{analysis}'", path="analysis", allowed="dynamic, quasi_static, static")
+    rules = tuple(own) if own else code_rules(name)
+    sure = set(confirmed)
+    if sure:
+        rules = tuple(
+            CodeRule(**{**rule.__dict__, "confirmed": rule.confirmed or bool(sure & {rule.code, rule.edition})})
+            for rule in rules
+        )
+    classes = sorted({rule.consequence for rule in rules} - {"any"})
+    if classes and consequence not in classes:
+        raise InputError(f"{name} needs a consequence class", path="consequence", allowed=", ".join(classes))
+    return DesignCode(name, rules, analysis, consequence)
+
+
+def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diameter: float = math.nan) -> LineCheck:
+    """Hold a line against a code.
+
+    Parameters
+    ----------
+    load : LineLoad
+    code : DesignCode
+    corrosion : float
+        Loss of diameter over the life [m]: rate times years.
+    diameter : float
+        Diameter of the new line [m]; needed when ``corrosion`` is not zero.
+
+    Raises
+    ------
+    InputError
+        When the code has no rule for the component or condition, or corrosion eats the line.
+
+    Notes
+    -----
+    [eq:checks-factor] [eq:checks-partial] [eq:checks-material] [eq:checks-share] [eq:checks-corrosion]
+    """
+    strength = load.breaking_load * _worn_share(corrosion, diameter)
+    condition = "one_lost" if load.lost else "intact"
+
+    def value(rule: str) -> CodeRule | None:
+        return code.value(rule, condition, load.component)
+
+    mean, dynamic = value("partial_mean"), value("partial_dynamic")
+    factor, share = value("safety_factor"), value("share")
+    load_factor, material = value("load_factor"), value("material_factor")
+    if mean is not None and dynamic is not None:
+        varying = max(load.maximum_tension - load.mean_tension, 0.0)
+        demand = mean.value * load.mean_tension + dynamic.value * varying
+        utilisation = demand / (0.95 * strength)
+        used, words = (mean, dynamic), f"{mean.value:g} mean + {dynamic.value:g} dynamic on 0.95 of the breaking load"
+    elif factor is not None:
+        utilisation = load.maximum_tension * factor.value / strength
+        used, words = (factor,), f"safety factor {factor.value:g}"
+    elif load_factor is not None and material is not None:
+        utilisation = load.maximum_tension * load_factor.value * material.value / strength
+        used, words = (load_factor, material), f"load factor {load_factor.value:g}, material {material.value:g}"
+    elif share is not None:
+        utilisation = load.maximum_tension / (share.value * strength)
+        used, words = (share,), f"at most {100 * share.value:g} % of the breaking load"
+    else:
+        known = sorted({rule.component for rule in code.rules if rule.condition in (condition, "any")})
+        raise InputError(
+            f"{code.name} has no value for a {load.component}, {condition.replace('_', ' ')}, {code.analysis} analysis",
+            path=f"checks.{load.line}",
+            allowed="components: " + (", ".join(known) or "none in this condition"),
+            remedy="choose another code or give values of your own",
+        )
+    return LineCheck(load, code.name, utilisation, strength, words, all(rule.confirmed for rule in used))
+
+
+def _worn_share(corrosion: float, diameter: float) -> float:
+    """Return the share of the breaking load that is left: it goes with the area of the worn bar."""
+    if corrosion == 0.0:
+        return 1.0
+    if not (corrosion > 0.0 and math.isfinite(diameter)):
+        raise InputError(
+            f"a corrosion allowance of {corrosion:g} m needs the diameter of the line",
+            path="corrosion",
+            allowed="above 0",
+        )
+    if corrosion >= diameter:
+        raise InputError(
+            f"corrosion of {1000 * corrosion:g} mm eats the line of {1000 * diameter:g} mm",
+            path="corrosion",
+            remedy="shorten the life or choose a thicker line",
+        )
+    return (1.0 - corrosion / diameter) ** 2
+
+
+def check_confirmation(code: DesignCode) -> tuple[Notice, ...]:
+    """Return a notice for values that were not held against the standard itself."""
+    unsure = [rule for rule in code.rules if not rule.confirmed]
+    if not unsure:
+        return ()
+    return (
+        Notice(
+            "code-unconfirmed",
+            f"{len(unsure)} of {len(code.rules)} values of {code.name} ({unsure[0].edition}) were not held against the "
+            "standard itself",
+            float(len(unsure)),
+            0.0,
+            remedy="compare them with your copy and name the code under 'confirmed'",
+            source=unsure[0].source,
+        ),
+    )

@@ -1,0 +1,157 @@
+"""Factors of design codes, endurance curves and anchor holding (the CSV files in data/ hold numbers and sources)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from moyai.core.errors import InputError
+from moyai.tables.reader import Record, read_table
+
+_CODES, _CURVES, _ANCHORS = "design_codes.csv", "endurance_curves.csv", "anchor_friction.csv"
+
+
+@dataclass(frozen=True)
+class CodeRule:
+    """One value of a design code.
+
+    Parameters
+    ----------
+    code, edition : str
+        Name and edition.
+    condition : str
+        ``intact``, ``one_lost`` or ``any``.
+    analysis : str
+        ``dynamic``, ``quasi_static``, ``static`` or ``any``.
+    consequence : str
+        Class of the code, or ``any``.
+    component : str
+        ``chain``, ``rope``, ... or ``any``.
+    rule : str
+        ``safety_factor``, ``partial_mean``, ``partial_dynamic``, ``load_factor``, ``material_factor`` or ``share``.
+    value : float
+    confirmed : bool
+        Whether it was held against the standard itself.
+    source : str
+    """
+
+    code: str
+    edition: str
+    condition: str
+    analysis: str
+    consequence: str
+    component: str
+    rule: str
+    value: float
+    confirmed: bool
+    source: str
+
+
+@dataclass(frozen=True)
+class EnduranceData:
+    """An endurance curve of the table; see :class:`moyai.design.fatigue.EnduranceCurve`.
+
+    Parameters
+    ----------
+    name : str
+    exponent, capacity : float
+    mean_term : float
+        By how much log10 of the capacity falls with the mean tension over the breaking load.
+    unit : str
+    confirmed : bool
+    source : str
+    """
+
+    name: str
+    exponent: float
+    capacity: float
+    mean_term: float
+    unit: str
+    confirmed: bool
+    source: str
+
+
+@dataclass(frozen=True)
+class HoldingData:
+    """Friction of a sinker, or holding power of a drag anchor.
+
+    Parameters
+    ----------
+    kind : str
+        ``sinker`` or ``drag_anchor``.
+    name, bed : str
+    value : float
+        Friction coefficient, or holding power over weight in air.
+    confirmed : bool
+    source : str
+    """
+
+    kind: str
+    name: str
+    bed: str
+    value: float
+    confirmed: bool
+    source: str
+
+
+def available_codes() -> tuple[str, ...]:
+    """Return the names of the design codes."""
+    return tuple(dict.fromkeys(record["code"] for record in read_table(_CODES)))
+
+
+def code_rules(code: str) -> tuple[CodeRule, ...]:
+    """Return every rule of a code.
+
+    Raises
+    ------
+    InputError
+        For an unknown code.
+    """
+    found = tuple(_rule(record) for record in read_table(_CODES) if record["code"] == code)
+    if not found:
+        raise InputError(f"unknown code '{code}'", path="code", allowed=", ".join(available_codes()))
+    return found
+
+
+def _rule(record: Record) -> CodeRule:
+    return CodeRule(
+        record["code"], record["edition"], record["condition"], record["analysis"], record["consequence"],
+        record["component"], record["rule"], float(record["value"]), record["confirmed"] == "yes", record["source"],
+    )  # fmt: skip
+
+
+def available_endurance_curves() -> tuple[str, ...]:
+    """Return the names of the endurance curves."""
+    return tuple(record["name"] for record in read_table(_CURVES))
+
+
+def endurance_data(name: str) -> EnduranceData:
+    """Return an endurance curve of the table.
+
+    Raises
+    ------
+    InputError
+        For an unknown name.
+    """
+    for record in read_table(_CURVES):
+        if record["name"] == name:
+            return EnduranceData(
+                name, float(record["exponent"]), float(record["capacity"]), float(record["mean_term"]),
+                record["unit"], record["confirmed"] == "yes", record["source"],
+            )  # fmt: skip
+    raise InputError(f"unknown endurance curve '{name}'", path="curve", allowed=", ".join(available_endurance_curves()))
+
+
+def holding_data(kind: str, name: str, bed: str) -> HoldingData:
+    """Return friction or holding power of an anchor on a bed.
+
+    Raises
+    ------
+    InputError
+        When the table has no such pair.
+    """
+    rows = [record for record in read_table(_ANCHORS) if record["kind"] == kind]
+    for record in rows:
+        if (record["name"], record["bed"]) == (name, bed):
+            return HoldingData(kind, name, bed, float(record["value"]), record["confirmed"] == "yes", record["source"])
+    pairs = ", ".join(f"{record['name']} on {record['bed']}" for record in rows)
+    raise InputError(f"no {kind} '{name}' on '{bed}' in the table", path="anchor", allowed=pairs)
