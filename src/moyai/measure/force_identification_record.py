@@ -1,0 +1,220 @@
+"""Records of force and velocity for the identification of coefficients: faults are refused, one message each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+
+Array = NDArray[np.float64]
+
+#: Departure from an even time step that is forgiven, in steps
+_STEP_TOLERANCE = 0.02
+#: Samples that a period needs so that u|u| is resolved
+_LEAST_SAMPLES = 12
+#: Equal samples at an extreme from which on a gauge may be called clipped
+_LEAST_PLATEAU = 4
+
+
+@dataclass(frozen=True, eq=False)
+class ForceRecord:
+    """Force on a member and velocity of the water at its axis, component by component.
+
+    Parameters
+    ----------
+    time : array_like, shape (samples,)
+        Evenly spaced [s].
+    force : array_like, shape (samples,) or (samples, components)
+        Per length of the member [N/m].
+    velocity : array_like, shape of ``force``
+        Undisturbed, relative to the member [m/s].
+    acceleration : array_like, optional
+        [m/s2]; found from the velocity when absent.
+
+    Raises
+    ------
+    InputError
+        For gaps, uneven steps, lengths that differ, clipped gauges.
+    """
+
+    time: Array
+    force: Array
+    velocity: Array
+    acceleration: Array | None = None
+
+    def __post_init__(self) -> None:
+        time = np.array(self.time, dtype=float)
+        if time.ndim != 1 or time.size < _LEAST_SAMPLES:
+            raise InputError(f"the record holds {time.size} samples", path="time", allowed=f"at least {_LEAST_SAMPLES}")
+        object.__setattr__(self, "time", time)
+        for name in ("force", "velocity", "acceleration"):
+            given = getattr(self, name)
+            if given is None:
+                continue
+            values = np.array(given, dtype=float)
+            values = values[:, None] if values.ndim == 1 else values
+            if values.ndim != 2 or len(values) != time.size:
+                raise InputError(f"{name} has {len(values)} rows, time {time.size}", path=name, allowed="equal lengths")
+            object.__setattr__(self, name, values)
+        for name in ("velocity", "acceleration"):
+            values = getattr(self, name)
+            if values is not None and values.shape != self.force.shape:
+                raise InputError(
+                    f"{name} has {values.shape[1]} components, force {self.force.shape[1]}", path=name, allowed="equal"
+                )
+        _refuse_gaps(self)
+        _refuse_uneven(time)
+        for column in range(self.force.shape[1]):
+            if np.ptp(self.velocity[:, column]) == 0.0:
+                raise InputError(f"velocity {column + 1} does not change", path="velocity", remedy="check the column")
+            _refuse_clipped(self.force[:, column], f"force {column + 1}")
+            _refuse_clipped(self.velocity[:, column], f"velocity {column + 1}")
+
+    @property
+    def step(self) -> float:
+        """Time step [s]."""
+        return float((self.time[-1] - self.time[0]) / (self.time.size - 1))
+
+    @property
+    def duration(self) -> float:
+        """Length of the record [s], the last step included."""
+        return self.step * self.time.size
+
+    @property
+    def components(self) -> int:
+        """Number of components."""
+        return int(self.force.shape[1])
+
+    def part(self, first: int, last: int) -> ForceRecord:
+        """Return the samples from ``first`` up to ``last`` (excluded)."""
+        rows = slice(first, last)
+        rate = None if self.acceleration is None else self.acceleration[rows]
+        return ForceRecord(self.time[rows], self.force[rows], self.velocity[rows], rate)
+
+
+def _refuse_gaps(record: ForceRecord) -> None:
+    for name in ("time", "force", "velocity", "acceleration"):
+        values = getattr(record, name)
+        if values is None:
+            continue
+        good = np.isfinite(values) if values.ndim == 1 else np.isfinite(values).all(axis=1)
+        if not good.all():
+            rows = np.flatnonzero(~good)
+            raise InputError(
+                f"{name} is not a number in {rows.size} of {good.size} samples, first in sample {rows[0] + 1}",
+                path=name,
+                remedy="fill short gaps or choose a part of the record without any",
+            )
+
+
+def _refuse_uneven(time: Array) -> None:
+    steps = np.diff(time)
+    if (steps <= 0.0).any():
+        row = int(np.argmax(steps <= 0.0)) + 2
+        raise InputError(
+            f"time does not rise at sample {row}", path="time", remedy="sort the record or cut it at the reset"
+        )
+    even = float(np.median(steps))
+    off = np.abs(steps - even)
+    if off.max() > _STEP_TOLERANCE * even:
+        row = int(np.argmax(off)) + 2
+        raise InputError(
+            f"the record is not evenly sampled: the step to sample {row} is {steps[row - 2]:.6g} s, most are "
+            f"{even:.6g} s",
+            path="time",
+            allowed="an even time step",
+            remedy="interpolate the record to an even step, or choose a part without dropped samples",
+        )
+
+
+def _refuse_clipped(values: Array, name: str) -> None:
+    """Refuse flat tops that a smooth record rounded to the resolution of its gauge would not show."""
+    span = float(np.ptp(values))
+    if span == 0.0:
+        return
+    jumps = np.abs(np.diff(values))
+    quantum = float(jumps[jumps > 0.0].min())
+    centred = values - values.mean()
+    crossings = np.count_nonzero(np.diff(np.signbit(centred)))
+    period = 2.0 * values.size / max(crossings, 1)
+    for sign, word in ((1.0, "top"), (-1.0, "bottom")):
+        extreme = float((sign * values).max())
+        flat = sign * values >= extreme - 1e-12 * span
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], flat.astype(int), [0]])))
+        runs = edges[1::2] - edges[::2]
+        longest = int(runs.max())
+        amplitude = max(abs(sign * extreme - float(values.mean())), quantum)
+        # how long a sine stays within one step of the gauge at its crest
+        natural = period / math.pi * math.acos(1.0 - min(quantum / amplitude, 1.0))
+        if longest >= _LEAST_PLATEAU and longest > 2.0 * natural + 2.0:
+            raise InputError(
+                f"{name} is clipped: it stays at its {word} {sign * extreme:.6g} for {longest} samples",
+                path=name.split()[0],
+                remedy="use a record within the range of the gauge",
+            )
+
+
+def acceleration_of(velocity: Array, step: float, omega: float | None, harmonics: int) -> Array:
+    """Return the derivative of a velocity record.
+
+    Parameters
+    ----------
+    velocity : ndarray, shape (samples, components)
+        [m/s].
+    step : float
+        [s].
+    omega : float or None
+        Angular frequency of a periodic record [rad/s]: differentiated as mean and harmonics, exact for them;
+        ``None``: by a spline of fifth order.
+    harmonics : int
+        Number of harmonics of the periodic record.
+    """
+    time = step * np.arange(len(velocity))
+    if omega is not None:
+        orders = np.arange(1, harmonics + 1)
+        middle = time - 0.5 * time[-1]
+        angle = omega * middle[:, None] * orders
+        design = np.column_stack([np.ones_like(time), np.cos(angle), np.sin(angle)])
+        fit, *_ = np.linalg.lstsq(design, velocity, rcond=None)
+        slope = np.column_stack([np.zeros_like(time), -omega * orders * np.sin(angle), omega * orders * np.cos(angle)])
+        return np.asarray(slope @ fit)
+    from scipy.interpolate import make_interp_spline
+
+    return np.asarray(make_interp_spline(time, velocity, k=5).derivative()(time))
+
+
+def period_of(record: ForceRecord) -> float:
+    """Return the period of a regular record [s]: the one that mean and first harmonic of the velocity fit best.
+
+    Raises
+    ------
+    InputError
+        When the record holds less than two periods, so that it cannot tell.
+    """
+    values = record.velocity - record.velocity.mean(axis=0)
+    column = int(np.argmax(values.std(axis=0)))
+    power = np.abs(np.fft.rfft(values[:, column] * np.hanning(len(values)), 8 * len(values)))
+    peak = int(np.argmax(power[1:])) + 1
+    guess = 2.0 * math.pi * peak / (8 * len(values) * record.step)
+    if guess * record.duration < 4.0 * math.pi:
+        raise InputError(
+            f"the record of {record.duration:.4g} s shows less than two periods",
+            path="period",
+            remedy="give the period",
+        )
+
+    def residual(omega: float) -> float:
+        angle = omega * (record.time - record.time.mean())
+        design = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
+        fit, *_ = np.linalg.lstsq(design, values[:, column], rcond=None)
+        return float(np.sum((values[:, column] - design @ fit) ** 2))
+
+    from scipy.optimize import minimize_scalar
+
+    width = math.pi / record.duration
+    found = minimize_scalar(residual, bounds=(guess - width, guess + width), method="bounded", options={"xatol": 1e-13})
+    return 2.0 * math.pi / float(found.x)
