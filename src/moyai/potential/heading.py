@@ -13,7 +13,7 @@ from moyai.core.progress import Progress
 from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.mesh import Layout
 from moyai.potential.modes import Modes
-from moyai.potential.panels import GAP, Panels
+from moyai.potential.panels import GAP, PLATE, Panels
 from moyai.potential.system import Block
 from moyai.potential.waves import depth_integral, far_field, incident_wave
 from moyai.sea.water import Water
@@ -193,15 +193,17 @@ def solve_states(problem: Problem, blocks: Sequence[Block], states: WaveStates, 
     # Force -integral p n, p = i omega rho phi; radiation force = (i omega A - B) velocity [eq:potential-force]
     integral = np.einsum("mn,wnr->wrm", problem.displacement * weight, potential)
     force = -1j * omega * density * integral
-    incident = np.einsum("mn,wn->wm", problem.displacement * weight, wave)
+    # On a plate the potential is a jump: the incident wave has none, nor has the flux
+    closed = np.where(body.kind == PLATE, 0.0, 1.0)
+    incident = np.einsum("mn,wn->wm", problem.displacement * weight * closed, wave)
     # An elevation of unit amplitude belongs to the potential -(i g / omega) phi_0
     unit = -1j * gravity / states.omega
 
     # Far field: minus side from exp(+i k x), plus side from exp(-i k x)
     scale = -1.0 / (2j * states.along * states.profile)
     sides = [
-        far_field(potential, flux, wave, wave_flux, weight),
-        far_field(potential, flux, wave.conj(), wave_flux.conj(), weight),
+        far_field(potential, flux * closed[:, None], wave, wave_flux, weight),
+        far_field(potential, flux * closed[:, None], wave.conj(), wave_flux.conj(), weight),
     ]
     lid_loss, lid_damping = np.zeros(len(states.omega)), np.zeros((len(states.omega), count, count))
     if gap.size:

@@ -17,8 +17,8 @@ import numpy as np
 
 from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.heading import Problem
-from moyai.potential.panels import Panels, gauss_rule
-from moyai.potential.quadrature import add_rankine
+from moyai.potential.panels import PLATE, Panels, gauss_rule
+from moyai.potential.quadrature import add_rankine, add_rankine_slopes
 
 
 def limit_added_mass(problem: Problem, waterplane_breadth: float, *, infinite_frequency: bool) -> FloatArray:
@@ -35,11 +35,16 @@ def limit_added_mass(problem: Problem, waterplane_breadth: float, *, infinite_fr
     """
     body, displacement, depth, density = problem.body, problem.displacement, problem.water.depth, problem.water.density
     single, double = _mirrored_influence(body, depth, -1.0 if infinite_frequency else 1.0)
-    double.flat[:: len(double) + 1] += math.pi
+    plate = body.kind == PLATE
+    double.flat[:: len(double) + 1] += np.where(plate, 0.0, math.pi)
+    if plate.any():
+        # Plates: the derivative along the normal, and no source [eq:plate-waves]
+        single[:, plate] = 0.0
+        single[plate, plate] = -2.0 * math.pi
     weight = body.weight.real
     mass = -density * (displacement * weight) @ np.linalg.solve(double, single @ displacement.T)
     if not infinite_frequency:
-        volume = displacement @ weight
+        volume = displacement @ np.where(plate, 0.0, weight)
         if math.isfinite(depth):
             mass += 0.25 * density * waterplane_breadth / depth * np.outer(volume, volume)
         else:
@@ -53,57 +58,92 @@ def _mirrored_influence(body: Panels, depth: float, surface_sign: float) -> tupl
     rule = gauss_rule(body.order)
     tables = body.kernel_panels, body.kernel_nodes, (rule.nodes, rule.weights, rule.projection)
     count = len(body.u)
-    real = np.ones(count, dtype=bool)
     nobody = np.full(count, -1)
-    images: list[tuple[ComplexArray, float]] = [(body.u, 1.0), (body.v, surface_sign)]
+    normal = -1j * body.du / np.abs(body.du)
+    plate, other = np.flatnonzero(body.kind == PLATE), np.flatnonzero(body.kind != PLATE)
+    real = np.ones(len(other), dtype=bool)
+    images: list[tuple[ComplexArray, ComplexArray, float]] = [
+        (body.u, normal, 1.0),
+        (body.v, normal.conj(), surface_sign),
+    ]
     if math.isfinite(depth):
-        images.append((body.v - 2j * depth, 1.0))
+        images.append((body.v - 2j * depth, normal.conj(), 1.0))
     single, double = np.zeros((2, count, count))
-    for number, (image, sign) in enumerate(images):
-        s, d = np.zeros((2, count, count), dtype=complex)
-        add_rankine((image, image.conj(), real), np.arange(count) if number == 0 else nobody, *tables, s, d)
-        single += sign * s.real
-        double += sign * d.real
+    for number, (image, towards, sign) in enumerate(images):
+        own = np.arange(count) if number == 0 else nobody
+        s, d = np.zeros((2, len(other), count), dtype=complex)
+        add_rankine((image[other], image[other].conj(), real), own[other], *tables, s, d)
+        single[other] += sign * s.real
+        double[other] += sign * d.real
+        if len(plate):
+            s, d = np.zeros((2, len(plate), count), dtype=complex)
+            add_rankine_slopes((image[plate], towards[plate]), own[plate], *tables, s, d)
+            single[plate] += sign * s.real
+            double[plate] += sign * d.real
     if math.isfinite(depth):
-        s_rest, d_rest = _all_images(body, depth, surface_sign)
+        s_rest, d_rest = _all_images(body, normal, depth, surface_sign)
         single += s_rest
         double += d_rest
     return single, double
 
 
-def _all_images(body: Panels, depth: float, surface_sign: float) -> tuple[FloatArray, FloatArray]:
+def _all_images(body: Panels, normal: ComplexArray, depth: float, surface_sign: float) -> tuple[FloatArray, FloatArray]:
     """What the endless images add to the three integrated exactly; smooth, so that the Gauss rule suffices."""
     source = body.u[None, :]
+    plate = np.flatnonzero(body.kind == PLATE)
     if surface_sign < 0.0:
         rate = math.pi / (4.0 * depth)
         families = [
-            (body.u, 1.0, True),
-            (body.v, -1.0, True),
-            (body.v - 2j * depth, 1.0, True),
-            (body.u - 2j * depth, -1.0, False),
+            (body.u, normal, 1.0, True),
+            (body.v, normal.conj(), -1.0, True),
+            (body.v - 2j * depth, normal.conj(), 1.0, True),
+            (body.u - 2j * depth, normal, -1.0, False),
         ]
     else:
         # The bed image belongs to the second family here, one period away
         rate = math.pi / (2.0 * depth)
-        families = [(body.u, 1.0, True), (body.v, 1.0, True)]
+        families = [(body.u, normal, 1.0, True), (body.v, normal.conj(), 1.0, True)]
     potential = np.zeros((len(body.u), len(body.u)))
     slope = np.zeros((len(body.u), len(body.u)), dtype=complex)
-    for image, sign, pole_done in families:
+    for image, towards, sign, pole_done in families:
         offset = source - image[:, None]
         value, change = (_log_sinh_rest if pole_done else _log_sinh)(rate * offset)
         if pole_done:
             value = value + math.log(rate)
+        if len(plate):
+            direction = -towards[plate, None]
+            value[plate] = (direction * rate * change[plate]).real
+            change[plate] = direction * rate * _second(rate * offset[plate], pole_done)
         potential += sign * value
         slope += sign * rate * change
     if surface_sign > 0.0:
         offset = source - (body.v - 2j * depth)[:, None]
-        potential -= np.log(np.abs(offset))
-        slope -= 1.0 / offset
+        value, change = np.log(np.abs(offset)), 1.0 / offset
+        value -= 2.0 * math.log(2.0)
+        if len(plate):
+            direction = -normal[plate, None].conj()
+            value[plate] = (direction * change[plate]).real
+            change[plate] = -direction * change[plate] ** 2
         # 2 sinh rather than sinh: at a great distance the kernel is then pi |x| / h without a constant
-        potential += 2.0 * math.log(2.0)
+        potential -= value
+        slope -= change
     rule = gauss_rule(body.order)
     weights = np.tile(rule.weights, len(body.pieces))
     return potential * body.weight.real, (slope * (body.du * weights)).imag
+
+
+def _second(y: ComplexArray, rest: bool) -> ComplexArray:
+    """Derivative of coth y; of coth y - 1/y for the rest, which is smooth at y = 0."""
+    forward = np.where(y.real >= 0.0, y, -y)
+    small = np.exp(-2.0 * forward)
+    if not rest:
+        return np.asarray(-4.0 * small / (1.0 - small) ** 2)
+    near = np.abs(y) < 0.4
+    small = np.where(near, 0.5, small)
+    s = np.where(near, y * y, 0.0)
+    series = 1.0 / 3.0 - s * (1.0 / 15.0 - s * (2.0 / 189.0 - s * (1.0 / 675.0 - s * (2.0 / 10395.0))))
+    safe = np.where(near, 1.0, y)
+    return np.asarray(np.where(near, series, -4.0 * small / (1.0 - small) ** 2 + 1.0 / safe**2))
 
 
 def _log_sinh(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:

@@ -10,13 +10,13 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.potential.edges import ComplexArray, Edges, FloatArray, arc_position, arc_slope, as_complex
-from moyai.potential.panels import BODY, GAP, OPEN, RAY, RAY_DIRECTION, Panels, Piece, make_panels
+from moyai.potential.panels import BODY, GAP, OPEN, PLATE, RAY, RAY_DIRECTION, Panels, Piece, make_panels
 from moyai.potential.sections import Chain, Section
 
 # No panel becomes shorter than this share of its edge
@@ -87,11 +87,46 @@ class Run:
         Whether there is a corner (or the still water) before the first edge, between two, after the last.
     body : int
         Number of the outline.
+    kind : int
+        BODY or PLATE.
+    tips : (bool, bool)
+        Whether the run starts and ends at a free edge of a plate.
     """
 
     edges: Edges
     corner: NDArray[np.bool_]
     body: int
+    kind: int = BODY
+    tips: tuple[bool, bool] = (False, False)
+
+
+def all_runs(section: Section, depth: float, axis: float | None) -> list[Run]:
+    """Return wetted boundary and plates as runs; only the part right of ``axis`` when it is given."""
+    runs = body_runs(section, axis)
+    joints = [
+        point
+        for plate in section.wetted_plates
+        for point, joined in zip((plate.edges.start[0], plate.edges.end[-1]), plate.joined)
+        if joined
+    ]
+    if joints:
+        runs = [replace(run, corner=run.corner | _at_points(run.edges, as_complex(joints))) for run in runs]
+    for plate in section.wetted_plates:
+        if axis is not None and plate.edges.bounds()[1] <= axis:
+            continue
+        corner = _corners(plate.edges, False) | _at_points(plate.edges, as_complex(joints))
+        ends = plate.edges.start[0, 1], plate.edges.end[-1, 1]
+        # An edge on the bed is not free: the jump of the potential goes on in the mirror image
+        tips = [not joined and z + depth > 1e-6 * -z for joined, z in zip(plate.joined, ends)]
+        runs.append(Run(plate.edges, corner, plate.body, PLATE, (tips[0], tips[1])))
+    return runs
+
+
+def _at_points(edges: Edges, points: ComplexArray) -> NDArray[np.bool_]:
+    """Tell which ends of edges (n + 1,) lie at one of the points."""
+    ends = np.concatenate([as_complex(edges.start), as_complex(edges.end[-1:])])
+    near = np.abs(ends[:, None] - points[None, :]) < 1e-9 * np.abs(ends).max()
+    return np.asarray(near.any(axis=1))
 
 
 def body_runs(section: Section, axis: float | None) -> list[Run]:
@@ -169,6 +204,7 @@ class Surroundings:
         every = np.concatenate([a, b])
         self.size = float(max(np.ptp(every.real), -every.imag.min()))
         self._axis = axis
+        self._joined = _joined_edges(runs, 1e-9 * self.size)
 
     def clearance(self, points: ComplexArray, run: int = -1, edge: int = -1) -> FloatArray:
         """Distance of points from all edges but their own and its neighbours; the bed counts with its mirror image."""
@@ -177,6 +213,8 @@ class Surroundings:
             edges = self._runs[run].edges
             apart = np.abs(self._owner[:, 1] - edge)
             others &= ~((self._owner[:, 0] == run) & ((apart <= 1) | (apart == len(edges) - 1)))
+            for joined in self._joined.get((run, edge), ()):
+                others &= ~(self._owner == np.array(joined)).all(axis=1)
             if self._axis is not None:
                 # An edge that ends on the axis continues in its own mirror image
                 ends = np.array([edges.start[edge, 0], edges.end[edge, 0]])
@@ -199,6 +237,11 @@ class Surroundings:
         closed = bool(np.abs(edges.start[0] - edges.end[-1]).max() < 1e-12 * np.abs(edges.start).max())
         if closed or 0 <= neighbour < len(edges):
             scale = min(scale, float(edges.lengths[neighbour % len(edges)]))
+        for other_run, other_edge in self._joined.get((run, edge), ()):
+            other = self._runs[other_run].edges
+            ends = np.stack([other.start[other_edge], other.end[other_edge]])
+            if np.abs(ends - point).max(axis=1).min() < 1e-9 * self.size:
+                scale = min(scale, float(other.lengths[other_edge]))
         return min(scale, -float(point[1])) if point[1] < 0.0 else scale
 
     def surface_scale(self, x: float) -> float:
@@ -210,6 +253,19 @@ class Surroundings:
     def wave_length_scale(self, level: float) -> float:
         """Inverse of the largest wave number that is still felt at the depth of ``level``."""
         return max(1.0 / self._wave_number, -level / _SHADE)
+
+
+def _joined_edges(runs: Sequence[Run], tolerance: float) -> dict[tuple[int, int], list[tuple[int, int]]]:
+    """Return the edges of other runs that share an end with an edge: plates on hulls and on plates."""
+    if not any(run.kind == PLATE for run in runs):
+        return {}
+    tags = [(number, edge) for number, run in enumerate(runs) for edge in range(len(run.edges))]
+    ends = np.concatenate([np.stack([as_complex(run.edges.start), as_complex(run.edges.end)], axis=1) for run in runs])
+    meet = (np.abs(ends[:, None, :, None] - ends[None, :, None, :]) < tolerance).any(axis=(2, 3))
+    return {
+        tag: [other for index, other in enumerate(tags) if meet[number, index] and other[0] != tag[0]]
+        for number, tag in enumerate(tags)
+    }
 
 
 def _cut(
@@ -269,7 +325,10 @@ def _body_pieces(runs: Sequence[Run], around: Surroundings, resolution: Resoluti
             scales = around.corner_scale(number, edge, 0), around.corner_scale(number, edge, 1)
             for low, high, grade in _cut(float(length), graded, scales, resolution, enough):
                 a, b = arc_position(start, end, bulge, np.array([low, high]))
-                pieces.append(Piece(complex(a), complex(b - a), sweep * (high - low), grade, BODY, run.body))
+                first, last = edge == 0 and run.tips[0], edge == len(run.edges) - 1 and run.tips[1]
+                if (grade < 0 and first) or (grade > 0 and last):
+                    grade = 2 * grade  # the square root of a free edge
+                pieces.append(Piece(complex(a), complex(b - a), sweep * (high - low), grade, run.kind, run.body))
     return pieces
 
 
@@ -387,7 +446,7 @@ class Layout:
 def _mirrored(piece: Piece, axis: float) -> Piece:
     """Mirror image of a piece about the axis, traversed so that the fluid stays on its right."""
     last = piece.start + piece.step
-    if piece.kind == BODY:
+    if piece.kind in (BODY, PLATE):
         return piece._replace(start=2.0 * axis - last.conjugate(), step=piece.step.conjugate(), grade=-piece.grade)
     return piece._replace(start=2.0 * axis - last, grade=-piece.grade)
 
@@ -419,7 +478,7 @@ def lay_out(
         Take the panels of the body from there.
     """
     axis = section.symmetry_axis()
-    runs = body_runs(section, axis)
+    runs = all_runs(section, depth, axis)
     longest = _LARGEST_CREST / crest_wave_number if crest_wave_number > 0.0 else math.inf
     around = Surroundings(runs, depth, axis, band[1], longest)
     if body is None:

@@ -16,8 +16,9 @@ from moyai.potential.edges import ComplexArray, FloatArray
 
 IntArray = NDArray[np.int64]
 
-# Wetted boundary; free surface enclosed between bodies; other real free surface; free surface on a ray
-BODY, GAP, OPEN, RAY = 0, 1, 2, 3
+# Wetted boundary; free surface enclosed between bodies; other real free surface; free surface on a ray; thin plate,
+# whose potential is the jump over it: the value where its normal points minus that behind
+BODY, GAP, OPEN, RAY, PLATE = 0, 1, 2, 3, 4
 
 #: Direction of the free-surface ray in the complex x-plane
 RAY_DIRECTION = cmath.exp(0.25j * math.pi)
@@ -58,7 +59,10 @@ def gauss_rule(order: int) -> Rule:
 
 
 class Piece(NamedTuple):
-    """One panel: first point u, chord, sweep [rad], grading (-1 start, 0 none, 1 end), kind and outline number."""
+    """One panel: first point u, chord, sweep [rad], grading, kind and number of the body.
+
+    Grading: 0 none, -1 cubic into the start, 1 into the end, -2 and 2 the same quadratically.
+    """
 
     start: complex
     step: complex
@@ -109,7 +113,7 @@ class Panels:
         sweep = np.array([piece.sweep for piece in self.pieces], dtype=float)
         grade = np.array([piece.grade for piece in self.pieces], dtype=np.int64)
         kind = np.array([piece.kind for piece in self.pieces], dtype=np.int64)
-        on_body = kind == BODY
+        on_body = (kind == BODY) | (kind == PLATE)
         mirrored = np.where(on_body, start.conj(), start), np.where(on_body, step.conj(), step)
         return start, step, *mirrored, sweep, grade, kind != RAY
 
@@ -138,22 +142,26 @@ def make_panels(pieces: Sequence[Piece], order: int) -> Panels:
     half = 0.5 * np.array([piece.sweep for piece in pieces], dtype=float)[:, None]
     grade = np.array([piece.grade for piece in pieces], dtype=np.int64)[:, None]
     up, down = 0.5 * (1.0 + rule.nodes), 0.5 * (1.0 - rule.nodes)
-    fraction = np.where(grade == 0, up, np.where(grade < 0, up**3, 1.0 - down**3))
-    slope = np.where(grade == 0, 0.5, np.where(grade < 0, 1.5 * up**2, 1.5 * down**2))
+    root = np.where(grade > 0, down, up)
+    square = np.abs(grade) == 2
+    from_end = np.where(grade == 0, root, np.where(square, root**2, root**3))
+    fraction = np.where(grade > 0, 1.0 - from_end, from_end)
+    slope = np.where(grade == 0, 0.5, np.where(square, root, 1.5 * root**2))
     # Position and slope of an arc, as in moyai.potential.edges
     ratio = fraction * np.sinc(half * fraction / np.pi) / np.sinc(half / np.pi) * np.exp(1j * half * (fraction - 1.0))
     change = np.exp(1j * half * (2.0 * fraction - 1.0)) / np.sinc(half / np.pi) * slope
     u = (start + step * ratio).ravel()
     du = (step * change).ravel()
     kind = np.repeat(np.array([piece.kind for piece in pieces], dtype=np.int64), order)
-    element = np.where(kind == BODY, np.abs(du), du).astype(complex)
+    solid = (kind == BODY) | (kind == PLATE)
+    element = np.where(solid, np.abs(du), du).astype(complex)
     return Panels(
         pieces=tuple(pieces),
         order=order,
         u=u,
-        v=np.where(kind == BODY, u.conj(), u),
+        v=np.where(solid, u.conj(), u),
         du=du,
-        dv=np.where(kind == BODY, du.conj(), du),
+        dv=np.where(solid, du.conj(), du),
         element=element,
         weight=np.tile(rule.weights, len(pieces)) * element,
         kind=kind,

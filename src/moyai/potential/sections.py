@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from moyai.core.errors import InputError
 from moyai.potential.edges import Edges, FloatArray, inside_polygon, polygon_clash, segments_meet
 from moyai.potential.edges import as_complex as _as_complex
+from moyai.potential.plates import PlateLine, WettedPlate, check_plates, join_plates, wet_plates
 
 # Distances below this share of the size of an outline count as touching
 _TOUCH = 1e-9
@@ -115,39 +116,48 @@ def _turned(points: FloatArray, heel: float) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """One or several closed outlines that float together, in the body frame.
+    """One or several closed outlines and thin plates that float together, in the body frame.
 
     Parameters
     ----------
     outlines : sequence of Outline
-        They may not overlap.
+        They may not overlap. None at all is a structure of plates alone.
     name : str
         For messages and plots.
+    plates : sequence of PlateLine
+        Plates of no thickness: keel plates that end on an outline, a curtain under the hull, a barrier.
 
     Raises
     ------
     InputError
-        When there is no outline or two of them overlap or touch.
+        When there is neither outline nor plate, two outlines overlap or touch, or plates cross what they may not.
     """
 
     outlines: tuple[Outline, ...]
     name: str = "hull"
+    plates: tuple[PlateLine, ...] = ()
 
     def __post_init__(self) -> None:
-        outlines = tuple(self.outlines)
-        if not outlines:
+        outlines, plates = tuple(self.outlines), tuple(self.plates)
+        if not outlines and not plates:
             raise InputError("the hull has no outline", path="outlines")
         object.__setattr__(self, "outlines", outlines)
+        object.__setattr__(self, "plates", plates)
         lines = [outline.edges.polyline() for outline in outlines]
         for i in range(len(lines)):
             for j in range(i + 1, len(lines)):
                 if _overlap(lines[i], lines[j]):
                     raise InputError(f"outlines {i + 1} and {j + 1} of {self.name} overlap or touch", path="outlines")
+        check_plates(lines, plates)
+
+    def with_plates(self, *plates: PlateLine) -> Hull:
+        """Return the hull with thin plates added, in the body frame."""
+        return replace(self, plates=self.plates + plates)
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
-        """Smallest and largest x, smallest and largest z [m]."""
-        every = np.array([outline.bounds for outline in self.outlines])
+        """Smallest and largest x, smallest and largest z [m], plates included."""
+        every = np.array([part.bounds for part in self.outlines] + [part.edges.bounds() for part in self.plates])
         return float(every[:, 0].min()), float(every[:, 1].max()), float(every[:, 2].min()), float(every[:, 3].max())
 
     @property
@@ -191,7 +201,8 @@ class Hull:
             if not math.isfinite(value):
                 raise InputError(f"{name} is {value}", path=name, allowed="a finite number")
         outlines = tuple(outline.moved((offset, -draught), heel) for outline in self.outlines)
-        return Section(outlines, draught=draught, heel=heel, offset=offset, name=self.name)
+        plates = tuple(plate.moved((offset, -draught), heel) for plate in self.plates)
+        return Section(outlines, draught=draught, heel=heel, offset=offset, name=self.name, plates=plates)
 
 
 def _overlap(first: FloatArray, second: FloatArray) -> bool:
@@ -236,6 +247,8 @@ class Section:
         How the hull was set into the water [m, rad, m].
     name : str
         For messages and plots.
+    plates : tuple of PlateLine
+        Thin plates in the frame of the site.
 
     Raises
     ------
@@ -248,10 +261,12 @@ class Section:
     heel: float = 0.0
     offset: float = 0.0
     name: str = "section"
+    plates: tuple[PlateLine, ...] = ()
 
     def __post_init__(self) -> None:
         chains = [chain for body, outline in enumerate(self.outlines) for chain in _wetted(outline, body)]
-        if not chains:
+        plates = wet_plates(self.plates, len(self.outlines))
+        if not chains and not plates:
             raise InputError(f"{self.name} does not reach the water at a draught of {self.draught:g} m", path="draught")
         for chain in chains:
             left, right = chain.edges.start[0, 0], chain.edges.end[-1, 0]
@@ -261,7 +276,20 @@ class Section:
                     path="draught",
                     remedy="draw the tank as a solid, or change the draught",
                 )
+        if plates:
+            edges, plates = join_plates([(chain.edges, chain.body) for chain in chains], plates)
+            chains = [replace(chain, edges=cut) for chain, cut in zip(chains, edges, strict=True)]
         object.__setattr__(self, "_chains", tuple(chains))
+        object.__setattr__(self, "_wetted_plates", tuple(plates))
+
+    @property
+    def wetted_plates(self) -> tuple[WettedPlate, ...]:
+        """The parts of the plates that are under water, joined to what they touch.
+
+        A plate that ends on an outline moves with it; the others are bodies of their own, numbered after the outlines.
+        """
+        plates: tuple[WettedPlate, ...] = self.__dict__["_wetted_plates"]
+        return plates
 
     @property
     def chains(self) -> tuple[Chain, ...]:
@@ -271,7 +299,7 @@ class Section:
 
     @cached_property
     def _moments(self) -> FloatArray:
-        return np.sum([chain.edges.moments() for chain in self.chains], axis=0)
+        return np.sum([chain.edges.moments() for chain in self.chains] + [(0.0, 0.0, 0.0)], axis=0)
 
     @property
     def area(self) -> float:
@@ -280,16 +308,24 @@ class Section:
 
     @property
     def centroid(self) -> tuple[float, float]:
-        """Centre of buoyancy (x, z) [m]."""
+        """Centre of buoyancy (x, z) [m]; NaN for plates alone, which displace nothing."""
         area, first_x, first_z = self._moments
+        if area == 0.0:
+            return math.nan, math.nan
         return float(first_x / area), float(first_z / area)
 
     @cached_property
     def waterlines(self) -> tuple[tuple[float, float], ...]:
-        """Left and right x [m] of each cut with the still water, from left to right."""
+        """Left and right x [m] of each cut with the still water, from left to right; equal for a thin plate."""
         cuts = [
             (float(chain.edges.start[0, 0]), float(chain.edges.end[-1, 0])) for chain in self.chains if not chain.closed
         ]
+        taken = {x for cut in cuts for x in cut}
+        for plate in self.wetted_plates:
+            for point in (plate.edges.start[0], plate.edges.end[-1]):
+                if point[1] == 0.0 and float(point[0]) not in taken:
+                    taken.add(float(point[0]))
+                    cuts.append((float(point[0]), float(point[0])))
         return tuple(sorted(cuts))
 
     @property
@@ -309,8 +345,9 @@ class Section:
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
-        """Smallest and largest x, smallest and largest z of the wetted boundary [m]."""
-        every = np.array([chain.edges.bounds() for chain in self.chains])
+        """Smallest and largest x, smallest and largest z of the wetted boundary, plates included [m]."""
+        lines = [chain.edges for chain in self.chains] + [plate.edges for plate in self.wetted_plates]
+        every = np.array([edges.bounds() for edges in lines])
         return float(every[:, 0].min()), float(every[:, 1].max()), float(every[:, 2].min()), float(every[:, 3].max())
 
     @property
@@ -333,12 +370,25 @@ class Section:
         """Return x [m] of the upright line about which the wetted boundary is its own mirror image, or None."""
         axis = 0.5 * (self.bounds[0] + self.bounds[1])
         size = max(self.bounds[1] - self.bounds[0], -self.bottom)
-        pieces = [np.concatenate([c.edges.start, c.edges.end, c.edges.points(0.5)[:, 0]], axis=1) for c in self.chains]
-        every = np.concatenate(pieces)
-        mirrored = every[:, [2, 3, 0, 1, 4, 5]]
-        mirrored[:, ::2] = 2.0 * axis - mirrored[:, ::2]
-        apart = np.abs(every[:, None, :] - mirrored[None, :, :]).max(axis=2).min(axis=1)
-        return axis if bool((apart < 1e-9 * size).all()) else None
+
+        def alone(lines: Sequence[Chain | WettedPlate], either_way: bool) -> bool:
+            if not lines:
+                return True
+            pieces = [np.concatenate([c.edges.start, c.edges.end, c.edges.points(0.5)[:, 0]], axis=1) for c in lines]
+            every = np.concatenate(pieces)
+            mirrored = every[:, [2, 3, 0, 1, 4, 5]]
+            mirrored[:, ::2] = 2.0 * axis - mirrored[:, ::2]
+            if either_way:
+                mirrored = np.concatenate([mirrored, mirrored[:, [2, 3, 0, 1, 4, 5]]])
+            apart = np.abs(every[:, None, :] - mirrored[None, :, :]).max(axis=2).min(axis=1)
+            return bool((apart < 1e-9 * size).all())
+
+        # A plate on the axis, or across it, is not halved
+        for plate in self.wetted_plates:
+            low, high = plate.edges.bounds()[:2]
+            if low < axis + 1e-6 * size and high > axis - 1e-6 * size:
+                return None
+        return axis if alone(self.chains, False) and alone(self.wetted_plates, True) else None
 
 
 def _wetted(outline: Outline, body: int) -> Sequence[Chain]:

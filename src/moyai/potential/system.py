@@ -2,7 +2,8 @@
 
 With n into the fluid on the body and z up on the free surface, every target on either obeys
 pi phi + D phi + S q_F - S q_B = 0, where D and S integrate the normal derivative of ln r and ln r with its image in the
-bed [eq:potential-green]. The frequency enters through q_F = K phi only.
+bed [eq:potential-green]. The frequency enters through q_F = K phi only. A thin plate carries the jump of phi, and there
+the derivative of the identity along its normal stands, 2 pi q + D' phi + S' q_F - S' q_B = 0 [eq:plate-waves].
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import numpy as np
 
 from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.mesh import Layout
-from moyai.potential.panels import GAP, RAY, gauss_rule
-from moyai.potential.quadrature import add_helmholtz, add_rankine
+from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
+from moyai.potential.quadrature import add_helmholtz, add_rankine, add_rankine_slopes
 
 # Stacks of matrices are cut so that one takes about this many bytes
 _STACK_BYTES = 6.0e7
@@ -80,23 +81,39 @@ def influence(
     count = len(panels.u)
     real = panels.kind != RAY
     nobody = np.full(count, -1)
+    # On a plate stands the derivative along its normal of what stands elsewhere [eq:plate-waves]
+    plate = np.flatnonzero(panels.kind == PLATE)
+    other = np.flatnonzero(panels.kind != PLATE)
+    towards = -1j * panels.du[plate] / np.abs(panels.du[plate])
 
-    def pair(u: ComplexArray, v: ComplexArray, own: np.ndarray) -> tuple[ComplexArray, ComplexArray]:
-        single, double = np.zeros((2, count, count), dtype=complex)
-        images = [(u, v, own)]
+    def pair(u: ComplexArray, v: ComplexArray, normal: ComplexArray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        images = [(u, v, normal, own)]
         if math.isfinite(depth):
-            images.append((v - 2j * depth, u + 2j * depth, nobody))
-        for image_u, image_v, image_own in images:
+            images.append((v - 2j * depth, u + 2j * depth, normal.conj(), nobody))
+        single, double = np.zeros((2, len(other), count), dtype=complex)
+        slopes = np.zeros((2, len(plate), count), dtype=complex)
+        for image_u, image_v, image_normal, image_own in images:
+            targets = image_u[other], image_v[other], real[other]
             if crest_wave_number > 0.0:
-                add_helmholtz((image_u, image_v, real), image_own, *tables, crest_wave_number, single, double)
+                add_helmholtz(targets, image_own[other], *tables, crest_wave_number, single, double)
             else:
-                add_rankine((image_u, image_v, real), image_own, *tables, single, double)
-        return single, double
+                add_rankine(targets, image_own[other], *tables, single, double)
+            if len(plate):
+                add_rankine_slopes((image_u[plate], image_normal), image_own[plate], *tables, *slopes)
+        if not len(plate):
+            return single, double
+        whole = np.zeros((2, count, count), dtype=complex)
+        whole[:, other] = single, double
+        whole[:, plate] = slopes
+        # The flux through a plate is the same on both faces: it is no source
+        whole[0, :, plate] = 0.0
+        return whole[0], whole[1]
 
-    single, double = pair(panels.u, panels.v, np.arange(count))
+    single, double = pair(panels.u, panels.v, towards, np.arange(count))
     if layout.axis is None:
         return [(0, single, double)]
-    other_single, other_double = pair(2.0 * layout.axis - panels.v, 2.0 * layout.axis - panels.u, nobody)
+    mirrored = 2.0 * layout.axis - panels.v, 2.0 * layout.axis - panels.u
+    other_single, other_double = pair(*mirrored, -towards.conj(), nobody)
     return [(sign, single + sign * other_single, double + sign * other_double) for sign in (1, -1)]
 
 
@@ -107,8 +124,10 @@ def reduce_blocks(layout: Layout, depth: float, lid: float, crest_wave_number: f
     absorbing = np.where(layout.panels.kind[surface] == GAP, 1.0 + 1j * lid, 1.0)
     count = len(absorbing)
     blocks = []
+    plate = np.flatnonzero(layout.panels.kind == PLATE)
     for sign, single, double in influence(layout, depth, crest_wave_number):
-        double.flat[:: len(double) + 1] += math.pi
+        double.flat[:: len(double) + 1] += np.where(layout.panels.kind == PLATE, 0.0, math.pi)
+        single[plate, plate] = -2.0 * math.pi
         single[:, surface] *= absorbing
         # On the body all is real: the elimination needs real arithmetic only
         columns = np.concatenate([double[body, surface], single[body, surface]], axis=1)
