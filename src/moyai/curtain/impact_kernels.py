@@ -337,9 +337,8 @@ def _load(displacement: float, cable: Array, table: Array) -> float:
     width = table[i + 1, 0] - table[i, 0]
     s = (displacement - table[i, 0]) / width
     far = 1.0 - s
-    return (
-        far * far * ((1.0 + 2.0 * s) * table[i, 1] + s * width * table[i, 2])
-        + s * s * ((3.0 - 2.0 * s) * table[i + 1, 1] - far * width * table[i + 1, 2])
+    return far * far * ((1.0 + 2.0 * s) * table[i, 1] + s * width * table[i, 2]) + s * s * (
+        (3.0 - 2.0 * s) * table[i + 1, 1] - far * width * table[i + 1, 2]
     )
 
 
@@ -442,8 +441,8 @@ def slack_taut(
     Slack, a step of the classical Runge-Kutta scheme covers the samples of the flow; taut, it is at most
     ``taut_step``. Steps end where the cable becomes taut or slack, so that no step crosses the corner of the spring.
 
-    ``cable``: span, span ratio, taut shape, stiffness, slack sag; ``table``: see :func:`load_table`; ``flow`` (n + 1, 2): velocity and acceleration of
-    the water at every step; ``drag`` is rho C_D d / 2. Rows of ``out`` (n + 1, 3): position and speed of mid-span,
+    ``cable``: span, span ratio, taut shape, stiffness, slack sag; ``table``: see :func:`load_table`; ``flow``
+    (n + 1, 2): velocity and acceleration of the water at every step; ``drag`` is rho C_D d / 2. Rows of ``out`` (n + 1, 3): position and speed of mid-span,
     tension; the first row holds the start. Rows of ``contacts``: begin, speed there, end (NaN where the series ends
     before), time of the peak, tension of the peak, side. Returns the number of contacts that begin, which may be more
     than there is room for.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,11 +16,18 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.curtain.impact import Impact, ImpactPeak, peak_by_energy
 from moyai.curtain.impact_kernels import memory_march, spring, taut_shape
+from moyai.potential.thin_plate_waves import plate_memory
+from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
 
 # Steps to the peak of model A
 _STEPS = 400
+# Depth over draught from which on the water counts as this deep: K changes by less than 2e-4 of its start beyond
+_DEEP = 12.0
+# Lengths of the kernel in sqrt(d/g) that are tried one after the other, and points on each
+_LENGTHS = (8.0, 32.0, 128.0)
+_POINTS = 1601
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,14 +96,67 @@ def memory_impact(impact: Impact, kernel: ArrayLike, time_step: float, mass: flo
     taut = taut_shape(impact.span_ratio)
     _, tension = spring(furthest, impact.span, impact.span_ratio, taut, impact.stiffness)
     _, unrefined = spring(fine[0], impact.span, impact.span_ratio, taut, impact.stiffness)
+    place, speed, load, pull, force = series.T.copy()
     return MemoryImpact(
-        time_step * np.arange(len(series), dtype=np.float64),
-        *series.T.copy(),
+        time=time_step * np.arange(len(series), dtype=np.float64),
+        displacement=place,
+        speed=speed,
+        load=load,
+        tension=pull,
+        memory_force=force,
         peak=ImpactPeak(tension, furthest, time),
         ratio=tension / peak_by_energy(impact, mass).tension,
         rise_ratio=time / math.sqrt(impact.draught / impact.water.gravity),
         step_error=abs(tension / unrefined - 1.0),
     )
+
+
+def impact_with_memory(impact: Impact) -> MemoryImpact:
+    """Solve model A with the waves that the plate makes in this depth [eq:impact-memory].
+
+    The kernel of a ratio of depth to draught is computed once (some seconds) and kept.
+
+    Parameters
+    ----------
+    impact : Impact
+        The span.
+
+    Raises
+    ------
+    ConvergenceError
+        When the tension still rises after 128 sqrt(d/g): cables softer than the model is meant for.
+    """
+    unit = math.sqrt(impact.draught / impact.water.gravity)
+    ratio = min(impact.water.depth / impact.draught, _DEEP)
+    # rho g d times the kernel, rho d^2 times the mass, of a plate of one metre with g = 1, rho = 1
+    for length in _LENGTHS:
+        grid, kernel, mass = _scaled_memory(ratio, length)
+        moved = mass * impact.water.density * impact.draught**2
+        step = peak_by_energy(impact, moved).time / _STEPS
+        if step * _STEPS > 0.8 * length * unit:
+            continue
+        count = min(int(length * unit / step), 6 * _STEPS) + 1
+        from scipy.interpolate import CubicSpline
+
+        values = CubicSpline(grid, kernel)(np.arange(count) * (step / unit))
+        force = impact.water.density * impact.water.gravity * impact.draught
+        try:
+            return memory_impact(impact, force * values, step, moved)
+        except ConvergenceError:
+            continue
+    raise ConvergenceError(
+        f"the tension still rises after {_LENGTHS[-1]:g} sqrt(d/g)",
+        path="stiffness",
+        remedy="take stiffer cables; so slow a rise is a drift, not an impact",
+    )
+
+
+@lru_cache(maxsize=32)
+def _scaled_memory(ratio: float, length: float) -> tuple[Array, Array, float]:
+    """Return times, kernel and added mass of a plate of unit draught, unit density and gravity."""
+    grid = np.linspace(0.0, length, _POINTS)
+    kernel, mass = plate_memory(1.0, Water(ratio, 1.0, 1.0), grid)
+    return grid, kernel, mass
 
 
 def _march(impact: Impact, kernel: Array, step: float, mass: float) -> tuple[tuple[float, float], Array]:
@@ -114,8 +175,7 @@ def _march(impact: Impact, kernel: Array, step: float, mass: float) -> tuple[tup
     share = before / (before - after)
     # Hermite's cubic of the displacement at the instant at which the speed vanishes
     far = 1.0 - share
-    top = (
-        far * far * ((1.0 + 2.0 * share) * out[n, 0] + share * step * before)
-        + share * share * ((3.0 - 2.0 * share) * out[n + 1, 0] - far * step * after)
+    top = far * far * ((1.0 + 2.0 * share) * out[n, 0] + share * step * before) + share * share * (
+        (3.0 - 2.0 * share) * out[n + 1, 0] - far * step * after
     )
     return (float(top), (n + share) * step), out[:count]

@@ -37,7 +37,7 @@ class Contact:
         Whether it is the first on its side since the other side was taut or the water turned towards this one (about
         its mean speed); later ones are bounces.
     peak_time, end : float
-        When the tension is largest, and when the cable is slack again [s]; the end is NaN where the series stops before.
+        When the tension is largest, and when the cable is slack again [s]; NaN where the series stops before.
     """
 
     time: float

@@ -168,8 +168,8 @@ def _check(impact: Impact, flow: SkirtFlow, rise: Array, tension: Array) -> tupl
             notices.append(
                 Notice(
                     "snap-slow",
-                    f"Half of the snaps rise for more than {middle:.3g} sqrt(d/g); the added mass of infinite frequency "
-                    f"holds below {_SHORT_RISE}",
+                    f"Half of the snaps rise for more than {middle:.3g} sqrt(d/g); the added mass of infinite "
+                    f"frequency holds below {_SHORT_RISE}",
                     middle,
                     _SHORT_RISE,
                     remedy="read peaks with the ratio of the model with memory",

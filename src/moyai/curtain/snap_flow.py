@@ -70,9 +70,7 @@ def depth_mean_factor(wave_number: ArrayLike, depth: ArrayLike, water: Water) ->
     fall = -np.expm1(-k * d)
     if math.isinf(water.depth):
         return np.asarray(fall / (k * d))
-    return np.asarray(
-        fall * (1.0 + np.exp(-k * (2.0 * water.depth - d))) / (k * d * -np.expm1(-2.0 * k * water.depth))
-    )
+    return np.asarray(fall * (1.0 + np.exp(-k * (2.0 * water.depth - d))) / (k * d * -np.expm1(-2.0 * k * water.depth)))
 
 
 def flow_over_skirt(

@@ -81,7 +81,9 @@ class SnapFit:
 
     def exceedance(self, tension: ArrayLike) -> Array:
         """Return the probability that a peak above the threshold exceeds a tension [N]."""
-        return np.exp(_log_exceedance(self.law, np.asarray(tension) - self.threshold, self.shape.value, self.scale.value))
+        return np.exp(
+            _log_exceedance(self.law, np.asarray(tension) - self.threshold, self.shape.value, self.scale.value)
+        )
 
     @property
     def empirical(self) -> Array:

@@ -192,7 +192,10 @@ def read_snap(
         )
     if largest + 10 > inside[-1] or largest < inside[0] + 5:
         raise InputError(
-            "the peak lies at the end of the record", path="window", allowed="peak and plateau inside", remedy="widen it"
+            "the peak lies at the end of the record",
+            path="window",
+            allowed="peak and plateau inside",
+            remedy="widen it",
         )
     rough = _flank(total, largest)
     plateau, error, slope = _level(t, total, largest, int(inside[-1]))
@@ -219,7 +222,9 @@ def _checked(time: ArrayLike, tension: ArrayLike) -> tuple[Array, Array]:
     values = np.atleast_2d(np.array(tension, dtype=np.float64))
     if t.ndim != 1 or t.size < 20 or values.ndim != 2 or values.shape[1] != t.size:
         raise InputError(
-            f"times {t.shape} and tensions {values.shape}", path="tension", allowed="(n,) and (cables, n), n at least 20"
+            f"times {t.shape} and tensions {values.shape}",
+            path="tension",
+            allowed="(n,) and (cables, n), n at least 20",
         )
     for name, array in (("time", t), ("tension", values)):
         bad = ~np.isfinite(array)

@@ -183,7 +183,8 @@ def test_comparison_and_notices():
     impact = random_impact(2, draught=0.15, water=Water(0.4, 1000.0, 9.81), span=0.7, length=0.8)
     table = compare_models(impact, Skirt(0.15, 0.135, 5e4))
     assert [line.model for line in table.models] == [
-        "A marched", "A", "A closed form", "A in this depth", "A2", "B literal", "B energy_mid", "B energy_proj", "AB"
+        "A marched", "A", "A closed form", "A in this depth", "A with memory", "A2", "A curved skirt", "B literal",
+        "B energy_mid", "B energy_proj", "AB",
     ]  # fmt: skip
     assert 1.0 < table.spread < 1e3
     soft = random_impact(2, upper_stiffness=1.0, lower_stiffness=1.0, draught=0.39, water=Water(0.4, 1000.0, 9.81))
