@@ -115,7 +115,7 @@ def block_means(
     mx, my = mean(u), mean(v)
     squares = mean(u**2 + v**2)
     deviation = np.sqrt(np.maximum(squares - mx**2 - my**2, 0.0))
-    starts = start + (first + np.arange(size)) * length
+    starts = np.asarray(start + (first + np.arange(size)) * length, dtype=np.float64)
     return MeanCurrents(starts, count, mx, my, mean(np.hypot(u, v)), deviation)
 
 

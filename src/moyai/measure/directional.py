@@ -144,7 +144,8 @@ def directional_spectrum(
     frequency = spectra.frequency[chosen]
     omega = 2.0 * math.pi * frequency
     k = np.asarray(wave_number(omega, water.depth, water.gravity), dtype=float)
-    heading = -math.pi + (np.arange(HEADINGS) + 0.5) * (2.0 * math.pi / HEADINGS)
+    turns = (np.arange(HEADINGS) + 0.5) / HEADINGS
+    heading = np.asarray(2.0 * math.pi * turns - math.pi, dtype=np.float64)
     responses = np.stack([sensor.response(omega, k, heading, water) for sensor in sensors], axis=1)
     first, second = np.triu_indices(count)
     matrix = spectra.matrix[chosen]

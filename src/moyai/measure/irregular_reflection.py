@@ -139,7 +139,7 @@ def separate_irregular(
         raise InputError(f"gauge {column + 1} lacks sample {row + 1}", path="gauges", remedy="choose a sound stretch")
     transforms, window, shift = _segments(step, values, options)
     size = window.size
-    frequency = np.fft.rfftfreq(size, step)
+    frequency = np.asarray(np.fft.rfftfreq(size, step), dtype=np.float64)
     inside = (frequency >= lowest) & (frequency <= highest) & (frequency > 0.0)
     if not inside.any():
         raise InputError(f"no frequency between {lowest:g} and {highest:g} Hz", path="lowest, highest")

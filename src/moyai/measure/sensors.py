@@ -183,7 +183,7 @@ def surface_elevation(
         raise InputError(f"{sensor.quantity} depends on the heading", path="quantity", allowed="a vertical quantity")
     if not np.isfinite(record).all():
         raise InputError("the record has gaps", path="values", remedy="choose a stretch without gaps")
-    frequency = np.fft.rfftfreq(record.size, step)
+    frequency = np.asarray(np.fft.rfftfreq(record.size, step), dtype=np.float64)
     omega = 2.0 * math.pi * frequency
     inside = (frequency >= max(lowest, 1e-12)) & (frequency <= highest)
     if not inside.any():

@@ -242,7 +242,7 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
     starts = np.arange(0, values.shape[0] - size + 1, shift)
     window = taper(options.window, size)
     power = float(np.sum(window**2))
-    total = np.zeros((size // 2 + 1, values.shape[1], values.shape[1]), dtype=np.complex128)
+    total: ComplexArray = np.zeros((size // 2 + 1, values.shape[1], values.shape[1]), dtype=np.complex128)
     used = 0
     ramp = np.arange(size) - 0.5 * (size - 1)
     ramp_power = float(np.sum(ramp**2))
@@ -262,7 +262,7 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
         raise InputError(
             f"every segment of {size} samples lacks a sample", path="segment", remedy="take shorter segments"
         )
-    density: ComplexArray = total * (2.0 * step / (power * used))
+    density = np.asarray(total * (2.0 * step / (power * used)), dtype=np.complex128)
     density[0] *= 0.5
     if size % 2 == 0:
         density[-1] *= 0.5
