@@ -173,6 +173,7 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     mean, dynamic = value("partial_mean"), value("partial_dynamic")
     factor, share = value("safety_factor"), value("share")
     load_factor, material = value("load_factor"), value("material_factor")
+    used: tuple[CodeRule, ...]
     if mean is not None and dynamic is not None:
         varying = max(load.maximum_tension - load.mean_tension, 0.0)
         demand = mean.value * load.mean_tension + dynamic.value * varying

@@ -16,7 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.study.ledger import Ledger, Record
 from moyai.study.local import run_here, run_processes
-from moyai.study.plan import RunCase, Study
+from moyai.study.plan import RunCase, Study, with_search
 from moyai.study.table import study_result
 from moyai.study.variations import Combination
 from moyai.study.work import Task
@@ -97,7 +97,7 @@ def run_study(
         left = tuple(case for case in study.cases if case.index not in known)
         results_folder = folder / "cases" if study.keep_results else None
         base = replace(study.base, text="")
-        task = Task(base, study.base_path.resolve(), study.wanted, results_folder, run)
+        task = Task(base, study.base_path.resolve(), study.wanted, results_folder, with_search(study, run))
         stopped = False
         if left:
             watching = _Watching(study, known, watch, progress)

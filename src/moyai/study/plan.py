@@ -19,7 +19,7 @@ from moyai.core.progress import Progress, silent
 from moyai.study import schema
 from moyai.study.paths import assign, remove, resolve
 from moyai.study.responses import Wanted
-from moyai.study.variations import Axis, Combination, axes_of, combinations
+from moyai.study.variations import Axis, Combination, Point, axes_of, combinations, common_unit
 
 LARGEST = 1_000_000
 """Number of cases above which a study is refused as a slip."""
@@ -51,6 +51,8 @@ class Study:
         Keep results.nc of every case.
     key : str
         Hash of everything that the results depend on.
+    search : LimitSearch or Optimisation or None
+        What is searched for in every case.
     """
 
     title: str
@@ -62,6 +64,7 @@ class Study:
     watch: str
     keep_results: bool
     key: str
+    search: schema.LimitSearch | schema.Optimisation | None = None
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -115,6 +118,13 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
             faults.append(document.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy, of_key=True))
     if faults:
         raise CaseError(faults)
+    search = block.limit if block.limit is not None else block.optimise
+    _check_search(document, base.data, search)
+    if block.optimise is not None and block.optimise.trade_off is not None:
+        trade = block.optimise.trade_off
+        axes.append(Axis(trade.name, tuple(Point(f"{value:g}", (("@at_most", value),)) for value in trade.at_most)))
+    if not axes and search is None:
+        raise CaseError([document.fault(("study", "variations"), "the study varies nothing", remedy="give variations")])
     _check_names(document, axes)
     count = math.prod(len(axis.points) for axis in axes)
     if count > LARGEST:
@@ -122,7 +132,8 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
         raise CaseError([document.fault(("study", "variations"), message, allowed=f"at most {LARGEST}")])
     cases = combinations(axes)
     wanted = tuple(Wanted(item.variable, item.reduce, item.over) for item in block.responses)
-    study = Study(block.title, base, base_path, tuple(axes), cases, wanted, block.watch, block.keep == "results", "")
+    keep = block.keep == "results"
+    study = Study(block.title, base, base_path, tuple(axes), cases, wanted, block.watch, keep, "", search)
     named = check_cases(study, progress)
     return replace(study, key=_key(study, named))
 
@@ -205,6 +216,57 @@ def _to_check(study: Study) -> list[int]:
     return sorted(chosen)
 
 
+def _check_search(document: Document, base: Any, search: schema.LimitSearch | schema.Optimisation | None) -> None:
+    """Check the paths and ranges of a search."""
+    if search is None:
+        return
+    if isinstance(search, schema.LimitSearch):
+        ranges = {search.path: (search.first, search.last)}
+        where: KeyPath = ("study", "limit", "path")
+    else:
+        ranges, where = dict(search.variables), ("study", "optimise", "variables")
+    faults = []
+    for path, (low, high) in ranges.items():
+        place = where if where[-1] == "path" else (*where, path)
+        try:
+            resolve(base, path)
+            first, last, _ = common_unit(low, high, path)
+            if not first < last:
+                raise InputError(f"the range at '{path}' is empty", remedy="give the smaller value first")
+        except InputError as error:
+            faults.append(document.fault(place, error.fault.message, remedy=error.fault.remedy, of_key=True))
+    if faults:
+        raise CaseError(faults)
+
+
+def with_search(study: Study, run: RunCase) -> RunCase:
+    """Return what runs one case of the study: ``run`` itself, or a search around it."""
+    from moyai.study.search import Limit, LimitRun, OptimiseRun
+
+    def limit(one: schema.Condition) -> Limit:
+        if one.at_most is not None:
+            return Limit(one.response, one.at_most, 1)
+        assert one.at_least is not None
+        return Limit(one.response, one.at_least, -1)
+
+    search = study.search
+    if isinstance(search, schema.LimitSearch):
+        conditions = tuple(limit(one) for one in search.conditions)
+        return LimitRun(run, search.path, search.first, search.last, conditions, search.tolerance)
+    if isinstance(search, schema.Optimisation):
+        return OptimiseRun(
+            run,
+            tuple((path, low, high) for path, (low, high) in search.variables.items()),
+            search.minimise,
+            tuple(limit(one) for one in search.subject_to),
+            "" if search.trade_off is None else search.trade_off.response,
+            search.starts,
+            search.evaluations,
+            search.seed,
+        )
+    return run
+
+
 def _read_base(document: Document, base_path: Path) -> Document:
     """Read the base case; every fault of its own is told with its own lines."""
     if not base_path.exists():
@@ -260,6 +322,7 @@ def _key(study: Study, hashes: str) -> str:
         "points": [[axis.name, [[point.label, point.assignments, point.removals] for point in axis.points]]
                    for axis in study.axes],
         "wanted": [[item.variable, item.reduce, item.over] for item in study.wanted],
+        "search": None if study.search is None else study.search.model_dump(mode="json"),
     }  # fmt: skip
     return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
 

@@ -6,7 +6,19 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from moyai.case.schema_types import Block, FileName, KeyGroups, Name, OneOrMany, Range, Seed, Truth, Whole
+from moyai.case.schema_types import (
+    Block,
+    FileName,
+    KeyGroups,
+    Name,
+    Number,
+    OneOrMany,
+    PositiveNumber,
+    Range,
+    Seed,
+    Truth,
+    Whole,
+)
 
 Value = Any
 """What a key of the case takes: the case's own schema judges it."""
@@ -136,18 +148,62 @@ class Response(Block):
     over: Annotated[tuple[str, ...], Field(description="Dimensions to reduce; all unlabelled ones when absent.")] = ()
 
 
+class Condition(Block):
+    """A response that must stay below or above a value."""
+
+    response: Annotated[str, Field(description="Group and name in results.nc; the largest entry of an array counts.")]
+    at_most: Number | None = None
+    at_least: Number | None = None
+
+    exactly_one: ClassVar[KeyGroups] = (("at_most", "at_least"),)
+
+
+class LimitSearch(Block):
+    """Up to which value the structure holds, in every case of the study."""
+
+    path: Annotated[str, Field(description="Path of the value that is raised.")]
+    first: Annotated[Value, Field(alias="from", description="Value at which the search starts; it should hold.")]
+    last: Annotated[Value, Field(alias="to", description="Largest value that is tried.")]
+    conditions: Annotated[tuple[Condition, ...], OneOrMany(), Field(min_length=1)]
+    tolerance: Annotated[PositiveNumber, Field(description="Share of the range within which it is found.")] = 0.01
+
+
+class TradeOff(Block):
+    """A condition tightened step by step, for a curve of what it costs."""
+
+    name: Name = "trade_off"
+    response: str
+    at_most: Annotated[tuple[Number, ...], Field(min_length=1)]
+
+
+class Optimisation(Block):
+    """The best values of some paths, in every case of the study."""
+
+    variables: Annotated[dict[str, tuple[Value, Value]], Field(min_length=1, description="Range of every path.")]
+    minimise: Annotated[str, Field(description="Response; the largest entry of an array counts.")]
+    subject_to: Annotated[tuple[Condition, ...], OneOrMany()] = ()
+    trade_off: TradeOff | None = None
+    starts: Annotated[int, Field(strict=True, ge=1, le=100, description="Starting points spread over the ranges.")] = 3
+    evaluations: Annotated[int, Field(strict=True, ge=5, le=10_000, description="Largest number of runs a start.")] = 60
+    seed: Seed = 1
+
+
 class StudyBlock(Block):
     """The study."""
 
     title: str = "Study"
     base: Annotated[FileName, Field(description="The base case, relative to this file.")]
     set: Annotated[dict[str, Value], Field(default_factory=dict, description="Changes that all cases share.")]
-    variations: Annotated[tuple[Variation, ...], OneOrMany(), Field(min_length=1)]
+    variations: Annotated[tuple[Variation, ...], OneOrMany()] = ()
     responses: Annotated[tuple[Response, ...], OneOrMany()] = ()
     watch: Annotated[str, Field(description="Variable whose largest and smallest value is shown on the way.")] = ""
+    limit: LimitSearch | None = None
+    optimise: Optimisation | None = None
     keep: Annotated[Literal["responses", "results"], Field(description="results: also results.nc of every case.")] = (
         "responses"
     )
+
+    at_most_one: ClassVar[KeyGroups] = (("limit", "optimise"),)
 
 
 class StudyFile(Block):

@@ -6,7 +6,7 @@ import csv
 import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -140,12 +140,12 @@ def _short_names(paths: list[str]) -> dict[str, str]:
 
 
 def _spread(values: schema.Spread, path: str) -> tuple[Any, ...]:
-    first, last, unit = _with_unit(values.first, values.last, path)
+    first, last, unit = common_unit(values.first, values.last, path)
     numbers = values.spread(first, last, values.count)
     return tuple(f"{number!r} {unit}" if unit else number for number in numbers)
 
 
-def _with_unit(first: Any, last: Any, path: str) -> tuple[float, float, str]:
+def common_unit(first: Any, last: Any, path: str) -> tuple[float, float, str]:
     """Return two values as numbers in the unit of the first."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in (first, last)):
         return float(first), float(last), ""
@@ -293,16 +293,16 @@ def _draw(spread: schema.Distribution, quantile: np.ndarray, path: str) -> list[
     from scipy.special import ndtri
 
     if spread.uniform is not None:
-        first, last, unit = _with_unit(*spread.uniform, path)
+        first, last, unit = common_unit(*spread.uniform, path)
         if last <= first:
             raise InputError(f"the range at '{path}' is empty", path=path, remedy="give the smaller value first")
         numbers = first + (last - first) * quantile
     elif spread.normal is not None:
-        mean, deviation, unit = _with_unit(*spread.normal, path)
+        mean, deviation, unit = common_unit(*spread.normal, path)
         numbers = mean + _positive(deviation, path) * ndtri(quantile)
     else:
         assert spread.lognormal is not None
-        mean, deviation, unit = _with_unit(*spread.lognormal, path)
+        mean, deviation, unit = common_unit(*spread.lognormal, path)
         if mean <= 0.0:
             raise InputError(f"a lognormal value at '{path}' needs a mean above zero", path=path)
         variance = math.log1p((_positive(deviation, path) / mean) ** 2)
@@ -375,7 +375,10 @@ class Combination:
     index: int
     labels: tuple[str, ...]
     assignments: Assignments = ()
-    removals: tuple[str, ...] = field(default=())
+    removals: tuple[str, ...] = ()
+    options: Assignments = ()
+
+    # Options are what a search inside the case asks for, such as the limit of a trade-off; they start with '@'
 
 
 def combinations(axes: Sequence[Axis]) -> tuple[Combination, ...]:
@@ -386,8 +389,9 @@ def combinations(axes: Sequence[Axis]) -> tuple[Combination, ...]:
             Combination(
                 index,
                 tuple(point.label for point in points),
-                tuple(entry for point in points for entry in point.assignments),
+                tuple(entry for point in points for entry in point.assignments if not entry[0].startswith("@")),
                 tuple(path for point in points for path in point.removals),
+                tuple(entry for point in points for entry in point.assignments if entry[0].startswith("@")),
             )
         )
     return tuple(found)

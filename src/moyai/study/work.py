@@ -60,7 +60,9 @@ def run_case(task: Task, combination: Combination, cancelled: Callable[[], bool]
     started = time.perf_counter()
     try:
         case = case_of(varied(task.base, combination), task.base_path)
-        result = task.run(case, _listener(cancelled))
+        options = dict(combination.options)
+        run = task.run.bind(options) if options else task.run  # type: ignore[attr-defined]
+        result = run(case, _listener(cancelled))
         if cancelled is not None and cancelled():
             return None
         if task.results_folder is not None:

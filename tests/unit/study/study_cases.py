@@ -119,3 +119,16 @@ def once_deadly_case(case, progress):
             pass
         os.kill(os.getpid(), signal.SIGKILL)
     return fast_case(case, progress)
+
+
+def linear_case(case, progress):
+    """Tension that grows with the square of the height and falls with the length of the line."""
+    sea = case.model.waves[0]
+    length = case.model.lines[0].segments[0].length
+    tension = 1000.0 * sea.significant_height**2 * sea.peak_period / 5.0 * (55.0 / length) ** 4
+    data = {
+        "tension": (("line",), [tension, 0.9 * tension], {"units": "N", "long_name": "tension"}),
+        "cost": ((), length, {"units": "1", "long_name": "cost"}),
+    }
+    names = [line.name for line in case.model.lines]
+    return Result(xr.DataTree.from_dict({"/": xr.Dataset(), "/SWL": xr.Dataset(data, coords={"line": names})}))

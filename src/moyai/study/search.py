@@ -1,0 +1,295 @@
+"""Search inside a case: up to which value it holds, and which values are best.
+
+Both wrap what runs one case, so that a study of them resumes, spreads over workers and tells
+its failures like any other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from moyai.case.reader import Case, case_of
+from moyai.core.errors import CaseError, InputError
+from moyai.core.progress import Progress
+from moyai.core.quantities import parse_quantity
+from moyai.core.results import Result
+from moyai.study.plan import RunCase, varied
+from moyai.study.responses import kept
+from moyai.study.variations import Combination, common_unit
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A response that must stay on one side of a value.
+
+    Parameters
+    ----------
+    response : str
+        Group and name of a kept response; its largest entry counts.
+    value : float
+        The limit.
+    sign : int
+        1 where the response must stay below, -1 where it must stay above.
+    """
+
+    response: str
+    value: float
+    sign: int
+
+    def excess(self, values: dict[str, Any]) -> float:
+        """Return how far the limit is exceeded, relative to it; zero or less holds.
+
+        Raises
+        ------
+        InputError
+            When the result has no such response.
+        """
+        found = response_value(values, self.response, self.sign)
+        scale = abs(self.value) if self.value != 0.0 else 1.0
+        return self.sign * (found - self.value) / scale
+
+
+def response_value(values: dict[str, Any], name: str, sign: int = 1) -> float:
+    """Return the largest entry of a response (the smallest for ``sign = -1``)."""
+    if name not in values:
+        last = name.rsplit("/", 1)[-1]
+        same = [one for one in values if one.rsplit("/", 1)[-1] == last][:5]
+        raise InputError(
+            f"the result has no response '{name}'",
+            path="response",
+            allowed=", ".join(same) or ", ".join(list(values)[:5]) + ", ...",
+            remedy="list it under 'responses' if it is a series",
+        )
+    data = np.asarray(values[name]["values"], dtype=float)
+    if np.isnan(data).all():
+        raise InputError(f"the response '{name}' is not known in this case (NaN)", path="response")
+    return float(np.nanmax(data) if sign > 0 else np.nanmin(data))
+
+
+@dataclass(frozen=True)
+class LimitRun:
+    """Run a case as often as it takes to find up to which value it holds.
+
+    Parameters
+    ----------
+    run : callable
+        Runs one case.
+    path : str
+        Path that is raised.
+    first, last : object
+        Range, as a case file holds it.
+    limits : tuple of Limit
+        What must hold.
+    tolerance : float
+        Share of the range.
+    """
+
+    run: RunCase
+    path: str
+    first: Any
+    last: Any
+    limits: tuple[Limit, ...]
+    tolerance: float
+
+    def __call__(self, case: Case, progress: Progress) -> Result:
+        low, high, unit = common_unit(self.first, self.last, self.path)
+        tried: list[tuple[float, float, str]] = []
+
+        def worst(value: float) -> float:
+            excess, which = _excess(self.run, case, self.limits, {self.path: _written(value, unit)}, progress)
+            tried.append((value, excess, which))
+            progress("limit", len(tried), len(tried) + 5)
+            return excess
+
+        if worst(low) > 0.0:
+            return self._result(tried, math.nan, unit, f"it does not hold at {low:g} {unit}".strip())
+        if worst(high) <= 0.0:
+            return self._result(tried, high, unit, f"it holds up to {high:g} {unit}, the largest value tried".strip())
+        below, above = low, high
+        while above - below > self.tolerance * (high - low):
+            middle = 0.5 * (below + above)
+            if worst(middle) > 0.0:
+                above = middle
+            else:
+                below = middle
+        return self._result(tried, below, unit, "found")
+
+    def _result(self, tried: list[tuple[float, float, str]], limit: float, unit: str, message: str) -> Result:
+        import xarray as xr
+
+        factor = _si_factor(unit)
+        governing = next((which for value, excess, which in sorted(tried) if excess > 0.0), "")
+        data = {
+            "limit": ((), limit * factor, {"units": _si_name(unit), "long_name": f"largest {self.path} that holds"}),
+            "runs": ((), float(len(tried)), {"units": "1", "long_name": "cases run to find it"}),
+            "governing": (
+                ("limit_of",),
+                [float(one.response == governing) for one in self.limits],
+                {"units": "1", "long_name": "1 where this response governs"},
+            ),
+        }
+        names = [one.response for one in self.limits]
+        return Result(
+            xr.DataTree.from_dict({"/": xr.Dataset(), "/limit": xr.Dataset(data, coords={"limit_of": names})}),
+            message=message,
+        )
+
+
+@dataclass(frozen=True)
+class OptimiseRun:
+    """Run a case as often as it takes to find the best values.
+
+    Parameters
+    ----------
+    run : callable
+        Runs one case.
+    variables : tuple of (str, object, object)
+        Path and range of each value.
+    minimise : str
+        Response.
+    limits : tuple of Limit
+        What must hold.
+    trade_off : str
+        Response whose limit comes with the case, empty when there is none.
+    starts, evaluations, seed : int
+        Effort; the starting points are a Latin hypercube.
+    options : dict
+        What the case brings (``@at_most``).
+    """
+
+    run: RunCase
+    variables: tuple[tuple[str, Any, Any], ...]
+    minimise: str
+    limits: tuple[Limit, ...]
+    trade_off: str
+    starts: int
+    evaluations: int
+    seed: int
+    options: dict[str, Any] = field(default_factory=dict)
+
+    def bind(self, options: dict[str, Any]) -> OptimiseRun:
+        """Return the same with what a case brings."""
+        return replace(self, options=options)
+
+    def __call__(self, case: Case, progress: Progress) -> Result:
+        from scipy.optimize import minimize
+        from scipy.stats import qmc
+
+        ranges = [(path, *common_unit(low, high, path)) for path, low, high in self.variables]
+        limits = self.limits
+        if self.trade_off:
+            limits = (*limits, Limit(self.trade_off, float(self.options["@at_most"]), 1))
+        seen: dict[tuple[float, ...], tuple[float, float]] = {}
+
+        def evaluate(place: np.ndarray) -> tuple[float, float]:
+            """Return objective and worst excess at a place of the unit cube."""
+            key = tuple(float(round(value, 12)) for value in np.clip(place, 0.0, 1.0))
+            if key not in seen:
+                change = {path: _written(low + at * (high - low), unit)
+                          for (path, low, high, unit), at in zip(ranges, key)}  # fmt: skip
+                try:
+                    values = _values(self.run, case, change, progress)
+                    excess = max((one.excess(values) for one in limits), default=-1.0)
+                    seen[key] = (response_value(values, self.minimise), excess)
+                except CaseError:
+                    # A refused combination (a line that cannot reach) lies outside; the search turns back from it
+                    seen[key] = (math.inf, math.inf)
+                progress("optimise", len(seen), self.starts * self.evaluations)
+            return seen[key]
+
+        scale = [1.0]
+
+        def objective(place: np.ndarray) -> float:
+            value = evaluate(place)[0]
+            return value / scale[0] if math.isfinite(value) else 1e3
+
+        def margin(place: np.ndarray) -> float:
+            excess = evaluate(place)[1]
+            return -excess if math.isfinite(excess) else -1e3
+
+        points = qmc.LatinHypercube(len(ranges), seed=self.seed).random(self.starts)
+        points[0] = 0.5
+        for point in points:
+            first = evaluate(point)[0]
+            scale[0] = abs(first) if math.isfinite(first) and first != 0.0 else 1.0
+            bounds = [{"type": "ineq", "fun": lambda x, i=i: x[i]} for i in range(len(ranges))]
+            bounds += [{"type": "ineq", "fun": lambda x, i=i: 1.0 - x[i]} for i in range(len(ranges))]
+            minimize(  # type: ignore[call-overload]
+                objective, point, method="COBYLA", constraints=[*bounds, {"type": "ineq", "fun": margin}],
+                options={"maxiter": self.evaluations, "rhobeg": 0.25, "tol": 1e-3},
+            )  # fmt: skip
+        return self._result(ranges, seen, limits)
+
+    def _result(
+        self,
+        ranges: Sequence[tuple[str, float, float, str]],
+        seen: dict[tuple[float, ...], tuple[float, float]],
+        limits: tuple[Limit, ...],
+    ) -> Result:
+        import xarray as xr
+
+        # COBYLA may leave a limit by its own tolerance
+        holding = {key: value for key, value in seen.items() if value[1] <= 1e-3 and math.isfinite(value[0])}
+        if not holding:
+            nearest = min(value[1] for value in seen.values())
+            raise InputError(
+                f"no combination within the ranges holds all limits (nearest: {100 * nearest:.3g} % beyond)",
+                path="optimise.subject_to",
+                remedy="widen the ranges or loosen the limits",
+            )
+        best = min(holding, key=lambda key: holding[key][0])
+        data: dict[str, Any] = {
+            "objective": ((), holding[best][0], {"units": "1", "long_name": f"least {self.minimise}"}),
+            "margin": ((), -holding[best][1], {"units": "1", "long_name": "least relative distance from the limits"}),
+            "runs": ((), float(len(seen)), {"units": "1", "long_name": "cases run"}),
+            "best": (
+                ("variable",),
+                [(low + at * (high - low)) * _si_factor(unit) for (_, low, high, unit), at in zip(ranges, best)],
+                {"units": "SI", "long_name": "best values"},
+            ),
+        }
+        names = [path for path, *_ in ranges]
+        return Result(
+            xr.DataTree.from_dict({"/": xr.Dataset(), "/optimum": xr.Dataset(data, coords={"variable": names})}),
+            message=f"best of {len(seen)} runs, {len(limits)} limits",
+        )
+
+
+def _excess(
+    run: RunCase, case: Case, limits: tuple[Limit, ...], change: dict[str, Any], progress: Progress
+) -> tuple[float, str]:
+    values = _values(run, case, change, progress)
+    worst = max((one.excess(values), one.response) for one in limits)
+    return worst
+
+
+def _values(run: RunCase, case: Case, change: dict[str, Any], progress: Progress) -> dict[str, Any]:
+    document = varied(case.document, Combination(0, (), tuple(change.items())))
+    result = run(case_of(document, case.path), progress)
+    if result.status in ("not_converged", "failed", "interrupted"):
+        if result.status == "interrupted":
+            raise KeyboardInterrupt
+        raise InputError(f"the case did not converge at {change}: {result.message}", path="study")
+    return kept(result.tree)
+
+
+def _written(value: float, unit: str) -> Any:
+    return f"{value!r} {unit}" if unit else value
+
+
+def _si_factor(unit: str) -> float:
+    return parse_quantity(f"1 {unit}").si if unit else 1.0
+
+
+def _si_name(unit: str) -> str:
+    from moyai.study.variations import si_symbol
+
+    return (si_symbol(parse_quantity(f"1 {unit}").unit.dimension) if unit else "") or "1"
+
+
+Runner = Callable[[Case, Progress], Any]

@@ -1,0 +1,75 @@
+"""Limits by bisection and optima against a case whose answers are known in closed form."""
+
+import numpy as np
+import pytest
+import study_cases
+
+from moyai.core.errors import CaseError
+from moyai.study.execute import run_study
+from moyai.study.plan import load_study
+
+LIMIT = """{path: 'waves[storm].significant_height', from: 0.1 m, to: 150 cm,
+             conditions: [{response: SWL/tension, at_most: 250}], tolerance: 0.002}"""
+
+
+def test_the_largest_height_that_holds_is_found_in_every_case(tmp_path):
+    path = study_cases.write_text(tmp_path, "- grid: {'waves[storm].peak_period': [4 s, 5 s]}", limit=LIMIT)
+    result = run_study(load_study(path), tmp_path / "out", study_cases.linear_case, workers=1)
+    assert result.status == "converged"
+    limit = result.tree["limit"]["limit"]
+    exact = np.sqrt(250.0 / 1000.0 * 5.0 / np.array([4.0, 5.0]) * (54.5 / 55.0) ** 4)
+    assert limit.attrs["units"] == "m"
+    assert (limit.values <= exact).all() and np.allclose(limit.values, exact, atol=0.002 * 1.4)
+
+
+def test_what_never_or_always_holds_is_said(tmp_path):
+    never = LIMIT.replace("250", "0.1")
+    result = run_study(
+        load_study(study_cases.write_text(tmp_path, "- grid: {'waves[0].peak_period': [5 s]}", limit=never)),
+        tmp_path / "never", study_cases.linear_case, workers=1,
+    )  # fmt: skip
+    assert np.isnan(result.tree["limit"]["limit"].values).all()
+    assert "does not hold at 0.1 m" in str(result.tree["case_message"].values[0])
+    always = LIMIT.replace("250", "1e9")
+    result = run_study(
+        load_study(study_cases.write_text(tmp_path, "- grid: {'waves[0].peak_period': [5 s]}", limit=always)),
+        tmp_path / "always", study_cases.linear_case, workers=1,
+    )  # fmt: skip
+    assert result.tree["limit"]["limit"].values == pytest.approx([1.5])
+    assert "largest value tried" in str(result.tree["case_message"].values[0])
+
+
+def test_the_shortest_line_that_holds_its_tension_is_found_along_a_trade_off(tmp_path):
+    optimise = """{variables: {'lines[*].segments[0].length': [54 m, 57 m]}, minimise: SWL/cost,
+             trade_off: {response: SWL/tension, at_most: [950, 1000, 1040]}, starts: 2}"""
+    path = study_cases.write_text(tmp_path, "[]", optimise=optimise)
+    result = run_study(load_study(path), tmp_path / "out", study_cases.linear_case, workers=1)
+    assert result.status == "converged", result.tree["case_message"].values
+    exact = 55.0 * (1000.0 / np.array([950.0, 1000.0, 1040.0])) ** 0.25
+    found = result.tree["optimum"]["objective"].values
+    assert np.allclose(found, exact, rtol=2e-3)
+    assert (result.tree["optimum"]["margin"].values > -2e-3).all()
+
+
+def test_what_cannot_be_reached_is_a_failed_row_that_says_so(tmp_path):
+    optimise = """{variables: {'lines[*].segments[0].length': [54 m, 57 m]}, minimise: SWL/cost,
+             subject_to: {response: SWL/tension, at_most: 1}, starts: 1}"""
+    path = study_cases.write_text(tmp_path, "[]", optimise=optimise)
+    result = run_study(load_study(path), tmp_path / "out", study_cases.linear_case, workers=1)
+    assert "no combination within the ranges" in str(result.tree["case_message"].values)
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "word"),
+    [
+        ("limit", LIMIT.replace("storm", "strom"), "did you mean 'storm'"),
+        ("limit", LIMIT.replace("150 cm", "1 cm"), "empty"),
+        ("limit", LIMIT.replace("at_most: 250", "at_most: 250, at_least: 3"), "exclude each other"),
+        ("optimise", "{variables: {}, minimise: SWL/cost}", "variables"),
+        ("optimise", "{variables: {'lines[*].count': [1, 1]}, minimise: SWL/cost}", "empty"),
+    ],
+)
+def test_slips_of_a_search_are_told(tmp_path, key, text, word):
+    with pytest.raises(CaseError) as caught:
+        load_study(study_cases.write_text(tmp_path, "- grid: {'waves[0].peak_period': [5 s]}", **{key: text}))
+    assert word in "\n".join(str(fault) for fault in caught.value.faults)
