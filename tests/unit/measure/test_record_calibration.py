@@ -36,7 +36,7 @@ def test_errors_cover_the_truth_as_often_as_they_say():
             lambda p, u=speed: u * math.sqrt(p[0]),
             observed,
             [Parameter("product", 10.0, 1e-3, 1e4)],
-            error=0.08 * observed,
+            error=0.08 * speed * math.sqrt(truth),
         )
         inside += abs(found.values[0] - truth) < 1.96 * found.errors[0]
     assert 106 <= inside <= 119
