@@ -24,6 +24,11 @@ _PAPER = """
 .hull{fill:#eceff2;stroke:#1b2430;stroke-width:1.5;stroke-linejoin:round}
 .mooring{fill:none;stroke:#0b5a8a;stroke-width:1.8}.anchor{fill:#1b2430}
 .axis{stroke:#b3261e;fill:none;stroke-width:1.3}.axis-head{fill:#b3261e}.axis-text{fill:#b3261e;font-style:italic}
+.sheet{fill:none;stroke:#b4540a;stroke-width:3;stroke-linecap:round;stroke-linejoin:round}
+.ghost{fill:none;stroke:#b4540a;stroke-width:1;stroke-dasharray:4 3;opacity:.75}
+.buoy{fill:#f2b544;stroke:#1b2430;stroke-width:1}
+.flow{stroke:#1f7ab0;fill:none;stroke-width:1.2}.flow-head{fill:#1f7ab0}
+.chord{stroke:#5b6775;fill:none;stroke-width:.8;stroke-dasharray:2 3}
 .dimension{stroke:#5b6775;fill:none;stroke-width:.8}.dimension-head{fill:#5b6775}
 .note{fill:#1b2430}.faint{fill:#5b6775}.marker{fill:#1b2430;stroke:none}.hollow{fill:#fff;stroke:#1b2430;stroke-width:1}
 """

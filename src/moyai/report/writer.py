@@ -20,6 +20,7 @@ Composer = Callable[[Result], Document]
 # Who turns the result of a structure into pages; a kind that is absent gets a plain listing of all groups
 COMPOSERS = {
     "breakwater": "moyai.report.breakwater_page:compose",
+    "curtain": "moyai.report.curtain_page:compose",
 }
 
 

@@ -1,0 +1,252 @@
+"""The first page of the report of a curtain: what governs, and up to which current and wave height it holds."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from moyai.core.results import Result
+from moyai.report.curtain_reading import (
+    Component,
+    CurtainLevel,
+    components,
+    governing_component,
+)
+from moyai.report.document import Block, Column, KeyFigure, KeyFigures, Paragraph, Table
+from moyai.report.formatting import DASH, format_number, format_percent, format_quantity
+from moyai.report.general_page import notice_blocks
+
+MOST_KEY_FIGURES = 10
+
+
+def summary_blocks(result: Result, levels: tuple[CurtainLevel, ...]) -> tuple[Block, ...]:
+    """Return the governing sentence, warnings, key figures, and the components of every water level.
+
+    Parameters
+    ----------
+    result : Result
+    levels : tuple of CurtainLevel
+
+    Returns
+    -------
+    tuple of Block
+    """
+    worst = governing_component(levels)
+    blocks: list[Block] = [*notice_blocks(result)]
+    sentence = _governing_sentence(worst, len(levels))
+    if sentence:
+        blocks.insert(0, Paragraph(sentence))
+    items = [
+        *_utilisation_figure(worst),
+        *_limit_figures(levels),
+        *_depth_figures(levels),
+        *_tension_figures(levels),
+        *_impact_figures(levels),
+        *_float_figures(levels),
+    ]
+    if items:
+        blocks.append(KeyFigures(tuple(items[:MOST_KEY_FIGURES])))
+    else:
+        blocks.append(Paragraph("The result holds no governing numbers."))
+    table = _components_table(levels, worst)
+    if table is not None:
+        blocks.append(table)
+    return tuple(blocks)
+
+
+def _governing_sentence(worst: tuple[CurtainLevel, Component] | None, count: int) -> str:
+    if worst is None:
+        return ""
+    level, entry = worst
+    load = format_quantity(entry.loads["governing"], entry.unit)
+    where = f" at {level.name}" if count > 1 else ""
+    how = f" under {entry.governing} load" if entry.governing else ""
+    verdict = "beyond its limit" if entry.utilisation > 1.0 else "within its limit"
+    factor = f", safety factor {format_number(entry.safety_factor)} included" if entry.safety_factor > 1.0 else ""
+    return (
+        f"The {entry.name} governs{where}: {load}{how}, {format_percent(entry.utilisation, 3)} of its capacity"
+        f"{factor}, {verdict}."
+    )
+
+
+def _utilisation_figure(worst: tuple[CurtainLevel, Component] | None) -> list[KeyFigure]:
+    if worst is None:
+        return [KeyFigure("Utilisation", DASH, "no strength is given in the case")]
+    level, entry = worst
+    return [
+        KeyFigure(
+            "Largest utilisation",
+            format_percent(entry.utilisation, 3),
+            f"{entry.name}, {entry.governing or 'load'}: {level.name}",
+            entry.utilisation,
+            "bad" if entry.utilisation > 1.0 else ("caution" if entry.utilisation > 0.8 else ""),
+        )
+    ]
+
+
+def _least(levels: tuple[CurtainLevel, ...], part: str, name: str) -> tuple[float, CurtainLevel] | None:
+    known = [(level.part(part).value(name), level) for level in levels]
+    known = [(value, level) for value, level in known if not math.isnan(value)]
+    return min(known, key=lambda entry: entry[0]) if known else None
+
+
+def _limit_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
+    """Return the largest current without waves, and the height held at the current of the case."""
+    items = []
+    found = _least(levels, "limits", "speed_limit")
+    if found is not None:
+        value, level = found
+        what = str(level.part("limits").attributes.get("speed_limit_governing", "")) or "limit"
+        own = level.part("statics").value("surface_speed")
+        beyond = math.isfinite(own) and own > value
+        text = "not reached" if math.isinf(value) else format_quantity(value, "m/s")
+        detail = f"{what} governs: {level.name}, no waves"
+        if math.isfinite(own):
+            detail += f"; current of the case {format_quantity(own, 'm/s')}"
+        items.append(KeyFigure("Holds up to a current of", text, detail, judgement="bad" if beyond else ""))
+    held = _height_held(levels)
+    if held is not None:
+        height, speed, level = held
+        text = format_quantity(height, "m") if height > 0.0 else "none"
+        items.append(
+            KeyFigure(
+                "Holds up to a wave height of",
+                text,
+                f"significant, at {format_quantity(speed, 'm/s')}: {level.name}",
+                judgement="" if height > 0.0 else "bad",
+            )
+        )
+    return items
+
+
+def _height_held(levels: tuple[CurtainLevel, ...]) -> tuple[float, float, CurtainLevel] | None:
+    """Return the wave height at the limit for the current of the case, the least over the water levels."""
+    best: tuple[float, float, CurtainLevel] | None = None
+    for level in levels:
+        group = level.part("limits")
+        speed, limit = group.real("speed", "speed"), group.real("limit_height", "speed")
+        own = level.part("statics").value("surface_speed")
+        if speed is None or limit is None or not math.isfinite(own) or not np.isfinite(limit).any():
+            continue
+        known = np.isfinite(limit)
+        if not speed[known].min() <= own <= speed[known].max():
+            continue
+        height = float(np.interp(own, speed[known], limit[known]))
+        if best is None or height < best[0]:
+            best = (height, own, level)
+    return best
+
+
+def _depth_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
+    known = [level for level in levels if math.isfinite(level.given("effective_depth"))]
+    if not known:
+        return []
+    level = min(known, key=lambda entry: entry.given("effective_depth"))
+    low, high = level.spread("effective_depth")
+    length = level.part("statics").value("skirt_length")
+    share = f"{format_percent(level.given('effective_depth') / length)} of the skirt, " if length > 0.0 else ""
+    items = [
+        KeyFigure(
+            "Effective depth",
+            format_quantity(level.given("effective_depth"), "m"),
+            f"{share}{format_number(low)} to {format_quantity(high, 'm')} over the drag range: {level.name}",
+        )
+    ]
+    gap, speed = level.given("toe_gap"), level.given("toe_speed")
+    if math.isfinite(gap):
+        ratio = level.given("toe_speed_ratio")
+        under = f"{format_quantity(speed, 'm/s')} under the toe" if math.isfinite(speed) else "toe to bed"
+        if math.isfinite(ratio):
+            under += f", {format_number(ratio)} times the current"
+        text = format_quantity(gap, "m") if gap > 0.0 else "none"
+        items.append(KeyFigure("Toe gap", text, f"{under}: {level.name}"))
+    return items
+
+
+def _tension_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
+    items = []
+    for name, label in (("anchor line", "Anchor line"), ("upper cable", "Upper cable")):
+        known = [
+            (entry.loads["governing"], level, entry)
+            for level in levels
+            for entry in components(level)
+            if entry.name == name and math.isfinite(entry.loads["governing"])
+        ]
+        if known:
+            load, level, entry = max(known, key=lambda found: found[0])
+            steady = format_quantity(entry.loads["steady"], entry.unit)
+            items.append(
+                KeyFigure(
+                    f"Largest load, {label.lower()}",
+                    format_quantity(load, entry.unit),
+                    f"{entry.governing or 'load'}, steady {steady}: {level.name}",
+                )
+            )
+    return items
+
+
+def _impact_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
+    known = [
+        (level.part("impact").value("design_tension"), level)
+        for level in levels
+        if math.isfinite(level.part("impact").value("design_tension"))
+    ]
+    if not known:
+        return []
+    tension, level = max(known, key=lambda entry: entry[0])
+    group = level.part("impact")
+    model = str(group.attributes.get("design_model", ""))
+    parts = [f"model {model}" if model else "", f"taut at {format_quantity(group.value('start_speed'), 'm/s')}"]
+    spread = group.value("spread")
+    if math.isfinite(spread):
+        parts.append(f"models spread by a factor of {format_number(spread)}")
+    words = ", ".join(part for part in parts if part)
+    return [KeyFigure("Snap, both cables", format_quantity(tension, "N"), f"{words}: {level.name}")]
+
+
+def _float_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
+    known = [level for level in levels if math.isfinite(level.given("float_reserve_ratio"))]
+    if not known:
+        return []
+    level = min(known, key=lambda entry: entry.given("float_reserve_ratio"))
+    ratio = level.given("float_reserve_ratio")
+    drowning = level.part("statics").value("drowning_speed")
+    words = f"drown at {format_quantity(drowning, 'm/s')}" if math.isfinite(drowning) else "no current drowns them"
+    judged = "bad" if ratio <= 0.0 else ""
+    return [
+        KeyFigure(
+            "Reserve of the floats",
+            format_percent(ratio),
+            f"of their buoyancy, {words}: {level.name}",
+            judgement=judged,  # type: ignore[arg-type]
+        )
+    ]
+
+
+def _components_table(levels: tuple[CurtainLevel, ...], worst: tuple[CurtainLevel, Component] | None) -> Table | None:
+    """Return the utilisation of every component at every water level."""
+    rows = [(level, entry) for level in levels for entry in components(level)]
+    if not rows:
+        return None
+    emphasised = tuple(
+        number
+        for number, (level, entry) in enumerate(rows)
+        if worst is not None and level.name == worst[0].name and entry.name == worst[1].name
+    )
+    return Table(
+        "governing-loads",
+        "Components at every water level",
+        (
+            Column("Water level", [level.name for level, _ in rows]),
+            Column("Component", [entry.name for _, entry in rows]),
+            Column("Governing load", [format_quantity(e.loads["governing"], e.unit) for _, e in rows]),
+            Column("Governed by", [entry.governing for _, entry in rows]),
+            Column("Capacity", [format_quantity(entry.capacity, entry.unit) for _, entry in rows]),
+            Column("Safety factor", [entry.safety_factor for _, entry in rows]),
+            Column("Utilisation", [entry.utilisation for _, entry in rows]),
+        ),
+        emphasised=emphasised,
+        failed=tuple(number for number, (_, entry) in enumerate(rows) if entry.utilisation > 1.0),
+        collapsed=len(rows) > 16,
+    )

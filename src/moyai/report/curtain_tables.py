@@ -1,0 +1,333 @@
+"""Tables of the report of a curtain at rest and in the impact."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from moyai.report.curtain_reading import CurtainLevel, components, governing_component, key, words
+from moyai.report.document import Cell, Column, Table
+from moyai.report.formatting import DASH, format_number, format_quantity
+from moyai.report.reading import Group
+
+# Name, words, unit of the statics that follow the drag coefficient
+_BY_DRAG = (
+    ("drag_coefficient", "drag coefficient C_D", ""),
+    ("blockage", "blockage", ""),
+    ("effective_depth", "effective depth", "m"),
+    ("flare", "flare", "m"),
+    ("toe_gap", "toe gap", "m"),
+    ("toe_speed", "mean speed under the toe", "m/s"),
+    ("toe_speed_ratio", "speed under the toe over the current", ""),
+    ("section_load", "load of the section", "N/m"),
+    ("top_load", "of it on the upper cable", "N/m"),
+    ("toe_hold", "of it on the toe", "N/m"),
+    ("top_pull", "downward pull on the floats", "N/m"),
+    ("sheet_tension", "skirt tension", "N/m"),
+    ("cable_tension", "tension of both cables", "N"),
+    ("upper_tension", "tension of the upper cable", "N"),
+    ("lower_tension", "tension of the lower cable", "N"),
+    ("sag", "sag of the plan", "m"),
+    ("strain", "strain of the cables", ""),
+    ("end_angle", "angle of the cable at the support", "rad"),
+    ("anchor_force", "force on an inner anchor", "N"),
+    ("end_anchor_force", "force on an end anchor", "N"),
+    ("anchor_line_tension", "tension of an anchor line", "N"),
+    ("float_reserve", "reserve of the floats", "N/m"),
+    ("float_reserve_ratio", "reserve over buoyancy", ""),
+)
+_SITE = (
+    ("span", "span B", "m"),
+    ("unstretched_length", "length of cables and skirt l", "m"),
+    ("span_ratio", "B/l", ""),
+    ("skirt_length", "skirt, from top to toe", "m"),
+    ("surface_speed", "current at the surface", "m/s"),
+    ("normal_speed", "mean current over the skirt, along the normal", "m/s"),
+    ("flow_angle", "angle of the current from the normal", "rad"),
+    ("froude_number", "Froude number", ""),
+    ("load_ratio", "load ratio qL/W", ""),
+    ("drowning_speed", "current that drowns the floats", "m/s"),
+    ("joint_spacing", "largest length of a unit for its joints", "m"),
+    ("anchor_spacing", "largest distance of anchors", "m"),
+    ("flooded_net_weight", "net weight when flooded", "N/m"),
+    ("air_to_surface", "air that brings it up again", "m3/m"),
+    ("holding_buoyancy", "buoyancy that holds it up", "N/m"),
+)
+_IMPACT = (
+    ("start_speed", "speed when taut", "m/s"),
+    ("draught", "draught of the plate", "m"),
+    ("added_mass", "added mass M0 in deep water", "kg/m"),
+    ("added_mass_in_depth", "added mass in this depth", "kg/m"),
+    ("taut_sag", "sag of the just-taut shape", "m"),
+    ("shape_number", "shape number b", ""),
+    ("cable_stiffness", "EA of both cables", "N"),
+    ("tension_coefficient", "C_T", ""),
+    ("cauchy_number", "elastic number C_E", ""),
+    ("froude_number", "Froude number", ""),
+    ("rise_ratio", "rise time over sqrt(d/g)", ""),
+    ("relative_step", "omega dt of the marching", ""),
+    ("time_step", "time step", "s"),
+    ("plateau_tension", "plateau by drag", "N"),
+    ("spread", "largest over smallest of the models that count", ""),
+    ("design_tension", "tension taken for design", "N"),
+)
+_PAPER = (
+    ("paper_shape_number", "shape number b (6)", ""),
+    ("paper_cable_tension_inextensible", "cable tension, inextensible (6)", "N"),
+    ("paper_cable_tension", "cable tension with stretch (4)", "N"),
+    ("paper_sag", "sag (5)", "m"),
+    ("paper_skirt_tension", "skirt tension (2)", "N/m"),
+    ("paper_edge_load", "load on each cable (3)", "N/m"),
+    ("paper_skirt_radius", "radius of the skirt", "m"),
+    ("paper_skirt_sagitta", "sagitta of the skirt", "m"),
+    ("chord", "chord of the skirt", "m"),
+)
+_FORMULAS = {
+    "us_navy": "US Navy, 26 A V²",
+    "itopf": "ITOPF, 100 A V²",
+    "tow_trials": "tow trials, K A V²",
+    "tow_trial": "tow trials, K A V²",
+}
+
+
+def load_tables(level: CurtainLevel) -> list[Table]:
+    """Return the loads of each component split into steady, wave, impact, governing; one table."""
+    found = components(level)
+    if not found:
+        return []
+    return [
+        Table(
+            key(level, "loads"),
+            "Loads of each component",
+            (
+                Column("Component", [entry.name for entry in found]),
+                Column("Steady", _loads(level, "steady")),
+                Column("Added by waves", _loads(level, "wave")),
+                Column("Added by the impact", _loads(level, "impact")),
+                Column("Governing", _loads(level, "governing")),
+                Column("Governed by", [entry.governing for entry in found]),
+                Column("Capacity", [format_quantity(entry.capacity, entry.unit) for entry in found]),
+                Column("Safety factor", [entry.safety_factor for entry in found]),
+                Column("Utilisation", [entry.utilisation for entry in found]),
+            ),
+            note="Governing: the steady load with the larger of what waves or impact add. Utilisation: governing load "
+            "times safety factor over capacity; a dash where the case gives no strength.",
+            emphasised=_worst(level),
+            failed=tuple(row for row, entry in enumerate(found) if entry.utilisation > 1.0),
+        ),
+        Table(
+            key(level, "load-sources"),
+            "Where the loads come from",
+            (
+                Column("Component", [entry.name for entry in found]),
+                Column("Waves", [entry.sources[0] or DASH for entry in found]),
+                Column("Impact", [entry.sources[1] or DASH for entry in found]),
+            ),
+            collapsed=True,
+        ),
+    ]
+
+
+def _loads(level: CurtainLevel, part: str) -> list[Cell]:
+    """Return a load of each component as text, since skirt and floats carry it per metre."""
+    return [format_quantity(entry.loads[part], entry.unit) for entry in components(level)]
+
+
+def _worst(level: CurtainLevel) -> tuple[int, ...]:
+    worst = governing_component((level,))
+    names = [entry.name for entry in components(level)]
+    return () if worst is None else (names.index(worst[1].name),)
+
+
+def _numbers(
+    level: CurtainLevel, group: Group, name: str, title: str, rows: tuple[tuple[str, str, str], ...]
+) -> Table | None:
+    """Return single numbers of a group as rows of a table."""
+    known = [
+        (label, group.value(variable), unit) for variable, label, unit in rows if group.variable(variable) is not None
+    ]
+    if not known:
+        return None
+    return Table(
+        key(level, name),
+        title,
+        (
+            Column("Quantity", [label for label, _, _ in known]),
+            Column("Value", [_text(value, unit) for _, value, unit in known]),
+        ),
+    )
+
+
+def _text(value: float, unit: str) -> str:
+    if math.isinf(value):
+        return "not reached"
+    return format_quantity(value, unit, 4) if unit else format_number(value, 4)
+
+
+def site_table(level: CurtainLevel) -> Table | None:
+    """Return what follows from the case before any load is taken."""
+    return _numbers(level, level.part("statics"), "site", "The curtain and its site", _SITE)
+
+
+def statics_table(level: CurtainLevel) -> Table | None:
+    """Return the statics at the drag coefficient as given and at the ends of its range."""
+    group = level.part("statics")
+    cases = group.labels("drag_case")
+    rows = [
+        (label, unit, values)
+        for name, label, unit in _BY_DRAG
+        if (values := group.real(name, "drag_case")) is not None and np.isfinite(values).any()
+    ]
+    if not rows or not cases:
+        return None
+    heads = {"low": "Low drag", "given": "As given", "high": "High drag"}
+    return Table(
+        key(level, "statics"),
+        "At rest in the current",
+        (
+            Column("Quantity", [label for label, _, _ in rows]),
+            *(
+                Column(heads.get(case, case), [_text(float(values[n]), unit) for _, unit, values in rows])
+                for n, case in enumerate(cases)
+            ),
+        ),
+        note="Low and high: ends of the range of the drag coefficient.",
+    )
+
+
+def law_tables(level: CurtainLevel) -> list[Table]:
+    """Return the load laws side by side, of the section and of the plan."""
+    group = level.part("statics_laws")
+    specified = (
+        (
+            "section_law",
+            "Load laws of the section",
+            (
+                ("law_effective_depth", "Effective depth", "m"),
+                ("law_flare", "Flare", "m"),
+                ("law_top_tension", "Tension at the top", "N/m"),
+                ("law_horizontal_load", "Horizontal load", "N/m"),
+                ("law_top_angle", "Angle at the top", "rad"),
+            ),
+        ),
+        (
+            "plan_law",
+            "Load laws of the plan",
+            (
+                ("law_plan_tension", "Tension of both cables", "N"),
+                ("law_sag", "Sag", "m"),
+                ("law_downstream_end_force", "End force downstream", "N"),
+                ("law_inward_end_force", "End force inwards", "N"),
+            ),
+        ),
+    )
+    tables = []
+    for dim, title, columns in specified:
+        names = group.labels(dim)
+        found = [
+            Column(label, [float(value) for value in values], unit)
+            for name, label, unit in columns
+            if (values := group.real(name, dim)) is not None
+        ]
+        if names and found:
+            tables.append(Table(key(level, dim), title, (Column("Law", list(names)), *found)))
+    return tables
+
+
+def paper_table(level: CurtainLevel) -> Table | None:
+    """Return equations (2) to (6) of the impact paper on this curtain."""
+    return _numbers(
+        level, level.part("statics_paper"), "paper-statics", "Equations (2) to (6) of the impact paper", _PAPER
+    )
+
+
+def planning_table(level: CurtainLevel) -> Table | None:
+    """Return the planning formulas of booms and curtains beside the computed load."""
+    group = level.part("statics")
+    names, loads = group.labels("planning_formula"), group.real("planning_load", "planning_formula")
+    if not names or loads is None:
+        return None
+    drag = group.real("planning_drag_coefficient", "planning_formula")
+    confirmed = group.real("planning_confirmed", "planning_formula")
+    columns = [
+        Column("Formula", [_FORMULAS.get(name, name.replace("_", " ")) for name in names]),
+        Column("Load of the span", [float(load) for load in loads], "N"),
+    ]
+    if drag is not None:
+        columns.append(Column("As drag coefficient", [float(value) for value in drag]))
+    if confirmed is not None:
+        columns.append(Column("Source seen", ["yes" if value > 0.0 else "no" for value in confirmed]))
+    return Table(
+        key(level, "planning"), "Planning formulas", tuple(columns), note="For comparison; none of them judges here."
+    )
+
+
+def impact_tables(level: CurtainLevel) -> list[Table]:
+    """Return all impact models in one table, and the numbers that they rest on."""
+    group = level.part("impact")
+    names, tension = group.labels("impact_model"), group.real("impact_tension", "impact_model")
+    if not names or tension is None:
+        return []
+
+    def column(name: str) -> list[Cell]:
+        values = group.real(name, "impact_model")
+        return [math.nan] * len(names) if values is None else [float(value) for value in values]
+
+    counts = group.real("counts", "impact_model")
+    design = str(group.attributes.get("design_model", ""))
+    spread = group.value("spread")
+    note = "Sum of both cables, above the drag. "
+    if math.isfinite(spread):
+        note += f"The largest of the models that count is {format_number(spread)} times the smallest."
+    columns = [
+        Column("Model", list(names)),
+        Column("Tension", [float(value) for value in tension], "N"),
+        Column("Over model A", column("impact_ratio")),
+        Column("Upper cable", column("impact_upper_tension"), "N"),
+        Column("Lower cable", column("impact_lower_tension"), "N"),
+        Column("Skirt", column("impact_skirt_tension"), "N/m"),
+        Column("Taut to peak", column("impact_time"), "s"),
+        Column("Assumption", words(group, "assumption", "impact_model", len(names))),
+    ]
+    if counts is not None:
+        columns.insert(1, Column("Counts", ["yes" if value > 0.0 else "no" for value in counts]))
+    tables = [
+        Table(
+            key(level, "impact-models-table"),
+            "Impact models",
+            tuple(columns),
+            note=note,
+            emphasised=tuple(row for row, name in enumerate(names) if name == design),
+        )
+    ]
+    numbers = _numbers(level, group, "impact-numbers", "What the impact rests on", _IMPACT)
+    source = str(group.attributes.get("start_speed_source", ""))
+    if numbers is not None:
+        said = [f"Start speed: {source}." if source else "", f"Design: model {design}." if design else ""]
+        tables.append(Table(numbers.key, numbers.title, numbers.columns, note=" ".join(filter(None, said))))
+    return tables
+
+
+def record_table(root: Group) -> Table | None:
+    """Return the readings of a flume record per cable and summed."""
+    group = root.child("record")
+    names = group.labels("cable")
+    rows = (
+        ("release_time", "Release", "s"),
+        ("taut_time", "Taut", "s"),
+        ("peak_time", "Peak", "s"),
+        ("plateau_start", "Plateau from", "s"),
+        ("rise_time", "Rise time", "s"),
+        ("peak_tension", "Peak", "N"),
+        ("plateau_tension", "Plateau", "N"),
+        ("impact_tension", "Impact", "N"),
+    )
+    columns = [
+        Column(label, [float(value) for value in values], unit)
+        for name, label, unit in rows
+        if (values := group.real(name, "cable")) is not None
+    ]
+    if not names or not columns:
+        return None
+    return Table("flume-readings", "Readings of the flume record", (Column("Cable", list(names)), *columns))
