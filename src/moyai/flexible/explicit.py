@@ -23,9 +23,9 @@ Array = NDArray[np.float64]
 #: Part of the stable step that is used unless told otherwise.
 SAFETY = 0.95
 #: Steps between two evaluations of the loads, at most.
-LOAD_STEPS = 8
+LOAD_STEPS = 12
 #: Bound of the load interval times the fastest rate of drag.
-DRAG_SHARE = 0.2
+DRAG_SHARE = 0.1
 
 
 def driving_tables(network: Network, motions: Mapping[str, Motion]) -> tuple[Any, Any, Any, float, float]:
@@ -93,8 +93,11 @@ class ExplicitRun:
     def _near_surface(self) -> bool:
         """Whether any bar may cross the surface before the next chunk."""
         top = float(self.place[2].max()) + float(self.arrays.bar("radius").max(initial=0.0))
-        reach = 1.0 + (2.0 * float(np.sum(self.flow.waves.amplitude)) if self.flow.waves is not None else 0.0)
-        return top > float(np.min(self.water[6])) - reach
+        return top > float(np.min(self.water[6])) - self._reach()
+
+    def _reach(self) -> float:
+        """Distance over which a node and the surface may approach each other within a chunk [m]."""
+        return 1.0 + (2.0 * float(np.sum(self.flow.waves.amplitude)) if self.flow.waves is not None else 0.0)
 
     def first_row(self, saved: Any) -> None:
         """Write the row of the start."""
@@ -111,20 +114,25 @@ class ExplicitRun:
         energy[0, 2] = 0.0
 
     def limit(self) -> tuple[float, int]:
-        """Return the largest stable step now and the node that sets it."""
-        return step_limit(self.arrays, self.place, self.packed.node_rows(kernel.IXX, 6))
+        """Return the largest stable step now and the node that sets it; what may fall dry counts without added mass."""
+        inverse = self.packed.node_rows(kernel.IXX, 6).copy()
+        dry = self.place[2] > float(np.min(self.water[6])) - self._reach()
+        inverse[:, dry] = 0.0
+        for row, name in ((0, "free_x"), (3, "free_y"), (5, "free_z")):
+            inverse[row, dry] = (self.arrays.node(name) / self.arrays.node("mass"))[dry]
+        return step_limit(self.arrays, self.place, inverse)
 
     def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
         """Return step, steps per load interval and load intervals per row that fill ``row_interval``."""
         largest = self.safety * self.limit()[0] if wanted is None else wanted
         least = max(1, math.ceil(row_interval / largest * (1.0 - 1e-12)))
-        per_load = min(self.load_steps, least)
+        most = min(self.load_steps, least)
         drag = float(self.packed.bar_row(kernel.RATE).max(initial=0.0))
-        while per_load > 1 and per_load * row_interval / least * drag > DRAG_SHARE:
-            per_load -= 1
-        # the number of load intervals that wastes least of the step
-        per_row = math.ceil(least / per_load)
-        per_load = math.ceil(least / per_row)
+        while most > 1 and most * row_interval / least * drag > DRAG_SHARE:
+            most -= 1
+        # the cheapest way to fill the row: the loads cost about as much as two steps
+        choices = [(math.ceil(least / n), n) for n in range(max(1, most // 2), most + 1)]
+        per_row, per_load = min(choices, key=lambda choice: choice[0] * (choice[1] + 2.0))
         return row_interval / (per_row * per_load), per_load, per_row
 
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
@@ -144,7 +152,7 @@ class ExplicitRun:
         good = kernel.march(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([self.network.water.density, self.network.water.gravity]),
-            (not self.flow.steady, self._near_surface(), np.ascontiguousarray(self._padded(self.water)), self._padded(rate), self.time),
+            (not self.flow.steady, self._near_surface(), self.water, rate, self.time),
             self.driving,
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first),
@@ -154,9 +162,6 @@ class ExplicitRun:
         if not self.flow.steady:
             self.water = self.flow.at(end, self.place)
         return int(good)
-
-    def _padded(self, values: Array) -> Array:
-        return np.pad(values, ((0, 0), (0, int(self.packed.sizes[0]) - values.shape[1])))
 
     def state(self) -> State:
         """Return the state at the present time (the forces of the last row give the half step)."""

@@ -23,7 +23,7 @@ FAST: Any = {"contract", "arcp", "nsz", "reassoc"}
 #: Keeps the direction of bars without stiffness finite where their nodes coincide.
 TINY = 1e-200
 #: Distance of rows; networks of up to about this many nodes fit. Memory that is not touched costs nothing.
-ROW = 131072 + 24
+ROW = 65536 + 24
 #: Rows by name. Nodes: position, velocity, force in use, new load, load before, inverse mass, mass block.
 X, Y, Z, U, V, W = 0 * ROW, 1 * ROW, 2 * ROW, 3 * ROW, 4 * ROW, 5 * ROW
 PX, PY, PZ, QX, QY, QZ = 6 * ROW, 7 * ROW, 8 * ROW, 9 * ROW, 10 * ROW, 11 * ROW
@@ -60,8 +60,6 @@ def spine_forces(A: Any, count: int) -> None:
         pull = elastic + A[VISCOUS + i] * along * inverse
         limit = A[LIMIT + i]
         pull = pull if pull > limit else limit
-        # a slack bar pulls at nothing, whatever its rate
-        pull = pull if elastic > limit else limit
         A[PULL + i] = pull
         A[PEAK + i] = pull if pull > A[PEAK + i] else A[PEAK + i]
         per = pull * inverse
@@ -86,7 +84,6 @@ def rib_forces(A: Any, runs: Any, curves: Any) -> None:
                 pull = elastic + A[VISCOUS + k] * along * inverse
                 limit = A[LIMIT + k]
                 pull = pull if pull > limit else limit
-                pull = pull if elastic > limit else limit
                 A[PULL + k] = pull
                 A[PEAK + k] = pull if pull > A[PEAK + k] else A[PEAK + k]
                 per = pull * inverse
@@ -115,7 +112,7 @@ def _curved(A: Any, a: int, b: int, k: int, curve: Any) -> None:
         j += 1
     elastic = curve[1, j] + curve[2, j] * (strain - curve[0, j])
     rate = (dx * (A[U + b] - A[U + a]) + dy * (A[V + b] - A[V + a]) + dz * (A[W + b] - A[W + a])) / size
-    pull = max(elastic + A[VISCOUS + k] * rate, A[LIMIT + k]) if elastic > A[LIMIT + k] else A[LIMIT + k]
+    pull = max(elastic + A[VISCOUS + k] * rate, A[LIMIT + k])
     A[PULL + k] = pull
     A[PEAK + k] = max(A[PEAK + k], pull)
     A[FX + k], A[FY + k], A[FZ + k] = pull / size * dx, pull / size * dy, pull / size * dz
@@ -490,7 +487,7 @@ def march(
             now = start + index * step
             if moving:
                 for r in range(7):
-                    for i in range(count):
+                    for i in range(water.shape[1]):
                         A[WU + r * ROW + i] = water[r, i] + (now - water_time) * water_rate[r, i]
             turning = kinetic_energy(A, count)
             loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,6 +62,15 @@ def _runs(start: IntArray, end: IntArray, curve: IntArray) -> IntArray:
     return np.ascontiguousarray(np.stack([start[first], end[first], first, size, curve[first]], axis=1))
 
 
+def _untouched(size: int) -> Array:
+    """Return zeros of which the system provides only the small pages that are used."""
+    if hasattr(mmap, "MADV_NOHUGEPAGE"):
+        block = mmap.mmap(-1, 8 * size)
+        block.madvise(mmap.MADV_NOHUGEPAGE)
+        return np.frombuffer(block, dtype=np.float64)
+    return np.zeros(size)
+
+
 def pack(arrays: KernelArrays) -> Packed:
     """Place a network.
 
@@ -72,7 +82,7 @@ def pack(arrays: KernelArrays) -> Packed:
     count, bars = arrays.nodes.shape[1], arrays.start.size
     if max(count, bars) + 2 * _LANES > kernel.ROW:
         raise InputError(f"{max(count, bars)} nodes or bars", path="network", allowed=f"up to {kernel.ROW - 2 * _LANES} in the explicit scheme")
-    memory = np.zeros(kernel.TOTAL_ROWS * kernel.ROW)
+    memory = _untouched(kernel.TOTAL_ROWS * kernel.ROW)
     # a bar between neighbours goes on the spine, the first one for each pair; its direction may be reversed
     low = np.minimum(arrays.start, arrays.end)
     neighbours = (np.abs(arrays.end - arrays.start) == 1) & (arrays.curve < 0)

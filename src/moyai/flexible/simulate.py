@@ -124,7 +124,7 @@ def simulate(
         np.full((rows + 1, bars.size), np.nan), np.full((rows + 1, 3), np.nan), nodes, bars,
     )  # fmt: skip
     run.first_row(saved)
-    per_chunk = max(1, rows // 40)
+    per_chunk = max(1, rows // 20)
     if not flow.steady:
         per_chunk = max(1, min(per_chunk, int(flow.update_interval / interval + 1e-9)))
     done, status, message, steps, smallest = 0, "converged", "", 0, math.inf
