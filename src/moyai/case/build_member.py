@@ -76,15 +76,7 @@ def build_problem(model: schema.MemberCase, folder: Path, *, case_text: str = ""
 def member_of(unit: schema.MemberStructure) -> StraightMember:
     """Return the member with z above datum."""
     ends = [(end.x, end.y, end.z) for end in (unit.start, unit.end)]
-    try:
-        section = _section(unit.section)
-    except InputError as error:
-        fault = error.fault
-        key = fault.path.split(".")[-1]
-        inner = f".{key}" if key in type(unit.section).model_fields else ""
-        raise InputError(
-            fault.message, path=f"structure.section{inner}", allowed=fault.allowed, remedy=fault.remedy
-        ) from None
+    section = member_section(unit.section, "structure.section")
     try:
         return StraightMember(ends[0], ends[1], section, math.radians(unit.section_angle_deg))
     except InputError as error:
@@ -92,6 +84,23 @@ def member_of(unit: schema.MemberStructure) -> StraightMember:
         raise InputError(
             fault.message, path=f"structure.{fault.path}", allowed=fault.allowed, remedy=fault.remedy
         ) from None
+
+
+def member_section(entry: Any, path: str) -> sections.MemberSection:
+    """Return the section of an entry at ``path``.
+
+    Raises
+    ------
+    InputError
+        For sides that do not fit together or an outline that meets itself, at the key of the entry.
+    """
+    try:
+        return _section(entry)
+    except InputError as error:
+        fault = error.fault
+        key = fault.path.split(".")[-1]
+        inner = f".{key}" if key in type(entry).model_fields else ""
+        raise InputError(fault.message, path=f"{path}{inner}", allowed=fault.allowed, remedy=fault.remedy) from None
 
 
 def _section(entry: Any) -> sections.MemberSection:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import typer
 
+from moyai.cli.measuring_forces import forces
+
 measure = typer.Typer(
     name="measure",
     no_args_is_help=True,
     rich_markup_mode=None,
     help="Turn records and pictures into statistics and coefficients.",
 )
+measure.command()(forces)

@@ -154,8 +154,8 @@ class Coefficient:
         if not self.known:
             bound = abs(self.value) + self.uncertainty
             return f"not determined (size below about {bound:.1g})"
-        # two digits of the uncertainty, nine places at most
-        place = 1 - math.floor(math.log10(max(self.uncertainty, 1e-15 * abs(self.value))))
+        # up to the first digit of the uncertainty, nine places at most
+        place = -math.floor(math.log10(max(self.uncertainty, 1e-15 * abs(self.value))))
         if place > 9:
             return f"{self.value:.9f} +- {self.uncertainty:.0e}"
         place = max(place, 0)

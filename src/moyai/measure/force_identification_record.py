@@ -147,7 +147,7 @@ def _refuse_clipped(values: Array, name: str) -> None:
         edges = np.flatnonzero(np.diff(np.concatenate([[0], flat.astype(int), [0]])))
         runs = edges[1::2] - edges[::2]
         longest = int(runs.max())
-        amplitude = max(abs(sign * extreme - float(values.mean())), quantum)
+        amplitude = float(np.maximum(abs(sign * extreme - float(values.mean())), quantum))
         # how long a sine stays within one step of the gauge at its crest
         natural = period / math.pi * math.acos(1.0 - min(quantum / amplitude, 1.0))
         if longest >= _LEAST_PLATEAU and longest > 2.0 * natural + 2.0:

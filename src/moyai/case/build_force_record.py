@@ -1,0 +1,98 @@
+"""From a record and its configuration to :mod:`moyai.measure.force_identification`."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from moyai.case.build_member import member_section
+from moyai.case.measured import read_points
+from moyai.case.reader import read_block
+from moyai.case.schema_force_record import ForceRecordFile
+from moyai.case.yaml_reader import Document, read_yaml
+from moyai.core.errors import CaseError, InputError
+from moyai.measure.force_identification import ForceRecord, Setup
+
+
+def load_force_record(path: Path) -> tuple[Document, ForceRecordFile]:
+    """Read the configuration of a force record.
+
+    Raises
+    ------
+    CaseError
+        With every fault at once, each with line and column.
+    """
+    document = read_yaml(path)
+    model: ForceRecordFile = read_block(document, ForceRecordFile)
+    return document, model
+
+
+def setup_of(model: ForceRecordFile, document: Document) -> Setup:
+    """Return the set-up of a configuration.
+
+    Raises
+    ------
+    CaseError
+        With the place of what does not fit together.
+    """
+    section = member_section(model.section, "section")
+    components = len(model.columns.force)
+    order = [("first", "second").index(axis) for axis in model.axes][:components]
+    if len(order) < components:
+        fault = document.fault(("axes",), f"{len(order)} axes for {components} force columns", remedy="name one each")
+        raise CaseError([fault])
+    tensor = section.inertia.tensor
+    try:
+        return Setup(
+            density=model.density,
+            area=section.area,
+            widths=tuple(section.drag_widths[axis] for axis in order),
+            period=model.period,
+            regular=model.regular,
+            form=model.drag_form,
+            methods=model.methods,
+            harmonics=model.harmonics,
+            phase_error=math.radians(model.phase_error_deg),
+            confidence=model.confidence,
+            bootstrap=model.bootstrap,
+            seed=model.seed,
+            ideal_inertia=tuple(float(tensor[axis, axis]) for axis in order),
+        )
+    except InputError as error:
+        fault = error.fault
+        raise CaseError([document.fault((fault.path,), fault.message, remedy=fault.remedy)]) from None
+
+
+def record_of(path: Path, model: ForceRecordFile) -> ForceRecord:
+    """Read the record.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read or the record is unusable; the message names column and sample.
+    """
+    names = model.columns
+    groups = {"force": names.force, "velocity": names.velocity, "acceleration": names.acceleration or ()}
+    for key, columns in groups.items():
+        if columns and len(columns) != len(names.force):
+            raise InputError(
+                f"{len(columns)} columns of {key} for {len(names.force)} of force",
+                path=f"columns.{key}",
+                allowed="equal",
+            )
+    wanted = {names.time: "time"}
+    for key, columns in groups.items():
+        for number, column in enumerate(columns):
+            if column in wanted:
+                raise InputError(f"the column '{column}' is named twice", path=f"columns.{key}")
+            wanted[column] = f"{key}_{number}"
+    table = read_points(path, wanted, "record")
+
+    def gathered(key: str) -> np.ndarray:
+        return np.column_stack([table[f"{key}_{number}"] for number in range(len(names.force))])
+
+    force = gathered("force") / (model.length or 1.0)
+    rate = gathered("acceleration") if names.acceleration else None
+    return ForceRecord(np.asarray(table["time"]), force, gathered("velocity"), rate)

@@ -1,0 +1,288 @@
+"""Figures of a submerged member: C_M and circulation over KC, forces over time, coefficients and forces along it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.report.decimate import envelope_indices
+from moyai.report.document import Abscissa, Column, Figure, Mark, Panel, Series, Table
+from moyai.report.encoding import slug
+from moyai.report.reading import Group, common_scale
+
+Array = NDArray[np.float64]
+
+AXES = ("first", "second")
+COMPONENTS = ("x", "y", "z")
+CURVES = (
+    ("inertia_coefficient", "this case", "solid", 0),
+    ("arai_inertia_coefficient", "Arai et al., γ = 0.936", "dash", 1),
+    ("otsuka_inertia_coefficient", "Otsuka and Ikeda, γ = 1", "dot", 2),
+    ("chaplin_inertia_coefficient", "Chaplin, γ = 1.036", "dashdot", 3),
+    ("planar_inertia_coefficient", "planar flow", "solid", 4),
+    ("laminar_inertia_coefficient", "laminar ceiling, γ = 3", "dot", 5),
+)
+POINTS_OF_A_CURVE = 3000
+WINDOW_PERIODS = 20.0
+
+
+def over_keulegan_carpenter(level: Group) -> tuple[Figure, ...]:
+    """Return C_M of both axes and the circulation over KC, with the published curves and the waves of the case."""
+    group = level.child("sweep")
+    number = group.real("keulegan_carpenter", "keulegan_carpenter")
+    if number is None:
+        return ()
+    along = (Abscissa("kc", "Keulegan-Carpenter number KC"),)
+    figures = []
+    series: list[Series] = []
+    for panel, axis in enumerate(AXES):
+        for name, label, dash, tone in CURVES:
+            values = group.real(name, "keulegan_carpenter", axis=axis)
+            if values is None:
+                continue
+            # curves far below the axis say nothing
+            shown = np.where(values > -0.25, values, np.nan)
+            series.append(
+                Series(label, {"kc": number}, shown, panel, tone, dash=dash, faint=name.startswith("laminar"))  # type: ignore[arg-type]
+            )
+        series.extend(_points(level, "effective_inertia_coefficient", panel, axis))
+    figures.append(
+        Figure(
+            slug(level.name, "inertia-over-kc"),
+            "Inertia coefficient over KC",
+            along,
+            tuple(Panel(f"C_M, {axis} axis", from_zero=True) for axis in AXES),
+            tuple(series),
+            "Curves: circular orbit at the frequency of the first sea. Points: waves of this case at the strip of the "
+            "largest KC, as the forces were computed. Beyond KC = 2 the law was not measured.",
+            (Mark("end of the law", x=2.0),),
+            height=560,
+        )
+    )
+    names = (
+        ("circulation", "this case", 0),
+        ("arai_circulation", "Arai et al.", 1),
+        ("otsuka_circulation", "Otsuka", 2),
+    )
+    names += (("chaplin_circulation", "Chaplin", 3), ("laminar_circulation", "laminar edge, 3 V²T", 5))
+    curves = []
+    for name, label, tone in names:
+        values = group.real(name, "keulegan_carpenter")
+        if values is not None:
+            curves.append(Series(label, {"kc": number}, values, 0, tone, dash="solid" if tone == 0 else "dash"))
+    curves.extend(_points(level, "settled_circulation", 0, ""))
+    figures.append(
+        Figure(
+            slug(level.name, "circulation-over-kc"),
+            "Circulation over KC",
+            along,
+            (Panel("circulation Γ", "m2/s"),),
+            tuple(curves),
+            "Circulation in the sense of the orbit. Points: what the law gives for the waves of this case, whether it "
+            "is counted or not.",
+            (Mark("end of the law", x=2.0),),
+        )
+    )
+    return tuple(figures)
+
+
+def _points(level: Group, name: str, panel: int, axis: str) -> list[Series]:
+    found = []
+    for tone, sea in enumerate(level.child("waves").children()):
+        number = sea.real("keulegan_carpenter", "wave")
+        values = sea.real(name, "wave", axis=axis) if axis else sea.real(name, "wave")
+        if number is None or values is None:
+            continue
+        keep = number <= 4.0
+        if keep.any():
+            found.append(Series(sea.name, {"kc": number[keep]}, values[keep], panel, 6 + tone % 2, style="points"))
+    return found
+
+
+def force_over_time(level: Group, sea: Group, run: Group) -> Figure | None:
+    """Return forces by direction and cause, circulation and surface over time."""
+    time = run.real("time", "time")
+    force = run.array("force", "time", "component")
+    if time is None or force is None:
+        return None
+    causes = [(name, run.array(f"{name}_force", "time", "component")) for name in ("inertia", "drag", "magnus")]
+    factor, unit = common_scale("N", force)
+    largest = float(np.abs(force).max())
+    used = [k for k in range(3) if float(np.abs(force[:, k]).max()) > 1e-6 * largest] or [0]
+    panels = [Panel(f"force along {COMPONENTS[k]}", unit) for k in used]
+    series = []
+    for panel, k in enumerate(used):
+        for tone, (label, values) in enumerate([("total", force), *causes]):
+            if values is None or not np.abs(values[:, k]).max() > 1e-9 * largest:
+                continue
+            curve = values[:, k] * factor
+            keep = _kept(curve)
+            series.append(Series(label, {"time": time[keep]}, curve[keep], panel, tone, faint=tone > 0))
+    for name, words, unit_of in (("surface_elevation", "surface", "m"), ("circulation", "circulation", "m2/s")):
+        values = run.real(name, "time")
+        if values is not None and np.abs(values).max() > 0.0:
+            keep = _kept(values)
+            series.append(Series(words, {"time": time[keep]}, values[keep], len(panels), 7))
+            panels.append(Panel(words, unit_of))
+    period = float(run.attributes.get("period", 0.0) or 0.0)
+    peak = float(time[int(np.argmax(np.linalg.norm(force, axis=1)))])
+    window = None
+    if period > 0.0 and time[-1] - time[0] > 1.5 * WINDOW_PERIODS * period:
+        half = 0.5 * WINDOW_PERIODS * period
+        middle = min(max(peak, time[0] + half), time[-1] - half)
+        window = (middle - half, middle + half)
+    return Figure(
+        slug(level.name, sea.name, run.name, "force"),
+        f"Force on the member: {run.attributes.get('wave', run.name)}",
+        (Abscissa("time", "time", "s"),),
+        tuple(panels),
+        tuple(series),
+        "Whole member by direction; inertia, drag and Magnus force beside their sum.",
+        window=window,
+        slider=window is not None,
+        height=140 + 150 * len(panels),
+    )
+
+
+def _kept(values: Array) -> NDArray[np.int64]:
+    if values.size <= POINTS_OF_A_CURVE:
+        return np.arange(values.size)
+    return np.asarray(envelope_indices(values, POINTS_OF_A_CURVE // 2))
+
+
+def along_member(level: Group, sea: Group) -> Figure | None:
+    """Return the largest force per length and KC along the member."""
+    place = sea.real("strip", "strip")
+    force = sea.array("maximum_strip_force", "wave", "strip", "axis")
+    number = sea.real("strip_keulegan_carpenter", "wave", "strip")
+    wet = sea.real("wet_share", "wave", "strip")
+    if place is None or force is None or number is None or place.size < 2:
+        return None
+    factor, unit = common_scale("N/m", force)
+    waves = sea.labels("wave")
+    chosen = list(range(len(waves))) if len(waves) <= 4 else [0, len(waves) // 2, len(waves) - 1]
+    series = []
+    for tone, wave in enumerate(chosen):
+        for panel in range(2):
+            series.append(Series(waves[wave], {"s": place}, force[wave, :, panel] * factor, panel, tone))
+        series.append(Series(waves[wave], {"s": place}, number[wave], 2, tone))
+        if wet is not None and wet.min() < 1.0:
+            series.append(Series(waves[wave], {"s": place}, wet[wave], 3, tone))
+    panels = [Panel(f"largest force, {axis} axis", unit, from_zero=True) for axis in AXES] + [
+        Panel("KC", from_zero=True)
+    ]
+    if wet is not None and wet.min() < 1.0:
+        panels.append(Panel("wetted share", from_zero=True))
+    return Figure(
+        slug(level.name, sea.name, "along"),
+        f"Along the member: {sea.name}",
+        (Abscissa("s", "distance from the start of the member", "m"),),
+        tuple(panels),
+        tuple(series),
+        "Largest force per length over time, exposure to the surface included.",
+        height=140 + 150 * len(panels),
+    )
+
+
+def coefficient_table(level: Group, sea: Group) -> Table | None:
+    """Return coefficients and forces of every wave."""
+    waves = sea.labels("wave")
+    if not waves:
+        return None
+
+    def column(label: str, name: str, unit: str = "", **choice: str) -> Column | None:
+        values = sea.real(name, "wave", **choice)
+        return None if values is None else Column(label, [float(value) for value in values], unit)
+
+    wanted = [
+        Column("Wave", list(waves)),
+        column("H", "wave_height", "m"),
+        column("T", "period", "s"),
+        column("KC", "keulegan_carpenter"),
+        column("Re", "reynolds"),
+        column("β", "beta"),
+        *(column(f"C_M, {axis}", "inertia_coefficient", axis=axis) for axis in AXES),
+        *(column(f"C_M with Γ, {axis}", "effective_inertia_coefficient", axis=axis) for axis in AXES),
+        *(column(f"C_D, {axis}", "drag_coefficient", axis=axis) for axis in AXES),
+        column("Γ counted", "circulation", "m2/s"),
+        column("Γ by the law", "settled_circulation", "m2/s"),
+        *(column(f"largest F_{name}", "maximum_force", "N", component=name) for name in COMPONENTS),
+        column("largest force", "maximum_total_force", "N"),
+        *(column(f"largest end force, {end}", "maximum_end_force", "N", end=end) for end in ("start", "end")),
+    ]
+    return Table(
+        slug(level.name, sea.name, "coefficients"),
+        f"Coefficients and forces: {sea.name}",
+        tuple(item for item in wanted if item is not None),
+        note="Coefficients at the strip of the largest KC; forces on the whole member.",
+    )
+
+
+def surface_table(level: Group) -> Table | None:
+    """Return what the free surface changes."""
+    rows = []
+    for sea in level.child("surface").children():
+        period = sea.real("period", "period")
+        for axis in AXES:
+            inertia = sea.real("near_surface_inertia_coefficient", "period", axis=axis)
+            change = sea.real("near_surface_change", "period", axis=axis)
+            radiation = sea.real("radiation_ratio", "period", axis=axis)
+            if period is None or inertia is None or change is None or radiation is None:
+                continue
+            for n in range(period.size):
+                rows.append((sea.name, axis, period[n], inertia[n], 100.0 * change[n], 100.0 * radiation[n]))
+    if not rows:
+        return None
+    titles = ("Sea", "Axis", "T [s]", "C_M under the surface", "change [%]", "wave damping over ωρA [%]")
+    return Table(
+        slug(level.name, "surface"),
+        "What the free surface changes",
+        tuple(Column(title, [row[k] for row in rows]) for k, title in enumerate(titles)),
+        note="Two-dimensional potential theory with surface and bed; above 2 % the coefficients of deep water are "
+        "warned about.",
+    )
+
+
+def section_figure(level: Group) -> Figure | None:
+    """Return the outline of the section."""
+    group = level.child("member")
+    x, z = group.real("outline_x", "outline_point"), group.real("outline_z", "outline_point")
+    if x is None or z is None:
+        return None
+    return Figure(
+        slug(level.name, "section"),
+        "Section",
+        (Abscissa("x", "first axis", "m"),),
+        (Panel("second axis", "m"),),
+        (Series("outline", {"x": x}, z),),
+        "First axis level, second axis upwards; scales of the axes differ.",
+        height=300,
+    )
+
+
+def member_table(level: Group) -> Table | None:
+    """Return geometry and ideal inertia coefficients."""
+    group = level.child("member")
+    tensor = group.array("ideal_inertia_coefficient", "axis", "other_axis")
+    if tensor is None:
+        return None
+    names = ("length", "inclination", "area", "width", "height")
+    labels = [group.long_name(name) for name in names]
+    values: list[float] = [group.value(name) for name in names]
+    units = [group.unit(name) for name in names]
+    from moyai.report.formatting import display_unit
+
+    shown = [display_unit(unit, value) for unit, value in zip(units, values)]
+    rows = [(label, value * unit.factor, unit.name) for label, value, unit in zip(labels, values, shown)]
+    for i, first in enumerate(AXES):
+        for j, second in enumerate(AXES[i:], i):
+            rows.append((f"ideal C_M, {first} axis by {second}", float(tensor[i, j]), ""))
+    rows.append(("estimated relative error of C_M", group.value("inertia_error"), ""))
+    return Table(
+        slug(level.name, "member"),
+        "Member",
+        tuple(
+            Column(title, [row[k] for row in rows], digits=5, uniform=False)
+            for k, title in enumerate(("Quantity", "Value", "Unit"))
+        ),
+    )

@@ -1,0 +1,148 @@
+"""Compose the report of a submerged member: governing forces first, then what they rest on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from moyai.core.results import Result
+from moyai.report import member_figures as figures
+from moyai.report.document import (
+    Block,
+    Choice,
+    Document,
+    KeyFigure,
+    KeyFigures,
+    Option,
+    Paragraph,
+    Section,
+)
+from moyai.report.formatting import format_number, format_quantity
+from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.reading import Group
+
+MOST_RUNS = 12
+
+
+def compose(result: Result) -> Document:
+    """Compose the report of a submerged member.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = Group("", result.tree)
+    levels = tuple(child for child in root.children() if "water_depth" in child.attributes)
+
+    def at_each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
+        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        return (Choice("water-level", "Water level", tuple(options)),)
+
+    purpose = str(root.attributes.get("purpose", ""))
+    sections = [
+        Section("summary", "Summary", (*_summary(result, levels, purpose), *notice_blocks(result))),
+        Section("input", "Input", (case_listing(root), *at_each_level(_input))),
+        Section("law", "Inertia and circulation over KC", at_each_level(figures.over_keulegan_carpenter)),
+        Section("seas", "Sea states", at_each_level(_seas)),
+        Section("surface", "Free surface", at_each_level(lambda level: [figures.surface_table(level)])),
+        Section("time", "Forces over time", at_each_level(_time)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _subtitle(levels: tuple[Group, ...]) -> str:
+    parts = ["Submerged member"]
+    if levels:
+        member = levels[0].child("member")
+        parts.append(str(member.attributes.get("section", "")))
+        sizes = [format_quantity(member.value(name), "m") for name in ("width", "height", "length")]
+        parts.append(" × ".join(sizes))
+    return ", ".join(part for part in parts if part)
+
+
+def _summary(result: Result, levels: tuple[Group, ...], purpose: str) -> tuple[Block, ...]:
+    items: list[KeyFigure] = []
+    best: tuple[float, str, Group, int] | None = None
+    for level in levels:
+        for sea in level.child("waves").children():
+            values = sea.real("maximum_total_force", "wave")
+            if values is None:
+                continue
+            at = int(values.argmax())
+            if best is None or values[at] > best[0]:
+                best = (float(values[at]), level.name, sea, at)
+    if best is None:
+        return (Paragraph("The result holds no forces."),)
+    value, level_name, sea, at = best
+    wave = sea.labels("wave")[at]
+    where = f"{sea.name}, {wave}, {level_name}" if wave != "sea" else f"{sea.name}, {level_name}"
+    items.append(KeyFigure("largest force on the member", format_quantity(value, "N"), where))
+    for name in ("x", "y", "z"):
+        part = sea.real("maximum_force", "wave", component=name)
+        if part is not None and part[at] > 1e-6 * value:
+            items.append(KeyFigure(f"largest force along {name}", format_quantity(float(part[at]), "N"), where))
+    number = sea.real("keulegan_carpenter", "wave")
+    if number is not None:
+        caution = purpose == "response" and number[at] > 2.0
+        items.append(
+            KeyFigure(
+                "Keulegan-Carpenter number",
+                format_number(float(number[at])),
+                where,
+                judgement="caution" if caution else "",
+            )
+        )
+    for axis in figures.AXES:
+        plain = sea.real("inertia_coefficient", "wave", axis=axis)
+        shown = sea.real("effective_inertia_coefficient", "wave", axis=axis)
+        if plain is not None and shown is not None and math.isfinite(shown[at]):
+            detail = f"without circulation {format_number(float(plain[at]), 4)}"
+            items.append(KeyFigure(f"C_M, {axis} axis", format_number(float(shown[at]), 4), detail))
+    said = (
+        "The circulation of orbital flow is left out, which keeps the larger inertia force (purpose: extreme)."
+        if purpose == "extreme"
+        else "The circulation of orbital flow is counted (purpose: response); it lowers the inertia force."
+    )
+    return (KeyFigures(tuple(items)), Paragraph(said))
+
+
+def _input(level: Group) -> list[Block | None]:
+    return [figures.member_table(level), figures.section_figure(level)]
+
+
+def _seas(level: Group) -> list[Block | None]:
+    blocks: list[Block | None] = []
+    for sea in level.child("waves").children():
+        blocks += [figures.coefficient_table(level, sea), figures.along_member(level, sea)]
+    return blocks
+
+
+def _time(level: Group) -> list[Block | None]:
+    options = []
+    for sea in level.child("time").children():
+        runs = sea.children()
+        step = max(1, math.ceil(len(runs) / MOST_RUNS))
+        for run in runs[::step]:
+            figure = figures.force_over_time(level, sea, run)
+            if figure is not None:
+                options.append(Option(f"{sea.name}: {run.attributes.get('wave', run.name)}", (figure,)))
+    if not options:
+        return []
+    return [Choice(f"run-{level.name}", "Wave", tuple(options), print_all=False)]
