@@ -281,7 +281,7 @@ def depth_functions(wave_number: ArrayLike, water_depth: ArrayLike, z: ArrayLike
     """
     k, h, level = np.broadcast_arrays(*(np.asarray(item, dtype=np.float64) for item in (wave_number, water_depth, z)))
     out = np.empty((3, k.size))
-    _depth_functions(*(np.ascontiguousarray(item).reshape(-1) for item in (k, h, level)), out)
+    _depth_functions(*(np.array(item).reshape(-1) for item in (k, h, level)), out)
     shaped = out.reshape((3, *k.shape))
     return shaped[0], shaped[1], shaped[2]
 
