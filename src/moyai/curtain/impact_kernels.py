@@ -442,10 +442,10 @@ def slack_taut(
     ``taut_step``. Steps end where the cable becomes taut or slack, so that no step crosses the corner of the spring.
 
     ``cable``: span, span ratio, taut shape, stiffness, slack sag; ``table``: see :func:`load_table`; ``flow``
-    (n + 1, 2): velocity and acceleration of the water at every step; ``drag`` is rho C_D d / 2. Rows of ``out`` (n + 1, 3): position and speed of mid-span,
-    tension; the first row holds the start. Rows of ``contacts``: begin, speed there, end (NaN where the series ends
-    before), time of the peak, tension of the peak, side. Returns the number of contacts that begin, which may be more
-    than there is room for.
+    (n + 1, 2): velocity and acceleration of the water at every step; ``drag`` is rho C_D d / 2. Rows of ``out``
+    (n + 1, 3): position and speed of mid-span, tension; the first row holds the start. Rows of ``contacts``: begin,
+    speed there, end (NaN where the series ends before), time of the peak, tension of the peak, side. Returns the
+    number of contacts that begin, which may be more than there is room for.
     """
     loose = cable[4]
     y, v = out[0, 0], out[0, 1]
