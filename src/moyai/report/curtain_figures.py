@@ -221,7 +221,7 @@ def snap_record(level: CurtainLevel) -> Figure | None:
         [Panel("tension of both cables", unit, from_zero=True)],
         [Series("tension of both cables", x, tension[keep] * factor, tone=1)],
     )
-    for values, words, shown, tone in ((position, "position of mid-span", "m", 0), (speed, "speed", "m/s", 2)):
+    for values, words, shown, tone in ((position, "mid-span", "m", 0), (speed, "speed", "m/s", 2)):
         if values is not None:
             panels.append(Panel(words, shown))
             series.append(Series(words, x, values[keep], panel=len(panels) - 1, tone=tone))
@@ -241,7 +241,8 @@ def snap_record(level: CurtainLevel) -> Figure | None:
         (Abscissa("time", "time from release", "s"),),
         tuple(panels),
         tuple(series),
-        "Held on the line between the supports, let go at 0; with drag, until the level by drag is reached.",
+        "Tension of both cables, mid-span downstream of the supports and its speed. Let go at 0, with drag, until "
+        "its level is reached.",
         tuple(mark for mark in marks if mark.known),
         window=_about(time, float(time[peak]), attribute(snap, "taut_time")),
         slider=True,

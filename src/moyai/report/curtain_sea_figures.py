@@ -100,8 +100,8 @@ def run_record(level: CurtainLevel, sea: Group, run: Group) -> Figure | None:
         (words, unit, values)
         for words, unit, name in (
             ("flow", "m/s", "flow_speed"),
-            ("position of mid-span", "m", "position"),
-            ("speed of mid-span", "m/s", "speed"),
+            ("mid-span", "m", "position"),
+            ("its speed", "m/s", "speed"),
         )
         if (values := run.real(name, "time")) is not None
     ]
@@ -117,8 +117,8 @@ def run_record(level: CurtainLevel, sea: Group, run: Group) -> Figure | None:
         panels.append(Panel(words, unit))
         series.append(Series(words, x, values[keep], panel=tone, tone=tone))
     factor, unit = common_scale("N", tension)
-    panels.append(Panel("tension of both cables", unit, from_zero=True))
-    series.append(Series("tension of both cables", x, tension[keep] * factor, panel=len(panels) - 1, tone=3))
+    panels.append(Panel("tension", unit, from_zero=True))
+    series.append(Series("tension", x, tension[keep] * factor, panel=len(panels) - 1, tone=3))
     mark = Mark(
         f"largest {format_quantity(float(tension[peak]), 'N')}",
         x=float(time[peak]),
@@ -132,7 +132,8 @@ def run_record(level: CurtainLevel, sea: Group, run: Group) -> Figure | None:
         (Abscissa("time", "time", "s"),),
         tuple(panels),
         tuple(series),
-        "Complete in the window shown; elsewhere the extremes of each stretch.",
+        "Flow along the normal, mid-span and tension of both cables; complete in the window shown, elsewhere the "
+        "extremes of each stretch.",
         marks,
         window=(float(time[first]), float(time[last - 1])),
         slider=True,

@@ -14,7 +14,7 @@ from moyai.report.curtain_reading import (
     governing_component,
 )
 from moyai.report.document import Block, Column, KeyFigure, KeyFigures, Paragraph, Table
-from moyai.report.formatting import DASH, format_number, format_percent, format_quantity
+from moyai.report.formatting import DASH, display_unit, format_number, format_percent, format_quantity
 from moyai.report.general_page import notice_blocks
 
 MOST_KEY_FIGURES = 10
@@ -234,15 +234,18 @@ def _components_table(levels: tuple[CurtainLevel, ...], worst: tuple[CurtainLeve
         for number, (level, entry) in enumerate(rows)
         if worst is not None and level.name == worst[0].name and entry.name == worst[1].name
     )
+    shown = [display_unit(entry.unit, entry.loads["governing"]) for _, entry in rows]
+    paired = list(zip(rows, shown, strict=True))
     return Table(
         "governing-loads",
         "Components at every water level",
         (
             Column("Water level", [level.name for level, _ in rows]),
             Column("Component", [entry.name for _, entry in rows]),
-            Column("Governing load", [format_quantity(e.loads["governing"], e.unit) for _, e in rows]),
+            Column("Unit", [unit.name for unit in shown]),
+            Column("Governing load", [e.loads["governing"] * u.factor for (_, e), u in paired], uniform=False),
             Column("Governed by", [entry.governing for _, entry in rows]),
-            Column("Capacity", [format_quantity(entry.capacity, entry.unit) for _, entry in rows]),
+            Column("Capacity", [entry.capacity * unit.factor for (_, entry), unit in paired], uniform=False),
             Column("Safety factor", [entry.safety_factor for _, entry in rows]),
             Column("Utilisation", [entry.utilisation for _, entry in rows]),
         ),

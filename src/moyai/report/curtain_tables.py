@@ -8,7 +8,7 @@ import numpy as np
 
 from moyai.report.curtain_reading import CurtainLevel, components, governing_component, key, words
 from moyai.report.document import Cell, Column, Table
-from moyai.report.formatting import DASH, format_number, format_quantity
+from moyai.report.formatting import DASH, display_unit, format_number, pretty_unit
 from moyai.report.reading import Group
 
 # Name, words, unit of the statics that follow the drag coefficient
@@ -65,8 +65,8 @@ _IMPACT = (
     ("tension_coefficient", "C_T", ""),
     ("cauchy_number", "elastic number C_E", ""),
     ("froude_number", "Froude number", ""),
-    ("rise_ratio", "rise time over sqrt(d/g)", ""),
-    ("relative_step", "omega dt of the marching", ""),
+    ("rise_ratio", "rise time over √(d/g)", ""),
+    ("relative_step", "ω dt of the marching", ""),
     ("time_step", "time step", "s"),
     ("plateau_tension", "plateau by drag", "N"),
     ("spread", "largest over smallest of the models that count", ""),
@@ -92,22 +92,32 @@ _FORMULAS = {
 
 
 def load_tables(level: CurtainLevel) -> list[Table]:
-    """Return the loads of each component split into steady, wave, impact, governing; one table."""
+    """Return the loads of each component split into steady, wave, impact, governing, and where they come from."""
     found = components(level)
     if not found:
         return []
+    shown = [display_unit(entry.unit, entry.loads["governing"]) for entry in found]
+
+    def loads(part: str) -> list[Cell]:
+        return [entry.loads[part] * unit.factor for entry, unit in zip(found, shown, strict=True)]
+
     return [
         Table(
             key(level, "loads"),
             "Loads of each component",
             (
                 Column("Component", [entry.name for entry in found]),
-                Column("Steady", _loads(level, "steady")),
-                Column("Added by waves", _loads(level, "wave")),
-                Column("Added by the impact", _loads(level, "impact")),
-                Column("Governing", _loads(level, "governing")),
+                Column("Unit", [unit.name for unit in shown]),
+                Column("Steady", loads("steady"), uniform=False),
+                Column("Added by waves", loads("wave"), uniform=False),
+                Column("Added by the impact", loads("impact"), uniform=False),
+                Column("Governing", loads("governing"), uniform=False),
                 Column("Governed by", [entry.governing for entry in found]),
-                Column("Capacity", [format_quantity(entry.capacity, entry.unit) for entry in found]),
+                Column(
+                    "Capacity",
+                    [entry.capacity * unit.factor for entry, unit in zip(found, shown, strict=True)],
+                    uniform=False,
+                ),
                 Column("Safety factor", [entry.safety_factor for entry in found]),
                 Column("Utilisation", [entry.utilisation for entry in found]),
             ),
@@ -129,11 +139,6 @@ def load_tables(level: CurtainLevel) -> list[Table]:
     ]
 
 
-def _loads(level: CurtainLevel, part: str) -> list[Cell]:
-    """Return a load of each component as text, since skirt and floats carry it per metre."""
-    return [format_quantity(entry.loads[part], entry.unit) for entry in components(level)]
-
-
 def _worst(level: CurtainLevel) -> tuple[int, ...]:
     worst = governing_component((level,))
     names = [entry.name for entry in components(level)]
@@ -149,20 +154,16 @@ def _numbers(
     ]
     if not known:
         return None
+    shown = [display_unit(unit, value) for _, value, unit in known]
     return Table(
         key(level, name),
         title,
         (
             Column("Quantity", [label for label, _, _ in known]),
-            Column("Value", [_text(value, unit) for _, value, unit in known]),
+            Column("Value", [v * unit.factor for (_, v, _), unit in zip(known, shown, strict=True)], uniform=False),
+            Column("Unit", [pretty_unit(unit.name) for unit in shown]),
         ),
     )
-
-
-def _text(value: float, unit: str) -> str:
-    if math.isinf(value):
-        return "not reached"
-    return format_quantity(value, unit, 4) if unit else format_number(value, 4)
 
 
 def site_table(level: CurtainLevel) -> Table | None:
@@ -182,13 +183,19 @@ def statics_table(level: CurtainLevel) -> Table | None:
     if not rows or not cases:
         return None
     heads = {"low": "Low drag", "given": "As given", "high": "High drag"}
+    shown = [display_unit(unit, values) for _, unit, values in rows]
     return Table(
         key(level, "statics"),
         "At rest in the current",
         (
             Column("Quantity", [label for label, _, _ in rows]),
+            Column("Unit", [pretty_unit(unit.name) for unit in shown]),
             *(
-                Column(heads.get(case, case), [_text(float(values[n]), unit) for _, unit, values in rows])
+                Column(
+                    heads.get(case, case),
+                    [float(values[n]) * unit.factor for (_, _, values), unit in zip(rows, shown, strict=True)],
+                    uniform=False,
+                )
                 for n, case in enumerate(cases)
             ),
         ),
