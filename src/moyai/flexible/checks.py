@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from moyai.flexible.network import Network
 
 
-def _name(network: Network, node: int) -> str:
+def name_of_node(network: Network, node: int) -> str:
+    """Return a node in words: its number, its name, its place in a line."""
     for name, index in network.points.items():
         if index == node:
             return f"node {node} (point {name!r})"
@@ -50,7 +51,7 @@ def check_network(network: Network) -> None:
     empty = (network.node_mass <= 0.0) & ~held
     if empty.any():
         raise InputError(
-            f"{_name(network, int(np.argmax(empty)))} can move but has no mass",
+            f"{name_of_node(network, int(np.argmax(empty)))} can move but has no mass",
             path="nodes.mass",
             allowed="greater than 0 for free nodes",
             remedy="give the point a mass or connect a bar to it",
@@ -61,7 +62,7 @@ def check_network(network: Network) -> None:
     if not anchored.all() and anchored.any():
         lost = int(np.argmin(anchored[part]))
         raise InputError(
-            f"{_name(network, lost)} belongs to a part of {int((part == part[lost]).sum())} nodes that nothing holds",
+            f"{name_of_node(network, lost)} belongs to a part of {int((part == part[lost]).sum())} nodes that nothing holds",
             path="bars",
             allowed="every part connected to a fixed or driven point, or no such point at all",
             remedy="connect the part or make one of its points fixed",
@@ -70,7 +71,7 @@ def check_network(network: Network) -> None:
     wrong = driven & ((nodes.motion < 0) | (nodes.motion >= len(network.motion_names)))
     if wrong.any():
         raise InputError(
-            f"{_name(network, int(np.argmax(wrong)))} is driven but names no motion",
+            f"{name_of_node(network, int(np.argmax(wrong)))} is driven but names no motion",
             path="nodes.motion",
             allowed=", ".join(network.motion_names) or "a named motion",
         )
@@ -82,7 +83,7 @@ def check_network(network: Network) -> None:
         if deep.any():
             worst = int(np.argmin(np.where(deep, nodes.position[:, 2], np.inf)))
             raise InputError(
-                f"{_name(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, under the bed at {network.bed.level:g} m",
+                f"{name_of_node(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, under the bed at {network.bed.level:g} m",
                 path="nodes.position",
                 allowed="on or above the bed",
             )
