@@ -100,5 +100,7 @@ def test_peak_over_model_a(kernel, stiffness):
 
 def test_deep_water_counts_as_twelve_draughts():
     """The kernel of infinite depth differs from that of twelve draughts by 1.4e-4 of its start: not in the peak."""
-    one, two = (impact_with_memory(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, Water(h, 1000.0, 9.81))) for h in (3.0, math.inf))
+    one, two = (
+        impact_with_memory(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, Water(h, 1000.0, 9.81))) for h in (3.0, math.inf)
+    )
     assert one.ratio == pytest.approx(two.ratio, rel=1e-3)

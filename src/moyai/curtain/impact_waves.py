@@ -247,10 +247,10 @@ def simulate_in_flow(
 def _contacts(table: Array, time: Array, wave: Array) -> tuple[Contact, ...]:
     """Turn rows of the kernel into contacts; ``wave`` is the speed of the water about its mean."""
     above = wave > 0.0
-    turns = {
-        1: time[np.flatnonzero(~above[:-1] & above[1:]) + 1],
-        -1: time[np.flatnonzero(above[:-1] & ~above[1:]) + 1],
-    }
+    crossings = np.flatnonzero(above[:-1] != above[1:])
+    step = time[1] - time[0]
+    when = time[crossings] + step * wave[crossings] / (wave[crossings] - wave[crossings + 1])
+    turns = {1: when[~above[crossings]], -1: when[above[crossings]]}
     found: list[Contact] = []
     for begin, speed, end, top, tension, number in table:
         side = int(number)

@@ -81,7 +81,7 @@ def test_step_is_of_second_order():
 
 
 def test_faster_rise_needs_no_memory():
-    """The ratio falls to 1 as the cable stiffens, and memory counts only through t sqrt(g/d): a scaled span has it too."""
+    """The ratio falls to 1 as the cable stiffens; it depends on t sqrt(g/d) alone, so a scaled span has it too."""
     spans = [random_span(5, upper_stiffness=s, lower_stiffness=s) for s in (2e2, 2e4, 2e6)]
     ratios = [impact_with_memory(item).ratio for item in spans]
     assert ratios[0] > ratios[1] > ratios[2] > 1.0
@@ -126,7 +126,9 @@ def test_slack_phase_against_integration(seed):
         return abs(y[0]) - sag
 
     reached.terminal = True
-    other = solve_ivp(rate, (0, 1e5), (place, speed), "DOP853", rtol=1e-11, atol=1e-13, events=reached, max_step=0.05 * sag)
+    other = solve_ivp(
+        rate, (0, 1e5), (place, speed), "DOP853", rtol=1e-11, atol=1e-13, events=reached, max_step=0.05 * sag
+    )
     found = slack_phase(impact, drag_coefficient=drag, current=current, position=place, speed=speed, mass=mass)
     assert found.duration == pytest.approx(other.t_events[0][0], rel=1e-7)
     assert found.speed == pytest.approx(other.y_events[0][0][1], rel=1e-7, abs=1e-9)
