@@ -14,6 +14,7 @@ from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
+    from moyai.core.results import Result
     from moyai.study.execute import Standing
     from moyai.study.plan import Study
 
@@ -29,6 +30,8 @@ def study(
     ] = None,
     on: Annotated[str | None, typer.Option("--on", help="Cluster to run on: dask://host:port.")] = None,
     retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Run cases again that failed before.")] = False,
+    report: Annotated[bool, typer.Option(help="Write the report of the study, and of its governing cases.")] = True,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
@@ -61,10 +64,20 @@ def study(
             result = run_study(
                 plan, folder, run_case, workers=count, on=on, retry_failed=retry_failed, progress=progress, watch=teller
             )
+        from moyai.study.assess import assess, governing
+
+        result = assess(plan, result, plan.assessment)
+        governs = governing(plan, result, max(plan.replays, 1))
+        if report:
+            result = _with_replays(plan, result, governs, folder, quiet or as_json)
         files = [result.write(folder / "study.nc")]
         from moyai.study.summary import write_table
 
         files.append(write_table(plan, result, folder / "study.csv"))
+        if report:
+            from moyai.report.writer import write_report
+
+            files += write_report(result, folder, pdf=pdf)
         seconds = time.perf_counter() - started
         if as_json:
             print_json(
@@ -84,6 +97,34 @@ def study(
             if result.status == "interrupted":
                 say("give the same command again to go on")
         raise typer.Exit(OK if result.status == "converged" else FAILED)
+
+
+def _with_replays(
+    plan: Study, result: Result, governs: list[tuple[str, int, float]], folder: Path, silent: bool
+) -> Result:
+    """Run the governing cases again with reports of their own, and note in the result where they lie."""
+    import json
+    from dataclasses import replace
+
+    from moyai.cli.runner import run as run_case
+    from moyai.report.writer import write_report
+    from moyai.study.plan import case_at
+
+    folders: dict[int, str] = {}
+    wanted = plan.replays if plan.search is None and result.status != "interrupted" else 0
+    for index in list(dict.fromkeys(index for _, index, _ in governs))[:wanted]:
+        name = f"governing/case {index}"
+        case = case_at(plan, plan.cases[index])
+        with progress_bars(silent) as progress:
+            again = run_case(case, progress)
+        again.write(folder / name / "results.nc")
+        write_report(again, folder / name)
+        folders[index] = name
+    told = [[component, index, value, folders.get(index, "")] for component, index, value in governs]
+    kind = "utilisation" if plan.assessment is not None else "watch"
+    tree = result.tree.copy()
+    tree.attrs.update({"governing": json.dumps(told), "governing_kind": kind})
+    return replace(result, tree=tree)
 
 
 def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any]:

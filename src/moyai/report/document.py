@@ -172,6 +172,8 @@ class Column:
         One number of decimals for the column; switch off where rows are of different kinds.
     trim : bool
         Drop trailing zeros (input echo).
+    links : sequence of str
+        File beside the report that each cell leads to, empty text where to none; on the screen only.
     """
 
     label: str
@@ -181,6 +183,7 @@ class Column:
     fixed: bool = False
     uniform: bool = True
     trim: bool = False
+    links: Sequence[str] = ()
 
 
 @dataclass(frozen=True)

@@ -259,7 +259,9 @@ class _Page:
             cells = []
             for column, shown_texts in zip(table.columns, texts, strict=True):
                 kind = ' class="text"' if is_text_column(column) else ""
-                cells.append(f"<td{kind}>{words(shown_texts[row])}</td>")
+                link = column.links[row] if column.links else ""
+                shown = words(shown_texts[row])
+                cells.append(f"<td{kind}>" + (f'<a href="{escape(link)}">{shown}</a>' if link else shown) + "</td>")
             rows.append(f'<tr class="{" ".join(kinds)}">' + "".join(cells) + "</tr>")
         body = f"""<div class="scroll" tabindex="0" role="region" aria-label="{escape(table.title)}"><table>
 <thead><tr>{"".join(heads)}</tr></thead>

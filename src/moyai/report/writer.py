@@ -19,7 +19,9 @@ Composer = Callable[[Result], Document]
 
 # Who turns the result of a structure into pages; a kind that is absent gets a plain listing of all groups
 COMPOSERS = {
+    "study": "moyai.report.study_page:compose",
     "breakwater": "moyai.report.breakwater_page:compose",
+    "records": "moyai.report.records_page:compose",
     "member": "moyai.report.member_page:compose",
     "force_record": "moyai.report.force_record_page:compose",
     "curtain": "moyai.report.curtain_page:compose",

@@ -53,6 +53,10 @@ class Study:
         Hash of everything that the results depend on.
     search : LimitSearch or Optimisation or None
         What is searched for in every case.
+    assessment : Assessment or None
+        What is made of all cases together.
+    replays : int
+        Number of governing cases that are run again with a report of their own.
     """
 
     title: str
@@ -65,6 +69,8 @@ class Study:
     keep_results: bool
     key: str
     search: schema.LimitSearch | schema.Optimisation | None = None
+    assessment: schema.Assessment | None = None
+    replays: int = 3
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -134,6 +140,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     wanted = tuple(Wanted(item.variable, item.reduce, item.over) for item in block.responses)
     keep = block.keep == "results"
     study = Study(block.title, base, base_path, tuple(axes), cases, wanted, block.watch, keep, "", search)
+    study = replace(study, assessment=block.assess, replays=block.replays)
     named = check_cases(study, progress)
     return replace(study, key=_key(study, named))
 

@@ -8,11 +8,15 @@ from pydantic import Field
 
 from moyai.case.schema_types import (
     Block,
+    Duration,
     FileName,
     KeyGroups,
     Name,
+    NonNegativeNumber,
     Number,
     OneOrMany,
+    PositiveForce,
+    PositiveLength,
     PositiveNumber,
     Range,
     Seed,
@@ -188,6 +192,75 @@ class Optimisation(Block):
     seed: Seed = 1
 
 
+class LineCode(Block):
+    """A design code that the lines are held against."""
+
+    name: Annotated[str, Field(description="Code of the table, or a name for values of your own.")]
+    analysis: Literal["dynamic", "quasi_static", "static"]
+    consequence: Annotated[str, Field(description="Class of the code, where it has classes.")] = ""
+    confirmed: Annotated[Truth, Field(description="You have held the values against the standard.")] = False
+    safety_factor_intact: PositiveNumber | None = None
+    safety_factor_one_lost: PositiveNumber | None = None
+
+
+class LineChecks(Block):
+    """Lines of every case against design codes."""
+
+    codes: Annotated[tuple[LineCode, ...], OneOrMany(), Field(min_length=1)]
+    component: Annotated[
+        dict[str, Literal["chain", "rope", "wire", "knotted_rope", "shackle", "used_chain"]],
+        Field(default_factory=dict, description="Kind of each line, chain where not given."),
+    ]
+    corrosion_rate: Annotated[NonNegativeNumber, Field(description="Loss of diameter [mm a year].")] = 0.0
+    life: Annotated[NonNegativeNumber, Field(description="Years.")] = 0.0
+    diameter: Annotated[dict[str, PositiveLength], Field(default_factory=dict, description="Of each line, when new.")]
+
+
+class AnchorOfLine(Block):
+    """The anchor of a line."""
+
+    kind: Literal["sinker", "drag_anchor"]
+    weight: Annotated[PositiveForce, Field(description="Sinker: submerged; drag anchor: in air.")]
+    name: Annotated[str, Field(description="Kind in the table: concrete, steel; stockless, danforth, ...")] = ""
+    bed: Annotated[str, Field(description="sand, clay, rubble")] = ""
+    coefficient: Annotated[PositiveNumber | None, Field(description="In place of the table's value.")] = None
+    safety_factor: PositiveNumber
+
+    at_least_one: ClassVar[KeyGroups] = (("coefficient", "name"),)
+
+
+class ExtremesOfSeeds(Block):
+    """A distribution fitted to the maxima of the seeds."""
+
+    response: str
+    over: Annotated[str, Field(description="Axis of the repetitions.")] = "seed"
+    family: Literal["gumbel"] = "gumbel"
+    probability: Annotated[
+        PositiveNumber, Field(lt=1.0, description="The design value stays above the maximum with this probability.")
+    ] = 0.9
+    confidence: Annotated[PositiveNumber, Field(lt=1.0)] = 0.9
+    seed: Annotated[Seed, Field(description="Of the bootstrap.")] = 1
+
+
+class LongTerm(Block):
+    """Return levels over a scatter diagram."""
+
+    response: Annotated[str, Field(description="Maximum of a sea state, or its most probable maximum.")]
+    over: Annotated[str, Field(description="Axis of the scatter diagram.")] = "sea_state"
+    seeds: Annotated[str, Field(description="Axis of the repetitions; the response is exact without one.")] = ""
+    duration: Annotated[Duration, Field(description="Of a sea state.")]
+    years: Annotated[tuple[PositiveNumber, ...], Field(min_length=1)]
+
+
+class Assessment(Block):
+    """What is made of all cases together."""
+
+    lines: LineChecks | None = None
+    anchors: Annotated[dict[str, AnchorOfLine], Field(default_factory=dict, description="By line.")]
+    extremes: Annotated[tuple[ExtremesOfSeeds, ...], OneOrMany()] = ()
+    long_term: Annotated[tuple[LongTerm, ...], OneOrMany()] = ()
+
+
 class StudyBlock(Block):
     """The study."""
 
@@ -197,6 +270,10 @@ class StudyBlock(Block):
     variations: Annotated[tuple[Variation, ...], OneOrMany()] = ()
     responses: Annotated[tuple[Response, ...], OneOrMany()] = ()
     watch: Annotated[str, Field(description="Variable whose largest and smallest value is shown on the way.")] = ""
+    assess: Assessment | None = None
+    replays: Annotated[
+        Whole | Literal[0], Field(description="Governing cases that are run again with their own report.")
+    ] = 3
     limit: LimitSearch | None = None
     optimise: Optimisation | None = None
     keep: Annotated[Literal["responses", "results"], Field(description="results: also results.nc of every case.")] = (

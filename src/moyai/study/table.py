@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Iterable
@@ -12,6 +13,7 @@ import numpy as np
 from moyai.core.results import Result, Status, make_provenance
 from moyai.study.ledger import Record
 from moyai.study.plan import Study
+from moyai.study.variations import Axis
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,10 +43,25 @@ def study_result(study: Study, records: Iterable[Record], *, interrupted: bool =
     for path, dataset in _groups(study, known).items():
         groups[path] = dataset if path != "/" else groups["/"].merge(dataset)
     tree = xr.DataTree.from_dict(groups)
-    tree.attrs.update({"structure": "study", "title": study.title, "case_text": study.base.text})
+    tree.attrs.update(
+        {
+            "structure": "study",
+            "title": study.title,
+            "case_text": study.base.text,
+            "watch": study.watch,
+            "axes": json.dumps([_axis(axis) for axis in study.axes]),
+        }
+    )
     status, message = _status(study, known, interrupted)
     provenance = make_provenance(title=study.title, base=study.base_path.name, study=study.key)
     return Result(tree, status, message, provenance=provenance)
+
+
+def _axis(axis: Axis) -> dict[str, Any]:
+    varied = axis.coordinates()
+    values, unit = next(iter(varied.values())) if len(varied) == 1 else ([], "")
+    numbers = values if values and not any(isinstance(value, str) for value in values) else None
+    return {"name": axis.name, "labels": [point.label for point in axis.points], "values": numbers, "unit": unit}
 
 
 def _status(study: Study, known: dict[int, Record], interrupted: bool) -> tuple[Status, str]:

@@ -54,10 +54,13 @@ class Axis:
         Name of the dimension.
     points : tuple of Point
         Where it was varied to.
+    lost_line : bool
+        Its points are the intact structure and lost lines.
     """
 
     name: str
     points: tuple[Point, ...]
+    lost_line: bool = False
 
     def coordinates(self) -> dict[str, tuple[list[Any], str]]:
         """Return values and SI unit by path (text where they are not all numbers of one kind)."""
@@ -339,7 +342,7 @@ def _lines_lost(given: schema.LinesLost | bool, base: Any, folder: Path) -> tupl
             points.append(Point(name, removals=(where,)))
         else:
             raise InputError("the only line of the structure cannot be lost", path="lines_lost")
-    return (Axis(settings.name, tuple(points)),)
+    return (Axis(settings.name, tuple(points), lost_line=True),)
 
 
 def _text(value: Any) -> str:

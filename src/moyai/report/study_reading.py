@@ -1,0 +1,125 @@
+"""What the report of a study reads from its result."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.results import Result
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AxisLabels:
+    """An axis of the study.
+
+    Parameters
+    ----------
+    name : str
+    labels : tuple of str
+        Of its points, as the study file names them.
+    values : ndarray or None
+        Numbers of its points in ``unit``, ``None`` where they are no numbers.
+    unit : str
+    """
+
+    name: str
+    labels: tuple[str, ...]
+    values: Array | None
+    unit: str
+
+
+@dataclass(frozen=True)
+class GoverningCase:
+    """The case that governs a component.
+
+    Parameters
+    ----------
+    component : str
+    index : int
+        Number of the case.
+    value : float
+        Utilisation, or the watched response.
+    folder : str
+        Where its own report lies, relative to that of the study; empty where there is none.
+    """
+
+    component: str
+    index: int
+    value: float
+    folder: str
+
+
+@dataclass(frozen=True)
+class StudyPages:
+    """A study's result, made ready for tables and figures.
+
+    Parameters
+    ----------
+    result : Result
+    axes : tuple of AxisLabels
+    status, message : ndarray of object
+        Of every case, flat.
+    governing : tuple of GoverningCase
+    watch : str
+    """
+
+    result: Result
+    axes: tuple[AxisLabels, ...]
+    status: NDArray[Any]
+    message: NDArray[Any]
+    governing: tuple[GoverningCase, ...]
+    watch: str
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points on every axis."""
+        return tuple(len(axis.labels) for axis in self.axes)
+
+    def labels(self, index: int) -> tuple[str, ...]:
+        """Return the place of a case on every axis."""
+        place = np.unravel_index(index, self.shape)
+        return tuple(axis.labels[at] for axis, at in zip(self.axes, place))
+
+    def case_words(self, index: int) -> str:
+        """Return the place of a case in words."""
+        return ", ".join(f"{axis.name.replace('_', ' ')} {label}" for axis, label in zip(self.axes, self.labels(index)))
+
+    def response(self, name: str) -> tuple[Array, str, str] | None:
+        """Return a response by case (the largest entry of an array), its unit and its words."""
+        group, _, variable = name.rpartition("/")
+        try:
+            node: Any = self.result.tree[f"/{group}"]
+            found = node[variable] if variable in node.data_vars else None
+        except KeyError:
+            found = None
+        if found is None:
+            return None
+        dims = [axis.name for axis in self.axes]
+        if not set(dims) <= set(found.dims):
+            return None
+        values = np.asarray(found.transpose(*dims, ...).values, dtype=float).reshape(len(self.status), -1)
+        known = np.isfinite(values).any(axis=1)
+        largest = np.where(known, np.where(np.isfinite(values), values, -math.inf).max(axis=1), math.nan)
+        return largest, str(found.attrs.get("units", "1")), str(found.attrs.get("long_name", variable))
+
+
+def read_study(result: Result) -> StudyPages:
+    """Return the pages' view of a study's result."""
+    attributes = result.tree.attrs
+    axes = []
+    for item in json.loads(attributes.get("axes", "[]")):
+        values = np.array(item["values"], dtype=float) if item["values"] is not None else None
+        axes.append(AxisLabels(item["name"], tuple(item["labels"]), values, item["unit"]))
+    root: Any = result.tree.to_dataset(inherit=False)
+    count = math.prod(len(axis.labels) for axis in axes)
+    status = root["case_status"].values.reshape(count)
+    message = root["case_message"].values.reshape(count)
+    governing = tuple(GoverningCase(*item) for item in json.loads(attributes.get("governing", "[]")))
+    return StudyPages(result, tuple(axes), status, message, governing, str(attributes.get("watch", "")))

@@ -1,0 +1,446 @@
+"""What all cases say together: lines and anchors against codes, extremes over seeds, return levels over a scatter.
+
+Works on the dataset of the study, whatever the structure: lines are found by their ``maximum_tension``,
+``mean_tension`` and ``breaking_load``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.results import Result
+from moyai.core.validity import Notice
+from moyai.design.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
+from moyai.design.codes import DesignCode, LineLoad, check_confirmation, check_line, design_code
+from moyai.design.extremes import check_fit, fit, maximum_interval
+from moyai.design.long_term import return_level
+from moyai.study import schema
+from moyai.study.plan import Study
+from moyai.tables.design_codes import CodeRule, holding_data
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_MAXIMA = ("maximum_tension", "most_probable_maximum_tension", "fairlead_tension_maximum")
+_UPLIFTS = ("maximum_anchor_vertical_tension", "anchor_vertical_tension")
+
+
+def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Result:
+    """Add what the study asks for to its result.
+
+    Parameters
+    ----------
+    study : Study
+    result : Result
+        As gathered from all cases.
+    wanted : Assessment or None
+
+    Returns
+    -------
+    Result
+        With the groups ``/assessment/...`` and the notices that come with them.
+
+    Notes
+    -----
+    What cannot be assessed (a response, an axis or a line that is not there) becomes a notice of severity ``error``.
+    """
+    if wanted is None:
+        return result
+    import xarray as xr
+
+    groups: dict[str, xr.Dataset] = {node.path: node.to_dataset(inherit=False) for node in result.tree.subtree}
+    notices: list[Notice] = []
+    parts: list[tuple[str, Callable[[], tuple[xr.Dataset, list[Notice]]]]] = []
+    if (lines := wanted.lines) is not None:
+        parts.append(("lines", lambda: _lines(study, result, lines)))
+    if wanted.anchors:
+        parts.append(("anchors", lambda: _anchors(study, result, wanted.anchors)))
+    for number, one in enumerate(wanted.extremes):
+        parts.append((f"extremes {number + 1}", lambda one=one: _extremes(study, result, one)))  # type: ignore[misc]
+    for number, other in enumerate(wanted.long_term):
+        parts.append((f"long term {number + 1}", lambda other=other: _long_term(study, result, other)))  # type: ignore[misc]
+    for name, compute in parts:
+        try:
+            groups[f"/assessment/{name}"], said = compute()
+            notices += said
+        except InputError as error:
+            # The cases have run; what cannot be made of them is told, and the rest is kept
+            message = f"{name} could not be assessed: {error.fault.message}"
+            allowed = f"allowed: {error.fault.allowed}" if error.fault.allowed else ""
+            remedy = "; ".join(part for part in (allowed, error.fault.remedy) if part)
+            notices.append(Notice("assessment-failed", message, severity="error", remedy=remedy))
+    attributes = dict(result.tree.attrs)
+    tree = xr.DataTree.from_dict(groups)
+    tree.attrs.update(attributes)
+    return replace(result, tree=tree).with_notices(*notices)
+
+
+@dataclass(frozen=True)
+class _Tensions:
+    """Tensions of the lines in one group of the results, over the axes of the study."""
+
+    group: str
+    maximum: xr.DataArray
+    mean: xr.DataArray
+    breaking: xr.DataArray
+    uplift: xr.DataArray | None
+
+
+def _tensions(study: Study, result: Result) -> list[_Tensions]:
+    axes = {axis.name for axis in study.axes}
+    found = []
+    for node in result.tree.subtree:
+        held = node.to_dataset(inherit=False)
+        name = next((one for one in _MAXIMA if one in held), None)
+        if node.path.startswith("/assessment") or name is None or "mean_tension" not in held:
+            continue
+        maximum = held[name]
+        if "line" not in maximum.dims or not axes.issubset(map(str, maximum.dims)):
+            continue
+        level = node.path.strip("/").split("/")[0]
+        known = _has(result, f"/{level}/statics", "breaking_load")
+        breaking = _variable(result, f"/{level}/statics", "breaking_load") if known else maximum * math.nan
+        uplift = next((held[one] for one in _UPLIFTS if one in held), None)
+        found.append(_Tensions(node.path.strip("/"), maximum, held["mean_tension"], breaking, uplift))
+    if not found:
+        raise InputError(
+            "no case tells tensions of lines", path="assess.lines", remedy="let the cases run 'frequency' or 'time'"
+        )
+    return found
+
+
+def _has(result: Result, group: str, name: str) -> bool:
+    try:
+        return name in result.tree[group].data_vars
+    except KeyError:
+        return False
+
+
+def _variable(result: Result, group: str, name: str) -> xr.DataArray:
+    held: Any = result.tree[group]
+    found: xr.DataArray = held.to_dataset(inherit=False)[name]
+    return found
+
+
+def _codes(wanted: schema.LineChecks) -> list[DesignCode]:
+    codes = []
+    for one in wanted.codes:
+        own = [
+            CodeRule(one.name, "own", condition, "any", "any", "any", "safety_factor", value, True, "study file")
+            for condition, value in (("intact", one.safety_factor_intact), ("one_lost", one.safety_factor_one_lost))
+            if value is not None
+        ]
+        confirmed = [one.name] if one.confirmed else []
+        codes.append(
+            design_code(one.name, analysis=one.analysis, consequence=one.consequence, confirmed=confirmed, own=own)
+        )
+    return codes
+
+
+def _lines(study: Study, result: Result, wanted: schema.LineChecks) -> tuple[xr.Dataset, list[Notice]]:
+    import xarray as xr
+
+    codes = _codes(wanted)
+    tensions = _tensions(study, result)
+    dims = [axis.name for axis in study.axes]
+    lost = _lost_labels(study)
+    lines = [str(one) for one in tensions[0].maximum.coords["line"].values]
+    for given in (*wanted.component, *wanted.diameter):
+        if given not in lines:
+            raise InputError(f"there is no line '{given}'", path="assess.lines", allowed=", ".join(lines))
+    shape = (len(codes), len(tensions), *study.shape, len(lines))
+    utilisation = np.full(shape, math.nan)
+    notices = [notice for code in codes for notice in check_confirmation(code)]
+    skipped: set[str] = set()
+    for c, code in enumerate(codes):
+        for t, item in enumerate(tensions):
+            maximum, mean, breaking = (
+                one.transpose(*dims, "line").values for one in (item.maximum, item.mean, item.breaking)
+            )
+            for place in np.ndindex(*study.shape):
+                label = "" if lost is None else lost[1][place[lost[0]]]
+                for number, line in enumerate(lines):
+                    load = LineLoad(
+                        line,
+                        float(maximum[(*place, number)]),
+                        float(mean[(*place, number)]),
+                        float(breaking[(*place, number)]),
+                        wanted.component.get(line, "chain"),
+                        label,
+                    )
+                    if not math.isfinite(load.maximum_tension):
+                        continue
+                    try:
+                        outcome = check_line(
+                            load, code, corrosion=1e-3 * wanted.corrosion_rate * wanted.life,
+                            diameter=wanted.diameter.get(line, math.nan),
+                        )  # fmt: skip
+                    except InputError as error:
+                        if not label:
+                            raise
+                        # Codes without a damaged condition are silent on it
+                        skipped.add(f"{code.name}: {error.fault.message}")
+                        continue
+                    utilisation[(c, t, *place, number)] = outcome.utilisation
+    notices += [Notice("code-silent", f"not checked: {message}", severity="information") for message in sorted(skipped)]
+    unknown = [line for number, line in enumerate(lines) if np.isnan(utilisation[..., number]).all()]
+    if unknown:
+        message = f"no utilisation for {', '.join(unknown)}: the breaking load is not known"
+        notices.append(Notice("breaking-load-unknown", message, remedy="give 'breaking_load' to the line"))
+    worst = float(np.nanmax(utilisation)) if np.isfinite(utilisation).any() else math.nan
+    if worst > 1.0:
+        notices.append(
+            Notice(
+                "lines-fail",
+                f"the largest utilisation of a line is {worst:.2f} (limit 1)",
+                worst,
+                1.0,
+                "error",
+                remedy="see the governing cases",
+            )
+        )
+    attributes = {"units": "1", "long_name": "utilisation of the line under the code"}
+    coordinates: dict[str, Any] = {
+        "code": [code.name for code in codes],
+        "sea": [item.group for item in tensions],
+        "line": lines,
+        "confirmed": ("code", [float(all(rule.confirmed for rule in code.rules)) for code in codes], {"units": "1"}),
+    }
+    data = {"utilisation": (("code", "sea", *dims, "line"), utilisation, attributes)}
+    return xr.Dataset(data, coords=coordinates), notices
+
+
+def _lost_labels(study: Study) -> tuple[int, list[str]] | None:
+    """Return the axis of lost lines and the name of what is lost at each of its points ('' when intact)."""
+    for place, axis in enumerate(study.axes):
+        if axis.lost_line:
+            return place, ["" if point.label == "intact" else point.label for point in axis.points]
+    return None
+
+
+def _anchors(study: Study, result: Result, wanted: dict[str, schema.AnchorOfLine]) -> tuple[xr.Dataset, list[Notice]]:
+    import xarray as xr
+
+    tensions = [item for item in _tensions(study, result) if item.uplift is not None]
+    if not tensions:
+        raise InputError("no case tells the pull at the anchors", path="assess.anchors")
+    dims = [axis.name for axis in study.axes]
+    lines = [str(one) for one in tensions[0].maximum.coords["line"].values]
+    for line in wanted:
+        if line not in lines:
+            raise InputError(f"there is no line '{line}'", path="assess.anchors", allowed=", ".join(lines))
+    values = np.full((len(tensions), *study.shape, len(wanted)), math.nan)
+    notices: dict[str, Notice] = {}
+    for n, (line, given) in enumerate(wanted.items()):
+        coefficient, sure, source = given.coefficient, True, "user"
+        if coefficient is None:
+            data = holding_data(given.kind, given.name, given.bed)
+            coefficient, sure, source = data.value, data.confirmed, data.source
+        if not sure:
+            message = f"the holding of {given.name} on {given.bed} ({coefficient:g}) was not held against its source"
+            notices[message] = Notice("anchor-unconfirmed", message, remedy="give 'coefficient'", source=source)
+        for t, item in enumerate(tensions):
+            assert item.uplift is not None
+            pull = item.maximum.sel(line=line).transpose(*dims).values
+            up = item.uplift.sel(line=line).transpose(*dims).values
+            for place in np.ndindex(*study.shape):
+                total, vertical = float(pull[place]), max(float(up[place]), 0.0)
+                if not math.isfinite(total):
+                    continue
+                # The tension at the fairlead is no less than that at the anchor: on the safe side
+                horizontal = math.sqrt(max(total**2 - vertical**2, 0.0))
+                if given.kind == "sinker":
+                    outcome = check_sinker(Sinker(given.weight, coefficient, given.safety_factor), horizontal, vertical)
+                else:
+                    anchor = DragAnchor(given.weight, coefficient, given.safety_factor)
+                    outcome = check_drag_anchor(anchor, horizontal, vertical)
+                values[(t, *place, n)] = outcome.utilisation
+                for notice in outcome.notices:
+                    known = notices.get(line)
+                    if known is None or notice.value > known.value:
+                        notices[line] = replace(notice, message=f"{line}: {notice.message}")
+    worst = float(np.nanmax(values)) if np.isfinite(values).any() else math.nan
+    if worst > 1.0:
+        notices["worst"] = Notice(
+            "anchors-fail", f"the largest utilisation of an anchor is {worst:.2f} (limit 1)", worst, 1.0, "error"
+        )
+    attributes = {"units": "1", "long_name": "utilisation of the anchor"}
+    coordinates = {"sea": [item.group for item in tensions], "line": list(wanted)}
+    return xr.Dataset({"utilisation": (("sea", *dims, "line"), values, attributes)}, coords=coordinates), list(
+        notices.values()
+    )
+
+
+def _response(result: Result, name: str) -> xr.DataArray:
+    group, _, variable = name.rpartition("/")
+    if not _has(result, f"/{group}", variable):
+        same = sorted(
+            f"{node.path.strip('/')}/{one}" for node in result.tree.subtree for one in node.data_vars if one == variable
+        )
+        raise InputError(f"the study has no response '{name}'", path="assess", allowed=", ".join(same[:6]))
+    return _variable(result, f"/{group}", variable)
+
+
+def _require_axis(array: xr.DataArray, name: str, study: Study) -> None:
+    if name not in array.dims:
+        known = ", ".join(axis.name for axis in study.axes)
+        raise InputError(f"the study has no axis '{name}'", path="assess", allowed=known)
+
+
+def _extremes(study: Study, result: Result, wanted: schema.ExtremesOfSeeds) -> tuple[xr.Dataset, list[Notice]]:
+    import xarray as xr
+
+    response = _response(result, wanted.response)
+    _require_axis(response, wanted.over, study)
+    moved = response.transpose(..., wanted.over)
+    values = moved.values
+    outer = values.shape[:-1]
+    names = ("design_value", "lower", "upper", "location", "scale")
+    table = {name: np.full(outer, math.nan) for name in names}
+    notices: dict[str, Notice] = {}
+    for place in np.ndindex(*outer):
+        data = values[place][np.isfinite(values[place])]
+        if data.size == 0:
+            continue
+        if data.size < 5:
+            raise InputError(
+                f"{data.size} maxima of '{wanted.response}' are too few for a {wanted.family} fit",
+                path="assess.extremes",
+                allowed="at least 5",
+                remedy=f"run more points along '{wanted.over}'",
+            )
+        if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
+            # The response does not depend on the seed here (slack line, no waves): its value is the answer
+            for name in ("design_value", "lower", "upper", "location"):
+                table[name][place] = data[0]
+            table["scale"][place] = 0.0
+            continue
+        fitted = fit(data, wanted.family)
+        interval = maximum_interval(
+            fitted, 1.0, seed=wanted.seed, probability=wanted.probability, confidence=wanted.confidence, repetitions=200
+        )
+        entries = (interval.value, interval.lower, interval.upper, fitted.location, fitted.scale)
+        for name, value in zip(names, entries):
+            table[name][place] = value
+        for notice in check_fit(fitted, data):
+            notices.setdefault(notice.code, replace(notice, message=f"{wanted.response}: {notice.message}"))
+    units = response.attrs.get("units", "1")
+    words = {
+        "design_value": f"level that the maximum stays below with probability {wanted.probability:g}",
+        "lower": f"lower end of its {100 * wanted.confidence:g} % interval",
+        "upper": f"upper end of its {100 * wanted.confidence:g} % interval",
+        "location": "mode of the Gumbel distribution of the maxima",
+        "scale": "scale of the Gumbel distribution of the maxima",
+    }
+    dims = moved.dims[:-1]
+    data_vars = {name: (dims, table[name], {"units": units, "long_name": words[name]}) for name in names}
+    coords = {name: moved.coords[name] for name in dims if name in moved.coords}
+    out = xr.Dataset(data_vars, coords=coords)
+    out.attrs.update({"response": wanted.response, "over": wanted.over})
+    return out, list(notices.values())
+
+
+def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[xr.Dataset, list[Notice]]:
+    import xarray as xr
+
+    response = _response(result, wanted.response)
+    _require_axis(response, wanted.over, study)
+    axis = next(one for one in study.axes if one.name == wanted.over)
+    share = np.array([point.probability for point in axis.points])
+    if not np.isfinite(share).all():
+        raise InputError(
+            f"the points of '{wanted.over}' have no probabilities",
+            path="assess.long_term",
+            remedy="use a scatter diagram",
+        )
+    inner = (wanted.over, wanted.seeds) if wanted.seeds else (wanted.over,)
+    if wanted.seeds:
+        _require_axis(response, wanted.seeds, study)
+    moved = response.transpose(..., *inner)
+    outer = moved.shape[: moved.ndim - len(inner)]
+    levels = np.full((*outer, len(wanted.years)), math.nan)
+    for place in np.ndindex(*outer):
+        table = moved.values[place]
+        if not np.isfinite(table).all():
+            continue
+        short = [_short_term(row if wanted.seeds else float(row)) for row in table]
+        largest = float(np.max(table))
+        for number, years in enumerate(wanted.years):
+            levels[(*place, number)] = return_level(
+                years, share, short, wanted.duration, (1e-6 * largest, 50.0 * largest)
+            )
+    dims = moved.dims[: len(outer)]
+    attributes = {"units": response.attrs.get("units", "1"), "long_name": f"return level of {wanted.response}"}
+    coords: dict[str, Any] = {str(name): moved.coords[name] for name in dims if name in moved.coords}
+    coords["return_period"] = ("return_period", list(map(float, wanted.years)), {"units": "year"})
+    out = xr.Dataset({"return_level": ((*dims, "return_period"), levels, attributes)}, coords=coords)
+    out.attrs.update({"response": wanted.response, "over": wanted.over})
+    return out, []
+
+
+def _short_term(maxima: Any) -> Any:
+    """Return the exceedance of a sea state's maximum: Gumbel of its seeds, or of a most probable maximum.
+
+    A single value is taken as the mode of Rayleigh peaks in about a thousand waves, whose Gumbel scale is that mode
+    over ``2 ln 1000``.
+    """
+    from moyai.design.extremes import Fit
+
+    data = np.atleast_1d(np.asarray(maxima, dtype=float))
+    if data.size == 1:
+        mode = max(float(data[0]), 1e-300)
+        fitted = Fit("gumbel", mode, mode / (2.0 * math.log(1000.0)), 0.0, 1, math.nan)
+    elif np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
+        fitted = Fit("gumbel", float(data[0]), 1e-6 * max(abs(float(data[0])), 1e-300), 0.0, data.size, math.nan)
+    else:
+        fitted = fit(data, "gumbel")
+    return fitted.exceedance
+
+
+def governing(study: Study, result: Result, most: int) -> list[tuple[str, int, float]]:
+    """Return the governing case of every component: name, number of the case, utilisation (or the watched response).
+
+    Parameters
+    ----------
+    study : Study
+    result : Result
+        With its assessment.
+    most : int
+        Number of different cases at most.
+    """
+    found: list[tuple[str, int, float]] = []
+    for group, what in (("lines", "line"), ("anchors", "anchor of")):
+        if not _has(result, f"/assessment/{group}", "utilisation"):
+            continue
+        table = _variable(result, f"/assessment/{group}", "utilisation")
+        dims = [axis.name for axis in study.axes]
+        for line in table.coords["line"].values:
+            one = table.sel(line=line)
+            values = one.transpose(*dims, ...).values.reshape(len(study.cases), -1)
+            if np.isfinite(values).any():
+                flat = np.where(np.isfinite(values), values, -math.inf).max(axis=1)
+                index = int(np.argmax(flat))
+                found.append((f"{what} {line}", index, float(flat[index])))
+    if not found and study.watch:
+        try:
+            response = _response(result, study.watch)
+        except InputError:
+            return []
+        dims = [axis.name for axis in study.axes]
+        values = response.transpose(*dims, ...).values.reshape(len(study.cases), -1)
+        if np.isfinite(values).any():
+            flat = np.where(np.isfinite(values), values, -math.inf).max(axis=1)
+            index = int(np.argmax(flat))
+            found.append((study.watch, index, float(flat[index])))
+    found.sort(key=lambda item: -item[2])
+    kept: list[tuple[str, int, float]] = []
+    for item in found:
+        if len({one[1] for one in kept} | {item[1]}) <= most:
+            kept.append(item)
+    return kept
