@@ -21,6 +21,8 @@ from moyai.morison.contour import ComplexArray, Contour, FloatArray
 _MOST_UNKNOWNS = 3000
 #: Sum of distances to both ends, in half lengths, below which a panel is integrated exactly (an ellipse about it)
 _NEAR = 3.2
+#: Angle that a panel of an arc may turn to be taken for straight there [rad]
+_STRAIGHT = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +161,7 @@ def _arcs_too_long(
     """Tell which panels of arcs turn too far or lie too close to another edge for Gauss's rule."""
     split = np.abs(contour.sweeps[edge_of]) * (end - start) > 1.6
     arcs = np.flatnonzero(np.abs(contour.sweeps[edge_of]) > 1e-12)
-    if len(contour.vertices) == 2 or arcs.size == 0:
+    if arcs.size == 0:
         return split
     count = len(contour.vertices)
     samples = np.concatenate([contour.positions(edge_of, start + f * (end - start)) for f in (0.0, 0.25, 0.5, 0.75)])
@@ -180,15 +182,16 @@ def _arcs_too_long(
 def _near_rows(
     contour: Contour, edge: NDArray[np.int64], start: FloatArray, end: FloatArray, z: ComplexArray, order: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray]:
-    """Return target, panel and kernel weights for straight panels that lie close to points of other edges.
+    """Return target, panel and what to add to Gauss's weights for panels that lie close to points of other edges.
 
     The density is a Legendre series on the panel, and its Cauchy integral a sum of Legendre functions of the second
-    kind [eq:morison-inertia-panel]: exact however close the point is, so that slender sections need no more panels.
+    kind [eq:morison-inertia-panel]: exact on straight panels however close the point is, so that slender sections need
+    no more panels. The tiny panels of an arc at its corners are taken for straight in the difference to Gauss's rule.
     """
     nodes, weights = np.polynomial.legendre.leggauss(order)
     first, last = contour.positions(edge, start), contour.positions(edge, end)
     middle, half = 0.5 * (first + last), 0.5 * (last - first)
-    straight = np.abs(contour.sweeps[edge]) <= 1e-12
+    straight = np.abs(contour.sweeps[edge]) * (end - start) <= _STRAIGHT
     place = (z[:, None] - middle[None, :]) / half[None, :]
     near = (np.abs(place - 1.0) + np.abs(place + 1.0) < _NEAR) & straight[None, :]
     near &= np.repeat(edge, order)[:, None] != edge[None, :]
@@ -201,6 +204,7 @@ def _near_rows(
     for k in range(order):
         total -= (2 * k + 1) * before.imag[:, None] * (legendre[:, k] * weights)[None, :]
         before, now = now, ((2 * k + 3) * at * now - (k + 1) * before) / (k + 2)
+    total -= (weights / (nodes - at[:, None])).imag
     return target, panel, total / (2.0 * math.pi)
 
 
@@ -222,7 +226,7 @@ def _solve(contour: Contour, levels: NDArray[np.int64], order: int) -> FloatArra
     swept = contour.sweeps[edges] * weight / (4.0 * math.pi)
     matrix = np.where(same, swept[None, :], matrix)
     target, panel, row = _near_rows(contour, edge, start, end, z, order)
-    matrix[target[:, None], panel[:, None] * order + np.arange(order)] = row
+    matrix[target[:, None], panel[:, None] * order + np.arange(order)] += row
     length = np.abs(element)
     # the last term fixes the constant of the density and gives the stream function on the contour
     matrix -= length[None, :] / length.sum()
