@@ -249,7 +249,15 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             impact.cables,
             impact.time_step,
         ),
-        waves=WaveSettings(cycles.settled_periods, cycles.analysed_periods, cycles.time_step),
+        waves=WaveSettings(
+            cycles.settled_periods,
+            cycles.analysed_periods,
+            cycles.time_step,
+            cycles.velocity,
+            cycles.slowest_contact,
+            cycles.exceedance,
+            cycles.hours,
+        ),
         anchor_loads=anchor_loads,
         limits=LimitSettings(
             _values(limits.speeds),
@@ -259,6 +267,7 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             3.86 if limits.period_factor is None else limits.period_factor,
             limits.period,
             math.remainder(angle, 2.0 * math.pi),
+            limits.impact,
         ),
     )
 

@@ -290,6 +290,19 @@ class Cycles(Block):
     settled_periods: Whole = Field(default=4, description="Periods of regular waves left out at the start. Default: 4.")
     analysed_periods: Whole = Field(default=20, description="Periods of regular waves analysed. Default: 20.")
     time_step: AutoDuration = Field(default=None, description="Time step. Default: auto.")
+    velocity: Literal["skirt_mean", "surface", "wheeler"] = Field(
+        default="skirt_mean",
+        description="Water that moves the curtain: mean over the skirt, at the surface, or stretched with the surface.",
+    )
+    slowest_contact: Speed = Field(
+        default=0.0, description="Contacts that begin slower than this do not count as snaps. Default: 0."
+    )
+    exceedance: Literal["weibull", "pareto"] = Field(
+        default="weibull", description="Law fitted to the snaps of an irregular sea. Default: weibull."
+    )
+    hours: PositiveNumber = Field(
+        default=3.0, description="Hours that the most probable largest snap is given for. Default: 3."
+    )
 
 
 class AnchorLoads(Block):
@@ -369,6 +382,9 @@ class Limits(Block):
     period: Duration | None = Field(default=None, description="One wave period for all heights.")
     period_factor: PositiveNumber | None = Field(
         default=None, description="T = factor times the root of the height in metres; 3.86 when neither is given."
+    )
+    impact: Truth = Field(
+        default=True, description="Whether the impact counts in the table, where it was asked for. Default: true."
     )
     wave_angle_deg: Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)] | None = Field(
         default=None, description="Of the waves from the normal; absent: that of the first sea state, or 0."

@@ -44,6 +44,13 @@ STRUCTURES = {
         derived="moyai.case.derived_breakwater:derived_numbers",
         run="moyai.breakwater.analysis:run",
     ),
+    "curtain": Structure(
+        schema="moyai.case.schema_curtain:CurtainCase",
+        check="moyai.case.check_curtain:check",
+        build="moyai.case.build_curtain:build_problem",
+        derived="moyai.case.derived_curtain:derived_numbers",
+        run="moyai.curtain.analysis:run",
+    ),
     "member": Structure(
         schema="moyai.case.schema_member:MemberCase",
         check="moyai.case.check_member:check",

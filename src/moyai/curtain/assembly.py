@@ -9,13 +9,16 @@ from functools import cached_property
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.curtain.limits import Requirements, Site
+from moyai.curtain.limits import Requirements, Site, drowning_speed
 from moyai.curtain.model import UNJUDGED, Curtain, CurtainProblem
 from moyai.curtain.on_bed import lies_on_bed
 from moyai.curtain.statics import CurtainStatics, HangingCurtain
 from moyai.sea import current as currents
 from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent, UniformCurrent
 from moyai.sea.water import Water
+
+#: Speed up to which a drowning current is sought [m/s]; no tidal stream on record is faster
+_FASTEST = 10.0
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,11 @@ class LevelCurtain:
     def statics(self) -> CurtainStatics:
         """The curtain at rest in the current of the case."""
         return self.site.statics(self.hanging, self.surface_speed)
+
+    @cached_property
+    def drowning_speed(self) -> float:
+        """Surface speed that uses up the float reserve [m/s], infinite where none up to 10 m/s does."""
+        return drowning_speed(self.hanging, self.site, highest=_FASTEST)
 
     @property
     def rests_on_bed(self) -> bool:

@@ -10,7 +10,7 @@ from moyai.curtain.load_laws import check_section_load
 from moyai.curtain.planning import CURRENT_RULES
 from moyai.curtain.statics import CurtainStatics
 from moyai.sea.water import Water
-from moyai.tables.curtain_classes import CurtainClass
+from moyai.tables.curtain_classes import CurtainClass, mildest_class
 
 _MANUALS = "state manuals (Indian River, Florida; Virginia 3.27)"
 _TOE = "ERDC TN-DOER-E21 (2005), from memory"
@@ -123,3 +123,26 @@ def check_statics(statics: CurtainStatics, speed: float, water: Water) -> tuple[
             )
         )
     return tuple(notices)
+
+
+def check_site_class(significant_height: float, speed: float) -> tuple[Notice, ...]:
+    """Tell when no class of Japanese practice allows the sea and the current of a site.
+
+    Parameters
+    ----------
+    significant_height : float
+        Largest of the sea states [m]; 0 without waves.
+    speed : float
+        Of the current at the surface [m/s].
+    """
+    if mildest_class(significant_height, speed) is not None:
+        return ()
+    return (
+        Notice(
+            "curtain-class-none",
+            f"no class of Japanese practice allows {significant_height:.3g} m and {speed:.3g} m/s",
+            severity="information",
+            remedy="class A ends at 1.5 m and 0.5 m/s",
+            source="curtain classes A to D",
+        ),
+    )

@@ -22,7 +22,8 @@ from moyai.sea.breaking import breaking_limit
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 
-_STEPS = 40
+_STEPS = 60
+_CLOSE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -270,18 +271,31 @@ class WaveLoad:
 
 
 def _bisect(worst: Callable[[float], tuple[float, str]], high: float, at_end: str) -> Limit:
-    """Return the largest value whose worst utilisation is at most 1, by bisection below ``high``."""
+    """Return the largest value whose worst utilisation is at most 1, sought below ``high``.
+
+    The bracket closes by the secant where both ends have a number, kept off its ends and of the Illinois kind, else by
+    halves: a state without equilibrium counts as infinite.
+    """
     top, name = worst(high)
     if top <= 1.0:
         return Limit(high, at_end)
-    low = 0.0
+    low, lack, excess, side = 0.0, math.nan, top - 1.0, 0
     for _ in range(_STEPS):
-        middle = 0.5 * (low + high)
+        share = 0.5
+        if math.isfinite(lack) and math.isfinite(excess):
+            share = min(max(lack / (lack - excess), 0.01), 0.99)
+        middle = low + share * (high - low)
         value, which = worst(middle)
         if value <= 1.0:
-            low = middle
+            low, lack = middle, min(value - 1.0, -1e-300)
+            excess *= 0.5 if side == -1 else 1.0
+            side = -1
         else:
-            high, name = middle, which
+            high, name, excess = middle, which, value - 1.0
+            lack *= 0.5 if side == 1 else 1.0
+            side = 1
+        if high - low <= _CLOSE * high:
+            break
     return Limit(low, name)
 
 

@@ -15,6 +15,8 @@ from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.drag import DragLaw
 from moyai.curtain.limits import Strength
 from moyai.curtain.section import LoadLaw, Skirt
+from moyai.curtain.snap_flow import SkirtVelocity
+from moyai.curtain.snap_statistics import SnapLaw
 from moyai.curtain.squared_velocity import DirectionRule
 from moyai.curtain.statics import FloatLine
 from moyai.sea.environment import Environment
@@ -189,12 +191,24 @@ class WaveSettings:
     settled_periods, analysed_periods : int
         Periods of regular waves that are left out, and those analysed.
     time_step : float or None
-        [s]; None: a 400th of the period and a hundredth of the period of the just-taut spring.
+        [s]; None: chosen by the program.
+    velocity : {"skirt_mean", "surface", "wheeler"}
+        Water that moves the curtain.
+    slowest : float
+        Speed at the taut instant below which a contact does not count as a snap [m/s].
+    law : {"weibull", "pareto"}
+        Law of the exceedance of snaps in an irregular sea.
+    hours : float
+        Time that the most probable largest snap is given for [h].
     """
 
     settled_periods: int = 4
     analysed_periods: int = 20
     time_step: float | None = None
+    velocity: SkirtVelocity = "skirt_mean"
+    slowest: float = 0.0
+    law: SnapLaw = "weibull"
+    hours: float = 3.0
 
 
 @dataclass(frozen=True)
@@ -247,6 +261,8 @@ class LimitSettings:
         One period for all heights [s].
     wave_angle : float
         Of the waves from the normal [rad].
+    impact : bool
+        Whether the impact counts, where it was asked for.
     """
 
     speeds: tuple[float, ...] | None = None
@@ -256,6 +272,7 @@ class LimitSettings:
     period_factor: float = 3.86
     period: float | None = None
     wave_angle: float = 0.0
+    impact: bool = True
 
     def period_of(self, height: float) -> float:
         """Return the wave period [s] that goes with a significant height [m]."""
@@ -271,6 +288,12 @@ class Settings:
     waves: WaveSettings = field(default_factory=WaveSettings)
     anchor_loads: AnchorLoadSettings | None = None
     limits: LimitSettings = field(default_factory=LimitSettings)
+
+    @property
+    def direction(self) -> tuple[DirectionRule, float]:
+        """Direction rule and H_max/H_1/3 in use; those of the paper where the anchor loads say nothing."""
+        given = self.anchor_loads
+        return ("paper", 1.8) if given is None else (given.rule, given.height_ratio)
 
 
 @dataclass(frozen=True)

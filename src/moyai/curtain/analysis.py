@@ -1,0 +1,183 @@
+"""Run a silt curtain: every water level, the analyses that the case names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result, Status, make_provenance
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.curtain.analysis_anchor import anchor_checks, anchor_dataset, anchor_notices
+from moyai.curtain.analysis_impact import ImpactAnswer, impact_checks, impact_groups, impact_notices, solve_impact
+from moyai.curtain.analysis_limits import fastest_water, limits_dataset
+from moyai.curtain.analysis_loads import loads_dataset
+from moyai.curtain.analysis_statics import require_current, statics_checks, statics_groups, statics_notices
+from moyai.curtain.analysis_waves import wave_answer
+from moyai.curtain.assembly import LevelCurtain, assemble
+from moyai.curtain.model import CurtainProblem
+from moyai.curtain.sea_loads import drag_curve
+from moyai.curtain.sea_states import DesignWave, design_waves, significant_height
+from moyai.sea.states import RegularSea
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass
+class _Collected:
+    """What a run has so far; kept whole at every moment so that an interrupt loses only the step in hand."""
+
+    groups: dict[str, xr.Dataset] = field(default_factory=dict)
+    checks: list[IdentityCheck] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+    interrupted: bool = False
+
+
+def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
+    """Run all analyses of a curtain case.
+
+    Parameters
+    ----------
+    problem : CurtainProblem
+    progress : Progress
+        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the case is impossible: a skirt on the bed that may not lie there, a curtain without equilibrium, an
+        impact of a curtain that is never slack.
+    """
+    collected = _Collected()
+    try:
+        for _ in _steps(problem, collected, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = True
+    return _result(problem, collected)
+
+
+def _steps(problem: CurtainProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
+    levels = problem.environment.water_levels
+    # every level is assembled before any long work starts, so that an impossible one is told at once
+    units = [assemble(problem, name, level) for name, level in levels]
+    for index, unit in enumerate(units):
+        progress("water levels", index, len(units))
+        yield from _level_steps(problem, unit, collected, progress)
+    progress("water levels", len(units), len(units))
+
+
+def _level_steps(
+    problem: CurtainProblem, unit: LevelCurtain, collected: _Collected, progress: Progress
+) -> Iterator[None]:
+    settings, seas = problem.settings, problem.environment.sea_states
+    root = f"/{unit.name}"
+    waves: tuple[DesignWave, ...] = tuple(wave for sea in seas for wave in design_waves(sea, unit.curtain.normal))
+    highest = max((significant_height(sea) for sea in seas), default=0.0)
+    collected.groups[root] = _header(unit)
+    if "statics" in settings.analyses:
+        require_current(unit)
+        collected.groups.update({f"{root}/{name}": data for name, data in statics_groups(unit, highest).items()})
+        collected.checks.extend(statics_checks(unit))
+        collected.notices.extend(statics_notices(unit, highest))
+        yield
+    answer: ImpactAnswer | None = None
+    if "impact" in settings.analyses:
+        progress(f"impact, {unit.name}", 0, 1)
+        answer = solve_impact(unit, settings.impact)
+        groups = impact_groups(unit, settings.impact, answer)
+        collected.groups.update({f"{root}/{name}": data for name, data in groups.items()})
+        collected.checks.extend(impact_checks(unit, answer))
+        collected.notices.extend(impact_notices(unit, settings.impact, answer))
+        progress(f"impact, {unit.name}", 1, 1)
+        yield
+    oscillator: list[tuple[str, float]] = []
+    if "waves" in settings.analyses:
+        for sea in seas:
+            found = wave_answer(unit, settings, sea, progress)
+            for name, data in found.groups.items():
+                collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
+            collected.notices.extend(found.notices)
+            oscillator.append((sea.name, found.maximum_tension))
+            yield
+    if "anchor_loads" in settings.analyses and settings.anchor_loads is not None and waves:
+        loads = anchor_dataset(unit, settings.anchor_loads, settings.limits, waves)
+        collected.groups[f"{root}/anchor_loads"] = loads
+        collected.checks.extend(anchor_checks(unit, loads))
+        collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
+        yield
+    curve = drag_curve(unit, fastest_water(unit, settings, waves))
+    table, notices = loads_dataset(unit, settings, waves, tuple(oscillator), answer, curve)
+    collected.groups[f"{root}/loads"] = table
+    collected.notices.extend(notices)
+    yield
+    if "limits" in settings.analyses:
+        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, answer, curve, progress)
+        yield
+
+
+def _header(unit: LevelCurtain) -> xr.Dataset:
+    import xarray as xr
+
+    toe = unit.curtain.toe
+    resting = unit.surface_speed > 0.0 and unit.rests_on_bed
+    return xr.Dataset(
+        attrs={
+            "water_level": unit.level,
+            "water_depth": unit.water.depth,
+            "normal_heading": unit.curtain.normal,
+            "toe": "on the bed" if resting else toe,
+        }
+    )
+
+
+def _result(problem: CurtainProblem, collected: _Collected) -> Result:
+    """Close the run: status, message, provenance."""
+    import xarray as xr
+
+    failed = [check.name for check in collected.checks if not check.passed]
+    outside = [notice for notice in collected.notices if notice.severity == "error"]
+    status: Status = "converged"
+    message = "all identities hold"
+    if outside:
+        status, message = "outside_validity", outside[0].message
+    if failed:
+        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
+    if collected.interrupted:
+        status, message = "interrupted", "stopped by the user; groups that were finished are here"
+    root = xr.Dataset(
+        attrs={
+            "structure": "curtain",
+            "title": problem.title,
+            "case_hash": problem.case_hash,
+            "case_text": problem.case_text,
+        }
+    )
+    seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
+    return Result(
+        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
+        status=status,
+        message=message,
+        checks=tuple(collected.checks),
+        notices=_unique(collected.notices),
+        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="curtain", seeds=seeds),
+    )
+
+
+def _unique(notices: list[Notice]) -> tuple[Notice, ...]:
+    """Keep the first of equal messages, grave ones first."""
+    rank = {"error": 0, "warning": 1, "information": 2}
+    seen: dict[str, Notice] = {}
+    for notice in notices:
+        seen.setdefault(notice.message, notice)
+    return tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3)))
+
+
+__all__ = ["run"]

@@ -1,0 +1,239 @@
+"""The load table: every component's load split into steady, wave, impact and governing, with its utilisation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.curtain.analysis_anchor import rope_model, steady_tension
+from moyai.curtain.analysis_impact import ImpactAnswer
+from moyai.curtain.analysis_limits import impact_load
+from moyai.curtain.assembly import LevelCurtain
+from moyai.curtain.limits import AddedLoads, Strength
+from moyai.curtain.model import COMPONENTS, Settings
+from moyai.curtain.sea_loads import DragCurve, increase
+from moyai.curtain.sea_states import DesignWave
+from moyai.curtain.squared_velocity import squared_velocity
+from moyai.curtain.statics import CurtainStatics
+from moyai.curtain.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_UNITS = {"skirt": "N/m", "float": "N/m"}
+_FIELDS = {
+    "upper cable": "upper_cable",
+    "lower cable": "lower_cable",
+    "skirt": "sheet",
+    "joint": "line_load",
+    "float": "anchor_line",
+    "anchor line": "anchor_line",
+    "anchor": "anchor_line",
+}
+
+
+@dataclass(frozen=True)
+class _Added:
+    """Loads that one source adds, with its name for each component that it loads."""
+
+    loads: AddedLoads
+    source: str
+
+
+def loads_dataset(
+    unit: LevelCurtain,
+    settings: Settings,
+    waves: tuple[DesignWave, ...],
+    oscillator: tuple[tuple[str, float], ...],
+    answer: ImpactAnswer | None,
+    curve: DragCurve,
+) -> tuple[xr.Dataset, tuple[Notice, ...]]:
+    """Return the group ``loads`` and its notices.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+    settings : Settings
+    waves : tuple of DesignWave
+        All waves of the case.
+    oscillator : tuple of (str, float)
+        Sea state and largest sum of the cable tensions in it [N], where slack and taut cycles were run.
+    answer : ImpactAnswer or None
+        None where the impact was not asked for.
+    curve : DragCurve
+        Loads at rest, up to :func:`moyai.curtain.analysis_limits.fastest_water`.
+    """
+    import xarray as xr
+
+    statics = unit.statics if unit.surface_speed > 0.0 else None
+    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, answer, curve)
+    struck = AddedLoads() if answer is None else impact_load(unit, answer, settings).of_tension(answer.design_tension)
+    name = "" if answer is None else f"impact, model {answer.design_model}"
+    rows = []
+    for component in COMPONENTS:
+        steady = _steady(unit, component, statics)
+        field = _FIELDS[component]
+        best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
+        factor = _factor(unit, component)
+        wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
+        if component == "skirt" and answer is not None and math.isnan(answer.half_angle):
+            hit = math.nan
+        rows.append(_row(unit, component, steady, wave, hit, best.source, name))
+    columns = {key: [row[key] for row in rows] for key in rows[0]}
+    known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
+    governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
+    data = xr.Dataset(
+        {key: ("component", values) for key, values in columns.items() if key != "component"},
+        coords={"component": list(COMPONENTS)},
+        attrs={"governing_component": "" if governing is None else str(governing["component"])},
+    )
+    return labelled(data), (*notices, *_strength_notices(unit, rows))
+
+
+def _wave_sources(
+    unit: LevelCurtain,
+    settings: Settings,
+    waves: tuple[DesignWave, ...],
+    statics: CurtainStatics | None,
+    oscillator: tuple[tuple[str, float], ...],
+    answer: ImpactAnswer | None,
+    curve: DragCurve,
+) -> tuple[list[_Added], list[Notice]]:
+    """Return what each wave adds by each model."""
+    sources: list[_Added] = []
+    notices: list[Notice] = []
+    anchor = settings.anchor_loads
+    rule, ratio = settings.direction
+    speeds = []
+    for wave in waves:
+        acting = wave.effective_height(rule, ratio)
+        square = squared_velocity(acting, wave.period, unit.normal_speed, unit.depth, unit.water)
+        speeds.append(math.sqrt(float(square)))
+    for wave, speed in zip(waves, speeds):
+        try:
+            whole = curve.at(speed)
+        except InputError as error:
+            text = f"{unit.name}, {wave.name}: the drag under the crest is left out: {error.fault.message}"
+            notices.append(Notice("curtain-wave-drag", text, speed, remedy="give more toe weight"))
+            continue
+        sources.append(
+            _Added(whole if statics is None else increase(whole, statics), f"drag under the crest, {wave.name}")
+        )
+    if anchor is not None and unit.curtain.anchors is not None and "anchor_loads" in settings.analyses:
+        model, pull = rope_model(unit, anchor), steady_tension(unit, anchor)
+        for wave in waves:
+            acting = wave.effective_height(rule, ratio)
+            moving = model.float_speed(acting, wave.period, unit.normal_speed, unit.water)
+            rise = float(model.fluctuating_tension(moving, pull))
+            sources.append(_Added(AddedLoads(anchor_line=rise), f"energy model, {wave.name}"))
+    shares = _shares(unit, answer)
+    for name, tension in oscillator:
+        upper, lower = (0.0, 0.0) if statics is None else (statics.upper_tension, statics.lower_tension)
+        more = AddedLoads(max(shares[0] * tension - upper, 0.0), max(shares[1] * tension - lower, 0.0))
+        sources.append(_Added(more, f"slack and taut cycles, {name}"))
+    return sources, notices
+
+
+def _shares(unit: LevelCurtain, answer: ImpactAnswer | None) -> tuple[float, float]:
+    """Return the shares of both cables in a sum: of model A2, or in the proportion of their stiffness."""
+    if answer is not None:
+        return answer.shares
+    upper, lower = unit.curtain.upper_stiffness, unit.curtain.lower_stiffness
+    if not math.isfinite(upper + lower):
+        return 0.5, 0.5
+    return upper / (upper + lower), lower / (upper + lower)
+
+
+def _factor(unit: LevelCurtain, component: str) -> float:
+    """Return what turns the load of a field into that of a component."""
+    slope = unit.hanging.anchor_slope
+    return {
+        "joint": unit.curtain.joint_distance,
+        "float": math.sin(slope) / unit.curtain.span,
+        "anchor": math.cos(slope),
+    }.get(component, 1.0)
+
+
+def _steady(unit: LevelCurtain, component: str, statics: CurtainStatics | None) -> float:
+    skirt, floats = unit.curtain.skirt, unit.curtain.floats
+    if statics is None:
+        hanging = skirt.toe_load + skirt.submerged_weight * skirt.length
+        still = {"skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length}
+        return still.get(component, floats.weight + hanging if component == "float" else 0.0)
+    return {
+        "upper cable": statics.upper_tension,
+        "lower cable": statics.lower_tension,
+        "skirt": statics.section.sheet_tension,
+        "joint": statics.section.load * unit.curtain.joint_distance,
+        "float": floats.buoyancy - statics.float_reserve,
+        "anchor line": statics.anchor_line_tension,
+        "anchor": statics.anchor_force,
+    }[component]
+
+
+def _strength(unit: LevelCurtain, component: str) -> Strength:
+    known = unit.curtain.strengths
+    if component == "float":
+        share = 1.0 - known.least_reserve
+        return Strength(unit.curtain.floats.buoyancy, 1.0 / share)
+    return {
+        "upper cable": known.upper_cable,
+        "lower cable": known.lower_cable,
+        "skirt": known.sheet,
+        "joint": known.joint,
+        "anchor line": known.anchor_line,
+        "anchor": known.anchor,
+    }[component]
+
+
+def _row(
+    unit: LevelCurtain, component: str, steady: float, wave: float, hit: float, source: str, struck: str
+) -> dict[str, float | str]:
+    strength = _strength(unit, component)
+    more = float(np.nanmax([0.0, wave, hit]))
+    if component == "float":
+        # what dips for an instant comes up again: floats are judged at rest
+        more = 0.0
+    word = "steady"
+    if more > 0.0:
+        word = "steady and impact" if hit >= wave else "steady and wave"
+    judged = math.isfinite(strength.capacity)
+    there = not (component in ("anchor line", "anchor") and unit.curtain.anchors is None) and not (
+        component == "lower cable" and unit.curtain.lower_stiffness == 0.0
+    )
+    return {
+        "component": component,
+        "steady_load": steady if there else math.nan,
+        "wave_load": wave if there else math.nan,
+        "impact_load": hit if there else math.nan,
+        "governing_load": steady + more if there else math.nan,
+        "capacity": strength.capacity if judged and there else math.nan,
+        "safety_factor": strength.safety_factor if judged and there else math.nan,
+        "utilisation": strength.utilisation(steady + more) if judged and there else math.nan,
+        "load_unit": _UNITS.get(component, "N"),
+        "governing": word if there else "",
+        "wave_source": source if there and wave > 0.0 else "",
+        "impact_source": struck if there and hit > 0.0 else "",
+    }
+
+
+def _strength_notices(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> tuple[Notice, ...]:
+    return tuple(
+        Notice(
+            "curtain-strength",
+            f"{unit.name}: the {row['component']} is used to {100.0 * float(row['utilisation']):.3g} % "
+            f"({row['governing']})",
+            float(row["utilisation"]),
+            1.0,
+            "warning",
+            "strengthen it, shorten the span, or work in less current or sea",
+            "strength and safety factor of the case",
+        )
+        for row in rows
+        if math.isfinite(float(row["utilisation"])) and float(row["utilisation"]) > 1.0
+    )

@@ -1,0 +1,404 @@
+"""The curtain at rest: shape, forces, load laws side by side, the paper's equations, practice."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.curtain.assembly import LevelCurtain
+from moyai.curtain.checks import check_class, check_site_class, check_statics
+from moyai.curtain.closed_forms import solve_cable, solve_skirt_arc
+from moyai.curtain.drag import sample_pressure
+from moyai.curtain.limits import Limit, anchor_spacing, joint_spacing
+from moyai.curtain.load_laws import PlanLaw, SectionLaw, plan_laws, section_laws
+from moyai.curtain.model import UNJUDGED
+from moyai.curtain.on_bed import check_on_bed
+from moyai.curtain.planning import itopf_load, us_navy_load
+from moyai.curtain.statics import CurtainStatics, submerged_state
+from moyai.curtain.variables import labelled
+from moyai.sea.current import CurrentProfile
+from moyai.tables.curtain_classes import curtain_class, mildest_class
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+DRAG_CASES = ("low", "given", "high")
+_LAW_POINTS = 61
+_SECTION_POINTS = 61
+
+
+def drag_cases(unit: LevelCurtain) -> tuple[CurtainStatics, CurtainStatics, CurtainStatics]:
+    """Return the statics with the drag coefficient at the low end of its range, as given, and at the high end.
+
+    Raises
+    ------
+    InputError
+        When one of them has no equilibrium.
+    """
+    law = unit.hanging.drag
+    low, high = (
+        unit.site.statics(replace(unit.hanging, drag=law.scaled(factor)), unit.surface_speed) for factor in law.range
+    )
+    return low, unit.statics, high
+
+
+def statics_groups(unit: LevelCurtain, significant_height: float) -> dict[str, xr.Dataset]:
+    """Return the groups ``statics``, ``statics_laws``, ``statics_paper``, ``section`` and ``plan`` of a level.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+        With a current.
+    significant_height : float
+        Largest of the sea states [m], for the classes; 0 without waves.
+    """
+    cases = drag_cases(unit)
+    return {
+        "statics": _statics(unit, cases, significant_height),
+        "statics_laws": _laws(unit),
+        "statics_paper": _paper(unit),
+        "section": _section(unit, cases),
+        "plan": _plan(unit, cases),
+    }
+
+
+def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_height: float) -> xr.Dataset:
+    import xarray as xr
+
+    curtain, water, given = unit.curtain, unit.water, unit.statics
+    deep = math.isinf(water.depth)
+    below = _speed_below(unit, given)
+    rows: dict[str, list[float]] = {
+        "drag_coefficient": [case.section.drag_coefficient for case in cases],
+        "blockage": [case.section.blockage for case in cases],
+        "hanging_length": [case.section.skirt.length for case in cases],
+        "effective_depth": [case.section.effective_depth for case in cases],
+        "flare": [case.section.flare for case in cases],
+        "toe_depth": [case.section.toe_depth for case in cases],
+        "toe_gap": [math.nan if deep else case.toe_gap for case in cases],
+        "toe_speed": [case.toe_speed for case in cases],
+        "toe_speed_ratio": [case.toe_speed / below if below > 0.0 else math.nan for case in cases],
+        "section_load": [case.section.load for case in cases],
+        "top_load": [case.section.top_load for case in cases],
+        "toe_hold": [case.section.toe_hold for case in cases],
+        "top_pull": [case.section.top_pull for case in cases],
+        "sheet_tension": [case.section.sheet_tension for case in cases],
+        "cable_tension": [case.plan.tension for case in cases],
+        "upper_tension": [case.upper_tension for case in cases],
+        "lower_tension": [case.lower_tension for case in cases],
+        "sag": [case.plan.sag for case in cases],
+        "strain": [case.plan.strain for case in cases],
+        "end_angle": [float(np.max(np.abs(case.plan.angle))) for case in cases],
+        "anchor_force": [case.anchor_force for case in cases],
+        "end_anchor_force": [case.end_anchor_force for case in cases],
+        "anchor_line_tension": [case.anchor_line_tension for case in cases],
+        "float_reserve": [case.float_reserve for case in cases],
+        "float_reserve_ratio": [case.reserve_ratio for case in cases],
+    }
+    sunk = submerged_state(unit.hanging, water)
+    spacing = _anchor_spacing(unit)
+    pressure = 0.5 * water.density * given.section.drag_coefficient * unit.normal_speed**2
+    joint = curtain.strengths.joint
+    scalars: dict[str, float] = {
+        "span": curtain.span,
+        "unstretched_length": curtain.length,
+        "span_ratio": curtain.span / curtain.length,
+        "skirt_length": curtain.skirt.length,
+        "surface_speed": unit.surface_speed,
+        "normal_speed": unit.normal_speed,
+        "flow_angle": unit.flow_angle,
+        "froude_number": 0.0 if deep else unit.normal_speed / math.sqrt(water.gravity * water.depth),
+        "load_ratio": pressure * curtain.skirt.length / curtain.skirt.toe_load,
+        "drowning_speed": unit.drowning_speed,
+        "joint_spacing": math.nan if joint is UNJUDGED else joint_spacing(given.section.load, joint),
+        "anchor_spacing": spacing.value,
+        "flooded_net_weight": sunk.net_weight,
+        "flooded_sinks": float(sunk.sinks),
+        "air_to_surface": sunk.air_to_surface,
+        "holding_buoyancy": sunk.holding_buoyancy,
+    }
+    area = curtain.span * given.section.effective_depth
+    formulas = [formula(area, abs(unit.normal_speed), water.density) for formula in (us_navy_load, itopf_load)]
+    lightest = mildest_class(significant_height, unit.surface_speed)
+    data = xr.Dataset(
+        {
+            **{name: ("drag_case", values) for name, values in rows.items()},
+            **{name: ((), value) for name, value in scalars.items()},
+            "planning_load": ("planning_formula", [formula.force for formula in formulas]),
+            "planning_drag_coefficient": ("planning_formula", [formula.drag_coefficient for formula in formulas]),
+            "planning_confirmed": ("planning_formula", [float(formula.confirmed) for formula in formulas]),
+        },
+        coords={"drag_case": list(DRAG_CASES), "planning_formula": [formula.name for formula in formulas]},
+        attrs={
+            "curtain_class": curtain.curtain_class,
+            "class_for_site": "none" if lightest is None else lightest.name,
+        },
+    )
+    data = labelled(data)
+    data["anchor_spacing"].attrs["governing"] = spacing.governing
+    return data
+
+
+def _speed_below(unit: LevelCurtain, statics: CurtainStatics) -> float:
+    """Return the undisturbed mean speed between toe and bed along the flow [m/s]."""
+    if not statics.toe_gap > 0.0 or math.isinf(unit.water.depth):
+        return math.nan
+    current = unit.site.current(unit.surface_speed)
+    mean = current.depth_mean(-unit.water.depth, -statics.section.toe_depth)
+    heading = unit.site.flow_heading
+    return float(mean @ np.array([math.cos(heading), math.sin(heading)]))
+
+
+def _anchor_spacing(unit: LevelCurtain) -> Limit:
+    strengths = unit.curtain.strengths
+    if all(part is UNJUDGED for part in (strengths.upper_cable, strengths.anchor_line, strengths.anchor)):
+        return Limit(math.nan, "no strength given")
+    return anchor_spacing(
+        unit.hanging,
+        unit.site,
+        unit.requirements,
+        speed=unit.surface_speed,
+        longest=20.0 * unit.curtain.span,
+        wave_tension=0.0,
+    )
+
+
+def _laws(unit: LevelCurtain) -> xr.Dataset:
+    """Return all load laws with one pressure and one line load: those of the current's mean square over the skirt."""
+    import xarray as xr
+
+    curtain, drag = unit.curtain, unit.statics.section.drag_coefficient
+    square = (unit.unit_normal_speed * unit.surface_speed) ** 2
+    pressure = 0.5 * unit.water.density * drag * square
+    line = pressure * unit.depth
+    sections = section_laws(unit.depth, curtain.skirt.toe_load, pressure, curtain.skirt.stiffness)
+    data: dict[str, Any] = {"pressure": ((), pressure), "line_load": ((), line)}
+    for name in ("effective_depth", "flare", "top_tension", "horizontal_load", "top_angle"):
+        data[f"law_{name}"] = ("section_law", [getattr(law, name) for law in sections])
+    points = [_section_points(law, curtain.skirt.toe_load / pressure) for law in sections]
+    data["law_section_x"] = (("section_law", "law_point"), [part[0] for part in points])
+    data["law_section_z"] = (("section_law", "law_point"), [part[1] for part in points])
+    coords: dict[str, Any] = {"section_law": [law.name for law in sections]}
+    if curtain.length > curtain.span:
+        plans = plan_laws(curtain.span, curtain.length, line, unit.hanging.axial_stiffness)
+        coords["plan_law"] = [law.name for law in plans]
+        for ours, theirs in (
+            ("law_plan_tension", "tension"),
+            ("law_sag", "sag"),
+            ("law_downstream_end_force", "downstream_end_force"),
+            ("law_inward_end_force", "inward_end_force"),
+        ):
+            data[ours] = ("plan_law", [getattr(law, theirs) for law in plans])
+        along = np.linspace(0.0, curtain.span, _LAW_POINTS)
+        data["law_plan_x"] = (("plan_law", "law_point"), [_plan_points(law, along, line) for law in plans])
+        data["law_plan_y"] = (("plan_law", "law_point"), [along for _ in plans])
+    return labelled(xr.Dataset(data, coords=coords))
+
+
+def _section_points(law: SectionLaw, radius: float) -> tuple[Array, Array]:
+    """Return the section of a law, x downstream and z below its top, evenly spaced in the angle or the length."""
+    if math.isnan(law.effective_depth):
+        return np.full(_LAW_POINTS, math.nan), np.full(_LAW_POINTS, math.nan)
+    share = np.linspace(0.0, 1.0, _LAW_POINTS)
+    if law.name == "rigid":
+        return law.flare * share, -law.effective_depth * share
+    if law.name == "circular":
+        turn = law.top_angle * (1.0 - share)
+        x, z = radius * (1.0 - np.cos(turn)), radius * np.sin(turn)
+    else:
+        # from the toe: height a arsinh(s/a), flare sqrt(a^2 + s^2) - a
+        s = radius * np.tan(law.top_angle) * (1.0 - share)
+        x, z = s * s / (np.hypot(radius, s) + radius), radius * np.arcsinh(s / radius)
+    return law.flare - x, z - law.effective_depth
+
+
+def _plan_points(law: PlanLaw, along: Array, line_load: float) -> Array:
+    """Return the deflection of a plan law at places along the span."""
+    span = along[-1]
+    if law.name == "rigid" or law.tension == 0.0:
+        return np.zeros_like(along)
+    centred = along - 0.5 * span
+    if law.name == "circular":
+        radius = law.tension / line_load
+        return np.sqrt(np.maximum(radius**2 - centred**2, 0.0)) - (radius - law.sag)
+    if law.name == "small sag":
+        return law.sag * (1.0 - (2.0 * centred / span) ** 2)
+    a = law.tension / line_load
+    return 2.0 * a * np.sinh(0.5 * (0.5 * span + centred) / a) * np.sinh(0.5 * (0.5 * span - centred) / a)
+
+
+def _paper(unit: LevelCurtain) -> xr.Dataset:
+    """Return equations (2) to (6) with the load of the general solution."""
+    import xarray as xr
+
+    curtain, statics = unit.curtain, unit.statics
+    load, stiffness = statics.section.load, unit.hanging.axial_stiffness
+    cable = solve_cable(curtain.span, curtain.length, load, stiffness)
+    # a cable that does not stretch must be longer than its span
+    rigid = (
+        float(solve_cable(curtain.span, curtain.length, load).tension) if curtain.length > curtain.span else math.nan
+    )
+    out = {
+        "paper_cable_tension_inextensible": rigid,
+        "paper_cable_tension": float(cable.tension),
+        "paper_sag": float(cable.sag),
+        "paper_shape_number": float(cable.shape_number),
+    }
+    names = ("chord", "paper_skirt_tension", "paper_edge_load", "paper_skirt_radius", "paper_skirt_sagitta")
+    out |= dict.fromkeys(names, math.nan)
+    chord = math.hypot(statics.section.effective_depth, statics.section.flare)
+    length = statics.section.skirt.length
+    if unit.curtain.toe == "held" and (chord < length or math.isfinite(curtain.skirt.stiffness)):
+        arc = solve_skirt_arc(chord, length, load / chord, curtain.skirt.stiffness)
+        found = (chord, arc.tension, arc.edge_load, arc.radius, arc.sagitta)
+        out |= {name: float(np.asarray(value)) for name, value in zip(names, found)}
+    return labelled(xr.Dataset({name: ((), value) for name, value in out.items()}))
+
+
+def _even(values: tuple[Array, ...], along: Array, count: int) -> tuple[Array, ...]:
+    even = np.linspace(along[0], along[-1], count)
+    return tuple(np.interp(even, along, value) for value in values)
+
+
+def _section(unit: LevelCurtain, cases: tuple[CurtainStatics, ...]) -> xr.Dataset:
+    import xarray as xr
+
+    parts = [
+        _even((c.section.x, c.section.z, c.section.tension, c.section.angle), c.section.arc, _SECTION_POINTS)
+        for c in cases
+    ]
+    names = ("section_x", "section_z", "section_tension", "section_angle")
+    data: dict[str, Any] = {
+        name: (("drag_case", "section_point"), [part[k] for part in parts]) for k, name in enumerate(names)
+    }
+    low = -unit.water.depth if math.isfinite(unit.water.depth) else -2.0 * unit.curtain.skirt.length
+    z = np.linspace(low, 0.0, 81)
+    data["profile_z"] = ("profile_point", z)
+    data["profile_speed"] = ("profile_point", unit.site.current(unit.surface_speed).component(z, unit.curtain.normal))
+    laid = unit.curtain.skirt.length - unit.statics.section.skirt.length
+    if laid > 0.0:
+        # which way the slack part lies is not known; drawn downstream
+        start = unit.statics.section.flare
+        data["on_bed_x"] = ("bed_point", np.array([start, start + laid]))
+        data["on_bed_z"] = ("bed_point", np.full(2, -unit.water.depth))
+    return labelled(xr.Dataset(data, coords={"drag_case": list(DRAG_CASES)}))
+
+
+def _plan(unit: LevelCurtain, cases: tuple[CurtainStatics, ...]) -> xr.Dataset:
+    import xarray as xr
+
+    data: dict[str, Any] = {
+        "plan_x": (("drag_case", "plan_point"), [case.plan.x for case in cases]),
+        "plan_y": (("drag_case", "plan_point"), [case.plan.y for case in cases]),
+        "plan_angle": (("drag_case", "plan_point"), [case.plan.angle for case in cases]),
+    }
+    anchors = unit.curtain.anchors
+    if anchors is not None:
+        slope = unit.hanging.anchor_slope
+        plan = unit.statics.plan
+        down = sum(plan.downstream_end_forces)
+        along = plan.inward_end_forces[0] - plan.inward_end_forces[1]
+        size = math.hypot(down, along)
+        # the line of an inner support pulls against the resultant of both its spans
+        reach = anchors.length * math.cos(slope)
+        drop = min(anchors.length * math.sin(slope), unit.water.depth)
+        supports = np.array([0.0, unit.curtain.span])
+        data["float_x"], data["float_y"] = ("anchor", np.zeros(2)), ("anchor", supports)
+        data["float_z"] = ("anchor", np.zeros(2))
+        data["anchor_x"] = ("anchor", np.full(2, -reach * down / size))
+        data["anchor_y"] = ("anchor", supports - reach * along / size)
+        data["anchor_z"] = ("anchor", np.full(2, -drop))
+    return labelled(xr.Dataset(data, coords={"drag_case": list(DRAG_CASES)}))
+
+
+def statics_notices(unit: LevelCurtain, significant_height: float) -> tuple[Notice, ...]:
+    """Return where the curtain at rest leaves practice, its class, or the range of its formulas."""
+    statics, curtain = unit.statics, unit.curtain
+    notices = list(check_statics(statics, abs(unit.normal_speed), unit.water))
+    if unit.site.on_bed:
+        notices += check_on_bed(statics, unit.water)
+    if curtain.curtain_class:
+        strength = curtain.strengths.sheet
+        notices += check_class(
+            curtain_class(curtain.curtain_class),
+            significant_height,
+            unit.surface_speed,
+            statics,
+            curtain.toe_chain if math.isfinite(curtain.toe_chain) else curtain.skirt.toe_load / unit.water.gravity,
+            strength.capacity,
+        )
+    notices += check_site_class(significant_height, unit.surface_speed)
+    return tuple(notices)
+
+
+def statics_checks(unit: LevelCurtain) -> tuple[IdentityCheck, ...]:
+    """Return the identities of the curtain at rest: equilibrium in section and plan, length, top."""
+    statics = unit.statics
+    section, plan = statics.section, statics.plan
+    current = unit.site.current(unit.surface_speed)
+    name = unit.name
+    checks = [
+        IdentityCheck(
+            f"{name}: the section hangs from its top", section.residual, 1e-9, "height of the top, over the length"
+        ),
+        IdentityCheck(
+            f"{name}: equilibrium of the section",
+            _section_miss(unit, current),
+            2e-3,
+            "load of the current over the drawn shape = forces at top and toe",
+        ),
+        IdentityCheck(
+            f"{name}: length of the curtain in plan",
+            abs(float(plan.arc[-1]) / (plan.length * (1.0 + plan.strain)) - 1.0),
+            1e-9,
+            "arc = l (1 + T/EA)",
+        ),
+        IdentityCheck(
+            f"{name}: the curtain ends at its supports",
+            math.hypot(float(plan.x[-1]), float(plan.y[-1]) - plan.span) / plan.span,
+            1e-9,
+            "last point = second support",
+        ),
+        IdentityCheck(f"{name}: equilibrium of the floats", _float_miss(statics), 1e-12, "sum of vertical forces = 0"),
+    ]
+    return tuple(checks)
+
+
+def _section_miss(unit: LevelCurtain, current: CurrentProfile) -> float:
+    """Integrate the load of the current over the drawn section and compare with what top and toe hold."""
+    section = unit.statics.section
+    x, z = section.x, section.z
+    pressure = section.drag_coefficient * sample_pressure(
+        current, unit.site.flow_heading, np.maximum(0.5 * (z[1:] + z[:-1]), -unit.water.depth), unit.water.density
+    )
+    step = np.hypot(np.diff(x), np.diff(z))
+    down = -np.diff(z) / step
+    load = pressure * step if unit.curtain.law == "uniform_normal" else pressure * step * down * np.abs(down)
+    # normal to the sheet, downstream
+    return abs(float(np.sum(load * down)) / section.load - 1.0)
+
+
+def _float_miss(statics: CurtainStatics) -> float:
+    curtain = statics.curtain
+    lines = statics.anchor_line_tension * math.sin(curtain.anchor_slope) / curtain.span
+    total = curtain.floats.weight + statics.section.top_pull + lines + statics.float_reserve
+    return abs(total / curtain.floats.buoyancy - 1.0)
+
+
+def require_current(unit: LevelCurtain) -> None:
+    """Refuse what only a current gives.
+
+    Raises
+    ------
+    InputError
+        Without a current.
+    """
+    if unit.surface_speed == 0.0:
+        raise InputError("there is no current", path="current", remedy="give its speed and heading")
