@@ -15,6 +15,7 @@ from moyai.report.formatting import format_number, format_quantity, trimmed
 Array = NDArray[np.float64]
 
 _FLOW_ARROWS = 9
+_MOST_UPSTREAM = 0.55  # of the span: anchor lines that reach farther are cut, or the plan would not fit a page
 
 
 def metres(length: float) -> str:
@@ -57,7 +58,7 @@ def drawings(level: CurtainLevel) -> list[Drawing]:
             "plan-drawing",
             "Plan",
             plan_drawing(level),
-            "To scale, seen from above; axes of the curtain: y along the span, x downstream.",
+            "To scale, seen from above; y along the span, x downstream. Long anchor lines are cut.",
         ),
         ("anchor-drawing", "Section with an anchor line", anchor_drawing(level), "To scale; the line drawn straight."),
     ):
@@ -102,7 +103,7 @@ def section_drawing(level: CurtainLevel) -> str:
     sketch.text(float(shape[0, 0]), float(shape[0, 1]), "float, upper cable", shift=(0.0, -14.0))
     sketch.dot(toe_x, toe_z, 5.0, "marker")
     words = {"held": "toe with lower cable", "on the bed": "toe on the bed"}.get(level.toe, "toe, ballast")
-    sketch.text(toe_x, toe_z, words, shift=(12.0, 4.0 if toe_z + depth > 0.05 * depth else -8.0), anchor="start")
+    sketch.text(toe_x, toe_z, words, shift=(-12.0, 4.0 if toe_z + depth > 0.05 * depth else -8.0), anchor="end")
     _section_dimensions(sketch, level, (toe_x, toe_z), right)
     return sketch.svg()
 
@@ -122,9 +123,9 @@ def _section_dimensions(sketch: Sketch, level: CurtainLevel, toe: tuple[float, f
     speed = level.given("toe_speed")
     if math.isfinite(speed) and math.isfinite(gap) and gap > 0.03 * level.depth:
         y = sketch.pz(-level.depth + 0.5 * gap)
-        x = sketch.px(toe_x) - 66.0
-        sketch.arrow((x, y), (x + 56.0, y), "flow")
-        sketch._label(x - 6.0, y + 4.0, f"{format_quantity(speed, 'm/s')} under the toe", "end")
+        x = sketch.px(toe_x)
+        sketch.arrow((x - 28.0, y), (x + 28.0, y), "flow")
+        sketch._label(x, y + 18.0, f"{format_quantity(speed, 'm/s')} under the toe", "middle")
     if abs(toe_x) > 0.05 * level.depth:
         sketch.dimension(0.0, toe_z, toe_x, toe_z, f"flare {metres(abs(toe_x))}", offset=34.0 if toe_x else 0.0)
     left = sketch.x0 + 0.05 * (right - sketch.x0)
@@ -167,9 +168,8 @@ def plan_drawing(level: CurtainLevel) -> str:
     others = [other for case in ("low", "high") if (other := plan_curve(level, case)) is not None]
     lines = anchor_lines(level)
     span = float(np.ptp(shape[:, 1]))
-    everything = np.concatenate(
-        [_across(np.concatenate([shape, *others])), *(_across(np.array(pair)[:, :2]) for pair in lines)]
-    )
+    tops = [_cut(_across(np.array(pair)[:, :2]), _MOST_UPSTREAM * span) for pair in lines]
+    everything = np.concatenate([_across(np.concatenate([shape, *others])), *(ends for ends, _ in tops)])
     pad = 0.09 * span
     box = (
         float(everything[:, 0].min()) - 2.2 * pad,
@@ -179,17 +179,16 @@ def plan_drawing(level: CurtainLevel) -> str:
     )
     sketch = Sketch(box, margin=(10.0, 14.0, 10.0, 44.0), title="Plan of the curtain between its supports")
     sketch.rectangle(box[0], box[3], box[1], box[2], "water")
-    for start, end in lines:
-        ends = _across(np.array([start[:2], end[:2]]))
+    for (ends, whole), (start, end) in zip(tops, lines, strict=True):
         sketch.path(ends, "mooring")
-        sketch.rectangle(
-            ends[1, 0] - 5 / sketch.scale,
-            ends[1, 1] + 5 / sketch.scale,
-            ends[1, 0] + 5 / sketch.scale,
-            ends[1, 1] - 5 / sketch.scale,
-            "anchor",
-        )
-        sketch.text(float(ends[1, 0]), float(ends[1, 1]), "anchor", shift=(0.0, -10.0))
+        x, y = float(ends[1, 0]), float(ends[1, 1])
+        if whole:
+            size = 5 / sketch.scale
+            sketch.rectangle(x - size, y + size, x + size, y - size, "anchor")
+            sketch.text(x, y, "anchor", shift=(0.0, -10.0))
+        else:
+            reach = float(math.hypot(*(end[:2] - start[:2])))
+            sketch.text(x, y, f"to its anchor, {metres(reach)} from the float", shift=(0.0, -8.0))
     chord = _across(shape[[0, -1]])
     sketch.path(chord, "chord")
     for other in others:
@@ -199,6 +198,14 @@ def plan_drawing(level: CurtainLevel) -> str:
         sketch.dot(float(x), float(y), 7.0, "buoy")
     _plan_dimensions(sketch, level, shape, box)
     return sketch.svg()
+
+
+def _cut(ends: Array, most: float) -> tuple[Array, bool]:
+    """Return an anchor line as far as it fits the drawing, and whether that is all of it."""
+    away = float(np.abs(ends[1, 1] - ends[0, 1]))
+    if away <= most:
+        return ends, True
+    return np.array([ends[0], ends[0] + (ends[1] - ends[0]) * most / away]), False
 
 
 def _plan_dimensions(sketch: Sketch, level: CurtainLevel, shape: Array, box: tuple[float, float, float, float]) -> None:

@@ -104,8 +104,10 @@ class Component:
     sources: tuple[str, str]
 
     def share(self, part: str) -> float:
-        """Return the utilisation by one part of the load alone, NaN where not known."""
+        """Return the utilisation by one part of the load alone, NaN where not known or where it does not count."""
         whole = self.loads["governing"]
+        if part in ("wave", "impact") and not whole > self.loads["steady"] * (1.0 + 1e-9):
+            return math.nan
         return self.utilisation * self.loads[part] / whole if whole > 0.0 else math.nan
 
 

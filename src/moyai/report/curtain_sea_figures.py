@@ -160,21 +160,17 @@ def anchor_against_height(level: CurtainLevel) -> Figure | None:
         for row, name in enumerate(group.labels("sea"))
         if np.isfinite(load[row]).any()
     ]
-    marks = []
-    own, at = group.real("rope_tension", "sea"), group.real("significant_height", "sea")
-    if own is not None and at is not None:
-        marks = [
-            Mark(name, x=float(at[row]), y=float(own[row]) * factor) for row, name in enumerate(group.labels("sea"))
-        ]
+    own, at = group.real("rope_tension_pretensioned", "sea"), group.real("significant_height", "sea")
+    if own is not None and at is not None and np.isfinite(own).any():
+        series.append(Series("the sea states", {"height": at}, own * factor, tone=6, style="points"))
     return (
         Figure(
             key(level, "anchor-height"),
             "Rope tension by waves against their height",
             (Abscissa("height", "significant wave height", "m"),),
-            (Panel("rise of the rope tension", unit, from_zero=True),),
+            (Panel("rise above the pretension", unit, from_zero=True),),
             tuple(series),
-            "Energy model, period and direction of the sea state kept; without pretension, as the paper.",
-            tuple(mark for mark in marks if mark.known),
+            "Energy model, above the pretension; period and direction of each sea state kept.",
             height=310,
         )
         if series
@@ -201,7 +197,7 @@ def anchor_against_direction(level: CurtainLevel) -> Figure | None:
         key(level, "anchor-direction"),
         "Rope tension against the direction of the waves",
         (Abscissa("angle", "angle from the normal of the curtain", "deg"),),
-        (Panel("rise of the rope tension", unit, from_zero=True),),
+        (Panel("rise above the pretension", unit, from_zero=True),),
         tuple(series),
         f"Sea state {group.labels('sea')[row]}.",
         tuple(mark for mark in marks if mark.known),
@@ -225,7 +221,7 @@ def anchor_against_velocity(level: CurtainLevel) -> Figure | None:
         key(level, "anchor-velocity"),
         "Rope tension against squared velocity",
         (Abscissa("square", "squared velocity over the curtain's depth, at the crest", "m2/s2"),),
-        (Panel("rise of the rope tension", unit, from_zero=True),),
+        (Panel("rise above the pretension", unit, from_zero=True),),
         tuple(series),
         "One point a direction rule: height times cos², height times cos, no reduction.",
         height=310,

@@ -18,6 +18,7 @@ from moyai.report.formatting import DASH, display_unit, format_number, format_pe
 from moyai.report.general_page import notice_blocks
 
 MOST_KEY_FIGURES = 10
+MOST_NOTICES = 4
 
 
 def summary_blocks(result: Result, levels: tuple[CurtainLevel, ...]) -> tuple[Block, ...]:
@@ -33,12 +34,13 @@ def summary_blocks(result: Result, levels: tuple[CurtainLevel, ...]) -> tuple[Bl
     tuple of Block
     """
     worst = governing_component(levels)
-    blocks: list[Block] = [*notice_blocks(result)]
+    notices = notice_blocks(result)
+    many = sum(notice.severity != "information" for notice in result.notices) > MOST_NOTICES
     sentence = _governing_sentence(worst, len(levels))
-    if sentence:
-        blocks.insert(0, Paragraph(sentence))
+    blocks: list[Block] = [Paragraph(sentence)] if sentence else []
+    blocks += () if many else notices
     items = [
-        *_utilisation_figure(worst),
+        *(_utilisation_figure(worst) if levels else ()),
         *_limit_figures(levels),
         *_depth_figures(levels),
         *_tension_figures(levels),
@@ -52,6 +54,8 @@ def summary_blocks(result: Result, levels: tuple[CurtainLevel, ...]) -> tuple[Bl
     table = _components_table(levels, worst)
     if table is not None:
         blocks.append(table)
+    # a long list of warnings would push the numbers off the first page
+    blocks += notices if many else ()
     return tuple(blocks)
 
 

@@ -45,9 +45,11 @@ def statics(factor: float) -> xr.Dataset:
     }  # fmt: skip
     cases = {
         "drag_coefficient": ([1.0, 1.3, 1.7], "1"), "blockage": ([0.5, 0.52, 0.55], "1"),
-        "effective_depth": (4.6 - 0.5 * spread, "m"), "flare": (1.6 * spread, "m"), "toe_depth": (4.6 - 0.5 * spread, "m"),
+        "effective_depth": (4.6 - 0.5 * spread, "m"), "flare": (1.6 * spread, "m"),
+        "toe_depth": (4.6 - 0.5 * spread, "m"),
         "toe_gap": (DEPTH - 4.6 + 0.5 * spread, "m"), "toe_speed": (0.5 * spread, "m/s"),
-        "toe_speed_ratio": (1.8 * spread, "1"), "section_load": (260 * spread, "N/m"), "top_load": (140 * spread, "N/m"),
+        "toe_speed_ratio": (1.8 * spread, "1"), "section_load": (260 * spread, "N/m"),
+        "top_load": (140 * spread, "N/m"),
         "toe_hold": (120 * spread, "N/m"), "top_pull": (300 * spread, "N/m"), "sheet_tension": (310 * spread, "N/m"),
         "cable_tension": (5200 * spread, "N"), "upper_tension": (2800 * spread, "N"),
         "lower_tension": (2400 * spread, "N"), "sag": (5.6 * spread**0.1, "m"), "strain": (2e-4 * spread, "1"),
@@ -195,7 +197,8 @@ def waves(factor: float) -> dict[str, xr.Dataset]:
         {
             "velocity_amplitude": v("period", 0.1 * period, "m/s"), "excursion": v("period", 0.032 * period**2, "m"),
             "threshold_excursion": v("period", 10.2 + 0 * period, "m"), "maximum_tension": v("period", peak, "N"),
-            "first_contact_tension": v("period", 0.98 * peak, "N"), "later_contact_tension": v("period", 0.4 * peak, "N"),
+            "first_contact_tension": v("period", 0.98 * peak, "N"),
+            "later_contact_tension": v("period", 0.4 * peak, "N"),
             "contact_speed": v("period", 0.1 * period, "m/s"), "contact_count": v("period", [0, 30, 25, 19]),
             "first_contact_count": v("period", [0, 10, 10, 10]), "closed_form_tension": v("period", 1.05 * peak, "N"),
         },
@@ -213,7 +216,8 @@ def waves(factor: float) -> dict[str, xr.Dataset]:
         {
             "significant_height": v((), 1.2, "m"), "maximum_tension": v((), tension.max(), "N"),
             "contact_count": v((), 60), "first_contact_count": v((), 41), "contacts_per_hour": v((), 360.0, "1/h"),
-            "weibull_shape": v((), 1.6), "weibull_scale": v((), 8e3 * factor, "N"), "weibull_threshold": v((), 2e3, "N"),
+            "weibull_shape": v((), 1.6), "weibull_scale": v((), 8e3 * factor, "N"),
+            "weibull_threshold": v((), 2e3, "N"),
             "contact_tension_sorted": v("contact", load, "N"), "exceedance": v("contact", exceedance),
             "fitted_exceedance": v("contact", np.exp(-(((load - 2e3) / (8e3 * factor)) ** 1.6))),
         }

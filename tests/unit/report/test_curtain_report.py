@@ -1,0 +1,274 @@
+"""The report of a curtain as files: whole, with the numbers of the result, sensible with whatever is absent."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import synthetic_curtain
+import xarray as xr
+
+from moyai.core.results import Result
+from moyai.report.curtain_drawing import plan_drawing, section_drawing
+from moyai.report.curtain_figures import utilisation_bars
+from moyai.report.curtain_limits import colour, operating_map
+from moyai.report.curtain_page import compose
+from moyai.report.curtain_reading import components, governing_component, water_levels
+from moyai.report.curtain_snap import snap_animation
+from moyai.report.document import Animation, Document, Drawing, Figure, KeyFigures, Paragraph, Table
+from moyai.report.encoding import figure_csv, table_csv
+from moyai.report.html import render_html
+from moyai.report.writer import compose_document, write_report
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return synthetic_curtain.build()
+
+
+@pytest.fixture(scope="module")
+def document(result: Result) -> Document:
+    return compose(result)
+
+
+def without(result: Result, *paths: str) -> Result:
+    kept = {
+        node.path: node.to_dataset(inherit=False)
+        for node in result.tree.subtree
+        if not any(node.path == path or node.path.startswith(path + "/") for path in paths)
+    }
+    tree = xr.DataTree.from_dict(kept)
+    return replace(result, tree=tree)
+
+
+def named(document: Document, kind: type, title: str) -> list:
+    return [block for block in document.blocks() if isinstance(block, kind) and block.title.startswith(title)]
+
+
+def test_files_are_complete_and_offline(result: Result, tmp_path: Path) -> None:
+    written = write_report(result, tmp_path)
+    page = written[0].read_text(encoding="utf-8")
+    assert not re.findall(r'(?:src|href)="(?!#|data:)[^"]*"', page)
+    assert "curtain-snap" in page and "MOYAI.painters" in page
+    names = {path.stem for path in written if path.suffix == ".csv"}
+    assert {"governing-loads", "hwl-loads", "lwl-statics", "hwl-impact-models-table", "hwl-operating-limits"} <= names
+    assert compose_document(result).title == "Curtain at the outfall"
+
+
+@pytest.mark.slow
+def test_pages_for_paper(result: Result, tmp_path: Path) -> None:
+    written = write_report(result, tmp_path, pdf=True)
+    assert written[1].read_bytes().startswith(b"%PDF") and written[1].stat().st_size > 100_000
+
+
+def test_first_page_names_the_governing_component(result: Result, document: Document) -> None:
+    worst = governing_component(water_levels(result))
+    assert worst is not None
+    level, entry = worst
+    used = max(float(np.nanmax(result.tree[f"/{name}/loads"]["utilisation"])) for name in ("HWL", "LWL"))
+    assert entry.utilisation == pytest.approx(used)
+    first = document.sections[0].blocks[0]
+    assert isinstance(first, Paragraph)
+    assert entry.name in first.text and level.name in first.text and "beyond its limit" in first.text
+    keys = next(block for block in document.sections[0].blocks if isinstance(block, KeyFigures))
+    labels = [item.label for item in keys.items]
+    for wanted in ("Largest utilisation", "Holds up to a current of", "Holds up to a wave height of", "Effective depth",
+                   "Toe gap", "Snap, both cables", "Reserve of the floats"):  # fmt: skip
+        assert wanted in labels
+    held = next(item for item in keys.items if item.label == "Holds up to a wave height of")
+    limits = result.tree["/HWL/limits"]
+    assert held.text.startswith(f"{float(np.interp(0.3, limits['speed'], limits['limit_height'])):.2f}")
+
+
+def test_load_table_is_the_result(result: Result, document: Document) -> None:
+    table = named(document, Table, "Loads of each component")[0]
+    rows = list(csv.DictReader(io.StringIO(table_csv(table))))
+    loads = result.tree["/HWL/loads"]
+    for row, name in zip(rows, loads["component"].values, strict=True):
+        factor = {"kN": 1e3, "N": 1.0, "N/m": 1.0, "kN/m": 1e3}[row["Unit"]]
+        for column, variable in (
+            ("Steady", "steady_load"),
+            ("Added by waves", "wave_load"),
+            ("Added by the impact", "impact_load"),
+            ("Governing", "governing_load"),
+            ("Capacity", "capacity"),
+        ):
+            value = float(loads[variable].sel(component=name))
+            shown = float(row[column]) * factor if row[column] else math.nan
+            assert shown == pytest.approx(value, rel=1e-6, nan_ok=True), (name, column)
+        assert row["Governed by"] == str(loads["governing"].sel(component=name).values)
+    worst = int(np.nanargmax(loads["utilisation"]))
+    assert table.emphasised == (worst,)
+
+
+def test_shares_add_up_to_the_utilisation(result: Result) -> None:
+    level = water_levels(result)[0]
+    for entry in components(level):
+        parts = [entry.share("steady"), *(entry.share(part) for part in ("wave", "impact"))]
+        if math.isfinite(entry.utilisation):
+            added = np.nanmax([0.0, *[part for part in parts[1:] if math.isfinite(part)]])
+            assert parts[0] + added == pytest.approx(entry.utilisation, rel=1e-9)
+    bars = utilisation_bars(level)
+    assert bars is not None and "joint" not in bars.categories  # no strength is given
+
+
+def test_float_that_waves_do_not_judge_shows_its_steady_share_alone(result: Result) -> None:
+    changed = result.tree["/HWL/loads"].to_dataset()
+    changed["impact_load"].loc[{"component": "float"}] = 5e3
+    tree = result.tree.copy()
+    tree["/HWL/loads"] = xr.DataTree(changed)
+    entry = next(e for e in components(water_levels(replace(result, tree=tree))[0]) if e.name == "float")
+    assert math.isnan(entry.share("impact"))
+    assert entry.share("steady") == pytest.approx(entry.utilisation)
+
+
+def test_drawings_are_to_scale(result: Result) -> None:
+    """The span in pixels over the sag in pixels is that of the result; the skirt ends at its toe."""
+    level = water_levels(result)[0]
+    svg = plan_drawing(level)
+    drawn = re.search(r'class="sheet" d="M([^"]*)"', svg)
+    assert drawn is not None
+    points = np.array([[float(v) for v in pair.split(",")] for pair in drawn[1].replace("L", "").split()])
+    plan = result.tree["/HWL/plan"]
+    x, y = (plan[name].sel(drag_case="given").values for name in ("plan_x", "plan_y"))
+    assert np.ptp(points[:, 0]) / np.ptp(points[:, 1]) == pytest.approx(np.ptp(y) / np.ptp(x), rel=2e-3)
+    assert points[0, 1] < points[len(points) // 2, 1], "downstream is drawn downwards"
+    section = section_drawing(level)
+    assert "effective depth 4.1 m (3.95 to 4.2 m)" in section and "under the toe" in section
+    assert "toe gap 3.9 m" in section
+    skirt = re.search(r'class="sheet" d="M([^"]*)"', section)
+    assert skirt is not None
+    pixels = np.array([[float(v) for v in pair.split(",")] for pair in skirt[1].replace("L", "").split()])
+    group = result.tree["/HWL/section"]
+    x, z = (group[name].sel(drag_case="given").values for name in ("section_x", "section_z"))
+    assert np.ptp(pixels[:, 0]) / np.ptp(pixels[:, 1]) == pytest.approx(np.ptp(x) / np.ptp(z), rel=3e-3)
+
+
+def test_long_anchor_lines_are_cut(result: Result) -> None:
+    tree = result.tree.copy()
+    plan = tree["/HWL/plan"].to_dataset()
+    plan["anchor_x"] = plan["anchor_x"] * 0.0 - 200.0
+    tree["/HWL/plan"] = xr.DataTree(plan)
+    svg = plan_drawing(water_levels(replace(result, tree=tree))[0])
+    assert "to its anchor, 200 m from the float" in svg
+    size = [float(value) for value in re.search(r'viewBox="0 0 (\S+) (\S+)"', svg).groups()]  # type: ignore[union-attr]
+    assert size[1] < size[0]
+
+
+def test_fixed_supports_have_no_anchor_drawing() -> None:
+    document = compose(synthetic_curtain.build(anchored=False))
+    titles = [block.title for block in document.blocks() if isinstance(block, Drawing)]
+    assert "Plan" in titles and "Section with an anchor line" not in titles
+
+
+def test_map_shows_every_cell(result: Result) -> None:
+    level = water_levels(result)[0]
+    drawing = operating_map(level)
+    assert drawing is not None
+    limits = result.tree["/HWL/limits"]
+    assert drawing.svg.count("<rect") == limits["limit_utilisation"].size
+    for value, name in zip(
+        limits["limit_utilisation"].values.ravel(), limits["limit_component"].values.ravel(), strict=True
+    ):
+        assert f"{name}</title>" in drawing.svg
+        assert colour(float(value)) in drawing.svg
+    shades = [colour(v) for v in np.linspace(0, 1, 9)], [colour(v) for v in np.linspace(1.001, 3, 9)]
+    assert len(set(shades[0])) == 9 and len(set(shades[1])) == 9 and not set(shades[0]) & set(shades[1])
+    red, blue = (int(shade[1:3], 16) - int(shade[5:7], 16) for shade in (colour(1.2), colour(0.9)))
+    assert red > 0 > blue
+
+
+def test_frames_of_the_snap_come_back(result: Result) -> None:
+    """What the page unpacks is the shape of the result within a pixel, opened at the largest tension."""
+    level = water_levels(result)[0]
+    animation = snap_animation(level)
+    assert isinstance(animation, Animation)
+    scene = json.loads(json.dumps(animation.scene))
+    snap = result.tree["/HWL/impact/snap"]
+    at = int(np.argmax(snap["frame_tension"].values))
+    assert scene["start"] == pytest.approx(float(snap["frame_time"][at]))
+    assert scene["window"][0] < float(snap.attrs["taut_time"]) < scene["start"] < scene["window"][1]
+    assert list(scene["extents"]) == ["Section and plan", "Section", "Plan"]
+    box = scene["plan_box"]
+    assert box[0] < 0.0 and box[1] > synthetic_curtain.SPAN
+    assert -box[2] > float(snap["frame_plan_x"].max())
+    assert animation.still.startswith("<svg") and "Plan" not in animation.still[:5]
+
+
+def test_section_stands_where_mid_span_is(result: Result) -> None:
+    """Frames stored from the float are carried downstream with mid-span."""
+    level = water_levels(result)[0]
+    animation = snap_animation(level)
+    assert animation is not None
+    reach = float(np.ptp(result.tree["/HWL/impact/snap"]["frame_position"].values))
+    box = animation.scene["section_box"]
+    assert box[1] - box[0] > reach
+
+
+def test_figures_hold_the_result(result: Result, document: Document) -> None:
+    figure = named(document, Figure, "Exceedance of the snaps")[0]
+    rows = list(csv.reader(io.StringIO(figure_csv(figure))))
+    storm = result.tree["/HWL/waves/storm"]
+    found = np.array([[float(cell) for cell in row[:2]] for row in rows[1:] if row[0] and row[1]])
+    assert found[:, 1] * 1e3 == pytest.approx(storm["contact_tension_sorted"].values, rel=1e-6)
+    models = named(document, Figure, "Tension of both cables by each impact model")[0]
+    drawn = np.nansum(np.nan_to_num([item.y for item in models.series]), axis=0)
+    assert drawn * 1e3 == pytest.approx(result.tree["/HWL/impact"]["impact_tension"].values)
+    assert len(models.series) == 2, "the model that does not count is told apart"
+    assert len(named(document, Figure, "Record about the largest snap")) == 2  # one a water level
+
+
+@pytest.mark.parametrize(
+    "absent",
+    ["impact", "waves", "anchor_loads", "limits", "loads", "section", "plan", "statics", "statics_laws", "impact/snap"],
+)
+def test_any_part_may_be_absent(result: Result, absent: str) -> None:
+    document = compose(without(result, f"/HWL/{absent}", f"/LWL/{absent}"))
+    page = render_html(document)
+    assert "NaN" not in page.split("report-data")[1].split("</script>")[0]
+    assert document.sections[0].title == "Summary"
+
+
+def test_nothing_but_the_case() -> None:
+    empty = Result(xr.DataTree.from_dict({"/": xr.Dataset(attrs={"structure": "curtain", "title": "Empty"})}), "failed")
+    document = compose(empty)
+    assert "no governing numbers" in render_html(document)
+
+
+def test_many_warnings_stand_below_the_numbers(result: Result) -> None:
+    many = replace(result, notices=result.notices * 6)
+    blocks = compose(many).sections[0].blocks
+    kinds = [type(block).__name__ for block in blocks]
+    assert kinds.index("KeyFigures") < kinds.index("NoticeBlock")
+    few = [type(block).__name__ for block in compose(result).sections[0].blocks]
+    assert few.index("NoticeBlock") < few.index("KeyFigures")
+
+
+def test_flume_record_is_shown(result: Result) -> None:
+    time = np.linspace(0.0, 10.0, 400)
+    spike = np.exp(-(((time - 4.0) / 0.1) ** 2)) * 8.0 + np.where(time > 4.0, 3.0, 0.0)
+    tree = result.tree.copy()
+    tree["/record"] = xr.DataTree(
+        xr.Dataset(
+            {
+                "record_tension": (("cable", "time"), np.stack([spike, 1.1 * spike, 2.1 * spike]), {"units": "N"}),
+                "taut_time": ("cable", [3.8, 3.8, 3.8], {"units": "s"}),
+                "peak_tension": ("cable", [9.5, 10.4, 19.9], {"units": "N"}),
+                "plateau_tension": ("cable", [3.0, 3.3, 6.3], {"units": "N"}),
+                "impact_tension": ("cable", [6.5, 7.1, 13.6], {"units": "N"}),
+            },
+            {"cable": ["upper", "lower", "sum"], "time": ("time", time, {"units": "s"})},
+        )
+    )
+    document = compose(replace(result, tree=tree))
+    figure = named(document, Figure, "Record of the flume")[0]
+    assert [item.label for item in figure.series] == ["upper", "lower"]
+    table = named(document, Table, "Readings of the flume record")[0]
+    assert list(table.columns[0].values) == ["upper", "lower", "sum"]
