@@ -212,7 +212,8 @@ def _pareto(excess: Array) -> tuple[float, float]:
     border = -mean / largest
     grid = np.concatenate([border * (1.0 - np.geomspace(1e-4, 1.0, 30, endpoint=False)), np.geomspace(1e-3, 20.0, 40)])
     grid.sort()
-    values = np.array([cost(float(ratio)) for ratio in grid])
+    shapes = np.log1p(np.outer(grid / mean, excess)).mean(axis=1)
+    values = np.where(shapes > -0.5, np.log(np.abs(shapes * mean / grid)) + shapes + 1.0, 1e9)
     best = int(np.argmin(values))
     low, high = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
     found = float(minimize_scalar(cost, bounds=(low, high), method="bounded", options={"xatol": 1e-9}).x)

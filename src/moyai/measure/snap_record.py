@@ -200,6 +200,13 @@ def read_snap(
     rough = _flank(total, largest)
     plateau, error, slope = _level(t, total, largest, int(inside[-1]))
     peak, peak_time = _top(t, total, largest, rough, noise)
+    if plateau < -0.1 * peak - 4.0 * noise:
+        raise InputError(
+            f"the plateau of {plateau:.4g} N is negative beside a peak of {peak:.4g} N",
+            path="tension",
+            allowed="tensions positive",
+            remedy="turn the sign of the gauge, check the intervals called unloaded, or let the record run to the plateau",
+        )
     taut = _taut(t, total, largest, peak_time, rough, inside[0])
     start = _plateau_start(t, total, largest, int(inside[-1]), plateau, peak, noise)
     released = _release(t, total, taut, noise, inside[0]) if release_time is None else float(release_time)
