@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from moyai.cli.measuring_forces import forces
+from moyai.cli.measuring_records import records
 
 measure = typer.Typer(
     name="measure",
@@ -13,3 +14,4 @@ measure = typer.Typer(
     help="Turn records and pictures into statistics and coefficients.",
 )
 measure.command()(forces)
+measure.command()(records)

@@ -41,6 +41,8 @@ class QualityOptions:
     clip_samples : int
         So many identical values in a row at the highest or lowest value of the block, met at least twice there, are
         clipped; 0 looks for none.
+    clip_lowest : bool
+        Look for clipping at the lowest value too; not where a channel rests there by nature (a slack line).
     lowest, highest : float
         Range of the instrument [unit of the channel].
     drift_share : float
@@ -56,6 +58,7 @@ class QualityOptions:
     spike_least: float = 0.0
     flat_seconds: float = 10.0
     clip_samples: int = 3
+    clip_lowest: bool = True
     lowest: float = -math.inf
     highest: float = math.inf
     drift_share: float = math.inf
@@ -200,7 +203,7 @@ def find_clipped(values: FloatArray, options: QualityOptions) -> NDArray[np.bool
     clipped = np.zeros(values.size, dtype=bool)
     if options.clip_samples < 1 or not np.isfinite(values).any():
         return clipped
-    for level in (np.nanmax(values), np.nanmin(values)):
+    for level in (np.nanmax(values), np.nanmin(values))[: 2 if options.clip_lowest else 1]:
         first, last = _runs(values == level)
         long = (last - first) >= options.clip_samples
         if int(long.sum()) >= 2:

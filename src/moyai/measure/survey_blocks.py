@@ -1,0 +1,337 @@
+"""One block of a survey: from the samples of the loggers to its figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.measure.currents import block_means, components, heading_of_bearing
+from moyai.measure.directional import directional_spectrum, fourier_directions
+from moyai.measure.irregular_reflection import separate_irregular, transmission
+from moyai.measure.quality import BlockMoments, Finding, check_record, moments_of
+from moyai.measure.record import FloatArray, Record
+from moyai.measure.sensors import Sensor, surface_elevation
+from moyai.measure.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.measure.survey import ReflectionUse, Survey
+from moyai.measure.waves import STATISTICS, Waves, find_waves
+
+
+@dataclass(frozen=True, eq=False)
+class BlockResult:
+    """Figures of a block.
+
+    Parameters
+    ----------
+    index : int
+    start : float
+        [s].
+    moments : dict
+        By channel, for drift and unit slips.
+    channels : dict
+        By channel: mean, deviation, smallest, largest, share of sound samples.
+    counts : dict
+        Flagged samples by channel and kind.
+    findings : tuple of Finding
+    gaps : tuple of (float, float)
+    lacking, samples : int
+        Samples that gaps lack, and those there are (of the first logger).
+    waves : dict
+        By channel: statistics of waves.
+    cut : dict
+        By channel: the waves themselves.
+    spectra : dict
+        By channel: (frequency, density, degrees of freedom, figures).
+    directions, current, reflection : dict
+        Figures by name.
+    tensions : dict
+        By channel: figures by name.
+    notices : tuple of Notice
+    """
+
+    index: int
+    start: float
+    moments: dict[str, BlockMoments]
+    channels: dict[str, tuple[float, ...]]
+    counts: dict[str, dict[str, int]]
+    findings: tuple[Finding, ...]
+    gaps: tuple[tuple[float, float], ...]
+    lacking: int
+    samples: int
+    waves: dict[str, dict[str, float]] = field(default_factory=dict)
+    cut: dict[str, Waves] = field(default_factory=dict)
+    spectra: dict[str, tuple[FloatArray, FloatArray, float, dict[str, float]]] = field(default_factory=dict)
+    directions: dict[str, float] = field(default_factory=dict)
+    current: dict[str, float] = field(default_factory=dict)
+    reflection: dict[str, float] = field(default_factory=dict)
+    tensions: dict[str, dict[str, float]] = field(default_factory=dict)
+    notices: tuple[Notice, ...] = ()
+
+
+class _Samples:
+    """Channels of one block, whichever logger they come from."""
+
+    def __init__(self, records: Sequence[Record | None]) -> None:
+        self.records = [record for record in records if record is not None and len(record)]
+        self._found: dict[str, tuple[FloatArray, FloatArray]] = {}
+
+    def record_of(self, name: str) -> Record | None:
+        return next((record for record in self.records if name in record.names), None)
+
+    def get(self, name: str) -> tuple[FloatArray, FloatArray] | None:
+        """Return instants and sound values, ``None`` where the logger was silent."""
+        record = self.record_of(name)
+        if record is None:
+            return None
+        if name not in self._found:
+            self._found[name] = (record.time, record.sound(name))
+        return self._found[name]
+
+
+def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record | None]) -> BlockResult:
+    """Return the figures of one block.
+
+    Parameters
+    ----------
+    survey : Survey
+    index : int
+        Number of the block.
+    origin : float
+        Start of block 0 [s].
+    records : sequence of Record or None
+        One a logger.
+    """
+    start = origin + index * survey.block_length
+    checked: list[Record | None] = []
+    counts: dict[str, dict[str, int]] = {}
+    findings: list[Finding] = []
+    gaps: list[tuple[float, float]] = []
+    channels: dict[str, tuple[float, ...]] = {}
+    moments: dict[str, BlockMoments] = {}
+    lacking = samples = 0
+    for place, record in enumerate(records):
+        if record is None or len(record) == 0:
+            checked.append(None)
+            continue
+        options = {name: survey.use_of(name).quality for name in record.names}
+        quality = check_record(record, options)
+        checked.append(quality.record)
+        counts.update({name: dict(kinds) for name, kinds in quality.counts.items()})
+        findings.extend(quality.findings)
+        gaps.extend(quality.gaps)
+        if place == 0:
+            samples = len(record)
+        lacking += quality.missing_samples
+        for name in record.names:
+            found = moments_of(index, quality.record, name)
+            moments[name] = found
+            values = quality.record.sound(name)
+            known = bool(np.isfinite(values).any())
+            low = float(np.nanmin(values)) if known else math.nan
+            high = float(np.nanmax(values)) if known else math.nan
+            channels[name] = (found.mean, found.deviation, low, high, quality.share(name))
+    data = _Samples(checked)
+    notices: list[Notice] = []
+    cut, waves = _waves(survey, data, notices)
+    return BlockResult(
+        index,
+        start,
+        moments,
+        channels,
+        counts,
+        tuple(findings),
+        tuple(gaps),
+        lacking,
+        samples,
+        waves,
+        cut,
+        _spectra(survey, data, notices),
+        _directions(survey, data, notices),
+        _current(survey, data),
+        _reflection(survey, data, notices),
+        _tensions(survey, data, cut, start, notices),
+        tuple(notices),
+    )
+
+
+def _surface(survey: Survey, data: _Samples, name: str, notices: list[Notice]) -> tuple[FloatArray, FloatArray] | None:
+    """Return the elevation of a channel, through linear theory where it is a pressure or a vertical motion."""
+    found = data.get(name)
+    use = survey.use_of(name)
+    if found is None or use.sensor is None or use.kind not in ("pressure", "velocity_z", "acceleration_z"):
+        return found
+    time, values = found
+    if survey.water is None or survey.spectral is None:
+        raise InputError(f"'{name}' needs 'site' and 'spectrum' to become a surface", path="waves.channels")
+    if not np.isfinite(values).all():
+        notices.append(Notice("surface-gaps", f"{name}: a block has gaps; its surface is not computed"))
+        return time, np.full_like(values, np.nan)
+    step = float(np.median(np.diff(time)))
+    band = survey.spectral
+    surface = surface_elevation(step, values, use.sensor, survey.water, lowest=band.lowest, highest=band.highest)
+    notices.extend(surface.notices)
+    return time, surface.elevation
+
+
+def _waves(
+    survey: Survey, data: _Samples, notices: list[Notice]
+) -> tuple[dict[str, Waves], dict[str, dict[str, float]]]:
+    cut: dict[str, Waves] = {}
+    figures: dict[str, dict[str, float]] = {}
+    for name in survey.waves:
+        found = _surface(survey, data, name, notices)
+        if found is None or np.count_nonzero(np.isfinite(found[1])) < 3:
+            figures[name] = dict.fromkeys(STATISTICS, math.nan)
+            continue
+        try:
+            waves = find_waves(*found, survey.wave_options)
+        except InputError as error:
+            notices.append(Notice("waves-skipped", f"{name}: {error.fault.message}"))
+            figures[name] = dict.fromkeys(STATISTICS, math.nan)
+            continue
+        cut[name], figures[name] = waves, waves.statistics()
+        notices.extend(waves.notices)
+    return cut, figures
+
+
+def _even(time: FloatArray, *values: FloatArray) -> tuple[float, FloatArray]:
+    """Return the step, and the columns with NaN where the clock has a gap."""
+    step = float(np.median(np.diff(time)))
+    place = np.rint((time - time[0]) / step).astype(np.int64)
+    if place[-1] == time.size - 1:
+        return step, np.column_stack(values)
+    out = np.full((int(place[-1]) + 1, len(values)), np.nan)
+    out[place] = np.column_stack(values)
+    return step, out
+
+
+def _fitting(options: WelchOptions, samples: int, step: float) -> WelchOptions | None:
+    """Return the options where a segment fits the block, ``None`` where it does not."""
+    if math.isinf(options.segment):
+        return options
+    return options if round(options.segment / step) <= samples else None
+
+
+def _spectra(
+    survey: Survey, data: _Samples, notices: list[Notice]
+) -> dict[str, tuple[FloatArray, FloatArray, float, dict[str, float]]]:
+    out: dict[str, tuple[FloatArray, FloatArray, float, dict[str, float]]] = {}
+    if survey.spectral is None:
+        return out
+    for name in survey.waves:
+        found = _surface(survey, data, name, notices)
+        if found is None or found[0].size < 8:
+            continue
+        step, columns = _even(*found)
+        options = _fitting(survey.spectral.options, columns.shape[0], step)
+        if options is None:
+            continue
+        try:
+            spectrum = spectrum_of(step, columns[:, 0], options)
+        except InputError as error:
+            notices.append(Notice("spectrum-skipped", f"{name}: {error.fault.message}"))
+            continue
+        notices.extend(spectrum.notices)
+        figures = spectrum.figures(survey.spectral.lowest, survey.spectral.highest)
+        chosen = spectrum.frequency <= survey.spectral.highest
+        out[name] = spectrum.frequency[chosen], spectrum.density[chosen], spectrum.degrees_of_freedom, figures
+    return out
+
+
+def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[str, float]:
+    if survey.directions is None or survey.spectral is None or survey.water is None:
+        return {}
+    names = survey.directions.channels
+    record = data.record_of(names[0])
+    if record is None or any(name not in record.names for name in names) or len(record) < 8:
+        return {}
+    sensors: list[Sensor] = []
+    for name in names:
+        sensor = survey.use_of(name).sensor
+        if sensor is None:
+            raise InputError(f"'{name}' is no quantity of waves", path="directions.channels")
+        sensors.append(sensor)
+    step, columns = _even(record.time, *(record.sound(name) for name in names))
+    options = _fitting(survey.spectral.options, columns.shape[0], step)
+    if options is None:
+        return {}
+    try:
+        matrix = cross_spectra(step, columns, options)
+    except InputError as error:
+        notices.append(Notice("directions-skipped", error.fault.message))
+        return {}
+    band = survey.spectral
+    triplet = [sensor.powers for sensor in sensors] == [(0, 0), (1, 0), (0, 1)]
+    if triplet and not survey.directions.entropy:
+        return fourier_directions(matrix, sensors, survey.water).figures(band.lowest, band.highest)
+    spectrum = directional_spectrum(matrix, sensors, survey.water, lowest=band.lowest, highest=band.highest)
+    notices.extend(spectrum.notices)
+    return {key: value for key, value in spectrum.figures().items() if key != "spectral_height"}
+
+
+def _current(survey: Survey, data: _Samples) -> dict[str, float]:
+    if survey.current is None:
+        return {}
+    use = survey.current
+    first, second = data.get(use.x), data.get(use.y)
+    if first is None or second is None or first[0].size != second[0].size:
+        return {}
+    x, y = first[1], second[1]
+    if use.polar:
+        heading = heading_of_bearing(y, survey.x_axis_bearing, coming_from=False) if use.bearing else y
+        x, y = components(x, heading)
+    length = float(first[0][-1] - first[0][0]) + 1.0
+    mean = block_means(first[0], x, y, length=2.0 * length)
+    out = {
+        "current_x": float(mean.x[0]),
+        "current_y": float(mean.y[0]),
+        "current_speed": float(mean.speed[0]),
+        "current_heading": float(mean.heading[0]),
+        "current_deviation": float(mean.deviation[0]),
+    }
+    if math.isfinite(use.normal_heading):
+        out["current_normal"] = float(mean.normal(use.normal_heading)[0])
+    return out
+
+
+def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[str, float]:
+    use: ReflectionUse | None = survey.reflection
+    if use is None or survey.spectral is None or survey.water is None:
+        return {}
+    record = data.record_of(use.front[0])
+    if record is None or any(name not in record.names for name in (*use.front, *use.rear)):
+        return {}
+    step, columns = _even(record.time, *(record.sound(name) for name in (*use.front, *use.rear)))
+    options = _fitting(survey.spectral.options, columns.shape[0], step)
+    if options is None or not np.isfinite(columns).all():
+        notices.append(Notice("reflection-skipped", "a block with missing samples has no reflection analysis"))
+        return {}
+    low, high = survey.spectral.lowest, survey.spectral.highest
+    front = columns[:, : len(use.front)]
+    found = separate_irregular(step, front, use.front_positions, survey.water, options, lowest=low, highest=high)
+    notices.extend(found.notices)
+    out = {
+        "reflection_coefficient": found.reflection,
+        "reflection_error": found.reflection_error,
+        "incident_height": found.incident_height,
+        "reflected_height": found.reflected_height,
+    }
+    if use.rear:
+        rear = columns[:, len(use.front) :]
+        passed = transmission(step, found, rear, use.rear_positions, survey.water, options, lowest=low, highest=high)
+        out |= {
+            "transmission_coefficient": passed.coefficient,
+            "transmission_error": passed.error,
+            "transmitted_height": passed.height,
+        }
+    return out
+
+
+def _tensions(
+    survey: Survey, data: _Samples, cut: dict[str, Waves], start: float, notices: list[Notice]
+) -> dict[str, dict[str, float]]:
+    return {}
