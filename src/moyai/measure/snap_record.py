@@ -205,7 +205,7 @@ def read_snap(
             f"the plateau of {plateau:.4g} N is negative beside a peak of {peak:.4g} N",
             path="tension",
             allowed="tensions positive",
-            remedy="turn the sign of the gauge, check the intervals called unloaded, or let the record run to the plateau",
+            remedy="turn the sign of the gauge, check the unloaded intervals, or record on to the plateau",
         )
     taut = _taut(t, total, largest, peak_time, rough, inside[0])
     start = _plateau_start(t, total, largest, int(inside[-1]), plateau, peak, noise)
