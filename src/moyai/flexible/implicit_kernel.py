@@ -29,6 +29,17 @@ def _elastic(bars: Any, k: int, size: float, curve: int, curves: Any) -> tuple[f
 
 
 @njit(cache=True, error_model="numpy")
+def _cut(pull: float, least: float, soft: float) -> tuple[float, float]:
+    """Return the larger of ``pull`` and ``least`` and its slope, rounded over a width ``soft`` [N] (0: sharp)."""
+    if soft <= 0.0 or least < 0.0:
+        return (pull, 1.0) if pull > least else (least, 0.0)
+    root = math.sqrt(pull * pull + soft * soft)
+    # written so that a slack bar keeps its digits
+    value = 0.5 * (pull + root) if pull > 0.0 else 0.5 * soft * soft / (root - pull)
+    return value, value / root
+
+
+@njit(cache=True, error_model="numpy")
 def _wet_part(x: Any, water: Any, a: int, b: int, radius: float) -> tuple[float, float]:
     """Return the immersed part of a bar and its slope over height [eq:flexible-immersion]."""
     ha, hb = x[a, 2] - water[6, a], x[b, 2] - water[6, b]
@@ -57,7 +68,8 @@ def _float_part(x: Any, water: Any, nodes: Any, i: int) -> tuple[float, float]:
 def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force: Any, tension: Any, mass: Any) -> None:
     """Write the force on every node, the tension of every bar and the mass blocks (xx, xy, xz, yy, yz, zz).
 
-    ``fluid`` is density and gravity; ``bed`` is level, friction, speed below which friction fades, 1 where there is a bed.
+    ``fluid`` is density, gravity and the width over which slack and taut are rounded into each other (0: not at all) [N];
+    ``bed`` is level, friction, speed below which friction fades, 1 where there is a bed.
     """
     nodes, bars, start, end, curve, curves, hinges, bending, attached = system
     rho, gravity = fluid[0], fluid[1]
@@ -77,7 +89,7 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
             t[axis] /= size
             rate += t[axis] * (v[b, axis] - v[a, axis])
         elastic, _ = _elastic(bars, k, size, curve[k], curves)
-        pull = max(elastic + bars[2, k] * rate, bars[3, k])
+        pull, _ = _cut(elastic + bars[2, k] * rate, bars[3, k], fluid[2])
         tension[k] = pull
         wet, _ = _wet_part(x, water, a, b, bars[10, k])
         for axis in range(3):
@@ -192,11 +204,11 @@ def tangent(
             t[axis] /= size
             rate += t[axis] * (v[b, axis] - v[a, axis])
         elastic, slope = _elastic(bars, k, size, curve[k], curves)
-        pull = elastic + bars[2, k] * rate
-        if pull > bars[3, k]:
+        pull, share = _cut(elastic + bars[2, k] * rate, bars[3, k], fluid[2])
+        if share > 0.0:
             # compression of a rod destabilises; without its geometric part the matrix stays positive
             side = max(pull, 0.0) / size * by_place
-            straight = by_place * slope + by_rate * bars[2, k] - side
+            straight = share * (by_place * slope + by_rate * bars[2, k]) - side
             for p in range(3):
                 for q in range(3):
                     block[p, q] = straight * t[p] * t[q] + (side if p == q else 0.0)
@@ -364,17 +376,22 @@ def relax(
     count = x.shape[0]
     force, trial, v = np.empty((count, 3)), np.empty((count, 3)), np.zeros((count, 3))
     mass, change = np.empty((count, 6)), np.empty(3 * count)
+    scale = 1e-300
+    for i in range(count):
+        scale = max(scale, nodes[1, i] + fluid[0] * fluid[1] * nodes[2, i])
+    fluid[2] = scale
     forces(x, v, water, system, fluid, bed, force, tension, mass)
     left, worst = _masked_norm(force, nodes)
-    scale = 1e-300
     for step in range(most):
-        scale = 1e-300
-        for i in range(count):
-            scale = max(scale, nodes[1, i] + fluid[0] * fluid[1] * nodes[2, i])
         for k in range(tension.size):
             scale = max(scale, abs(tension[k]))
-        if left <= max(tolerance * scale, noise):
-            return step, left / scale, worst
+        enough = max(tolerance * scale, noise)
+        if left <= enough:
+            if fluid[2] <= 0.1 * enough:
+                return step, left / scale, worst
+            fluid[2] = 0.1 * enough
+            forces(x, v, water, system, fluid, bed, force, tension, mass)
+            left, worst = _masked_norm(force, nodes)
         tangent(x, v, water, system, fluid, bed, mass, rank, 1.0 / (pace * pace), 1.0 / pace, 1.0, band)
         if not factor(band):
             pace *= 0.25
@@ -400,7 +417,13 @@ def relax(
             left, worst = _masked_norm(force, nodes)
             continue
         x[:] = trial
-        # switched evolution: the pseudo time grows as the force falls
-        growth = min(max(before / max(left, 1e-300), 0.5), 10.0)
-        pace = min(pace * (growth if cut == 1.0 else min(growth, 1.0)) * 1.3, 1e8)
+        # switched evolution: the pseudo time grows as the force falls, and shrinks faster where it rises
+        growth = before / max(left, 1e-300)
+        growth = min(1.3 * growth, 10.0) if growth >= 1.0 else max(0.5 * growth, 0.1)
+        pace = min(pace * (growth if cut == 1.0 else min(growth, 1.0)), 1e8)
+        if 0.3 * left < fluid[2]:
+            # slack and taut are told apart the more sharply the nearer the rest
+            fluid[2] = max(0.3 * left, 0.05 * enough)
+            forces(x, v, water, system, fluid, bed, force, tension, mass)
+            left, worst = _masked_norm(force, nodes)
     return most, left / scale, worst

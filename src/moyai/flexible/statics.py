@@ -13,11 +13,17 @@ from moyai.flexible import implicit_kernel as kernel
 from moyai.flexible.arrays import KernelArrays, kernel_arrays
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
+from moyai.flexible.simulate import simulate
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+
+#: Steps towards Newton's method before the true motion is asked, and how often and how long it is asked.
+_STEPS_AT_ONCE, _SHAKES, _SHAKE_INTERVALS = 40, 12, 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,12 +133,22 @@ def solve_equilibrium(
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if count > 1 else 1.0
     # rounding of a coordinate times the stiffest bar
     noise = 16.0 * np.finfo(np.float64).eps * float(arrays.greatest_spring.max(initial=0.0)) * float(np.max(np.abs(place)))
-    steps, residual, worst = kernel.relax(
-        place, water, kernel_system(arrays), np.array([network.water.density, network.water.gravity]),
-        kernel_bed(network), rank, band, math.sqrt(typical / network.water.gravity), max(0.5 * typical, 0.02 * extent),
-        tolerance, noise, most_steps, tension,
-    )  # fmt: skip
-    if steps == most_steps or not math.isfinite(residual):
+    fluid = np.array([network.water.density, network.water.gravity, 0.0])
+    steps, residual, worst, shaken = 0, math.inf, 0, 0
+    while True:
+        before = place.copy()
+        taken, residual, worst = kernel.relax(
+            place, water, kernel_system(arrays), fluid, kernel_bed(network), rank, band,
+            math.sqrt(typical / network.water.gravity), max(0.5 * typical, 0.02 * extent), tolerance, noise,
+            min(_STEPS_AT_ONCE, most_steps - steps), tension,
+        )  # fmt: skip
+        steps += taken
+        if taken < _STEPS_AT_ONCE or steps >= most_steps or shaken >= _SHAKES:
+            break
+        # Newton's method goes in circles: let the true motion, stopped at every peak of its speed, lead the way
+        place = _shake(network, before if shaken == 0 or not np.isfinite(place).all() else place, calm, extent)
+        shaken += 1
+    if not residual <= max(tolerance, 2.0 * noise / max(float(np.max(np.abs(tension), initial=0.0)), 1e-300)):
         raise ConvergenceError(
             f"no equilibrium after {steps} steps: {residual:.2g} of the largest force is left at "
             f"{name_of_node(network, int(worst))}, z = {place[worst, 2]:.4g} m",
@@ -141,6 +157,24 @@ def solve_equilibrium(
             remedy=_advice(network, place),
         )
     return Equilibrium(State(0.0, place, np.zeros_like(place)), tension, float(residual), int(steps))
+
+
+def _shake(network: Network, place: Array, flow: Flow, extent: float) -> Array:
+    """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen."""
+    interval = 0.5 * math.sqrt(extent / network.water.gravity)
+    still = Motion(0.0, 10.0 * interval, np.zeros((2, 3)), np.zeros((2, 3)))
+    motions = dict.fromkeys(network.motion_names, still)
+    state, energy = State(0.0, place, np.zeros_like(place)), 0.0
+    for _ in range(_SHAKE_INTERVALS):
+        history = simulate(network, motions, duration=interval, output_step=interval, flow=flow, start=state, keep_nodes=[0], keep_bars=[])
+        if history.status != "converged":
+            break
+        now = float(history.kinetic_energy[-1])
+        calm = now < energy
+        energy = 0.0 if calm else now
+        final = history.final
+        state = State(0.0, final.position, np.zeros_like(place) if calm else final.velocity)
+    return np.array(state.position)
 
 
 def _advice(network: Network, place: Array) -> str:
