@@ -171,7 +171,7 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
                 ),
                 Column(
                     "Values confirmed",
-                    ["yes" if confirmed[row[0]] else "no, compare with the standard" for row in rows],
+                    ["yes" if confirmed[row[0]] else "no, see the standard" for row in rows],
                 ),
             ),
             failed=tuple(n for n, row in enumerate(rows) if not row[2] <= 1.0),

@@ -1,0 +1,146 @@
+"""Codes, anchors, extremes and return levels of a study whose maxima follow a known distribution."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+import study_cases
+
+from moyai.design.long_term import YEAR
+from moyai.report.html import render_html
+from moyai.report.study_page import compose
+from moyai.study.assess import assess, governing
+from moyai.study.execute import run_study
+from moyai.study.plan import load_study
+
+
+def assessed(tmp_path, variations, assessment):
+    study = load_study(study_cases.write_text(tmp_path, variations, assess=assessment))
+    result = run_study(study, tmp_path / "out", study_cases.gumbel_case, workers=1)
+    return study, assess(study, result, study.assessment)
+
+
+GRID = "- grid: {'waves[storm].significant_height': [0.5 m, 1 m]}\n"
+
+
+def test_lines_are_held_against_intact_and_damaged_factors(tmp_path):
+    study, result = assessed(
+        tmp_path, GRID + "- lines_lost: true", "{lines: {codes: {name: API RP 2SK, analysis: dynamic}}}"
+    )
+    used = result.tree["assessment/lines"]["utilisation"].squeeze("code").squeeze("sea")
+    tension = result.tree["SWL/time/storm"]["maximum_tension"]
+    factor = np.array([1.67, 1.25, 1.25])[None, :, None]
+    expected = tension.transpose("significant_height", "lost_line", "line").values * factor / 1e6
+    assert np.allclose(
+        used.transpose("significant_height", "lost_line", "line").values, expected, equal_nan=True, rtol=1e-12
+    )
+    assert any("not held against the standard" in notice.message for notice in result.notices)
+    component, index, value = governing(study, result, 3)[0]
+    assert component.startswith("line ") and value == pytest.approx(np.nanmax(expected))
+    assert study.cases[index].labels[0] == "1 m"
+
+
+def test_own_factors_and_corrosion(tmp_path):
+    _, result = assessed(
+        tmp_path,
+        GRID,
+        "{lines: {codes: {name: house, analysis: dynamic, safety_factor_intact: 3}, corrosion_rate: 0.4, life: 20,"
+        " diameter: {seaward: 68 mm, shoreward: 80 mm}}}",
+    )
+    used = result.tree["assessment/lines"]["utilisation"].squeeze()
+    tension = result.tree["SWL/time/storm"]["maximum_tension"]
+    for line, diameter in (("seaward", 0.068), ("shoreward", 0.080)):
+        expected = tension.sel(line=line).values * 3.0 / (1e6 * (1 - 0.008 / diameter) ** 2)
+        assert np.allclose(used.sel(line=line).values, expected, rtol=1e-12)
+    assert not result.notices
+
+
+def test_anchors_that_fail_lower_the_status(tmp_path):
+    _, result = assessed(
+        tmp_path,
+        GRID,
+        "{anchors: {seaward: {kind: sinker, weight: 100 kN, coefficient: 0.5, safety_factor: 1.2},"
+        " shoreward: {kind: drag_anchor, weight: 10 kN, name: danforth, bed: sand, safety_factor: 1.5}}}",
+    )
+    assert result.status == "outside_validity"
+    used = result.tree["assessment/anchors"]["utilisation"]
+    pull = result.tree["SWL/time/storm"]["maximum_tension"].sel(line="seaward").values
+    up = 0.1 * pull
+    side = np.sqrt(pull**2 - up**2)
+    slide = 1.2 * side / (0.5 * (1e5 - 1.2 * up))
+    assert np.allclose(used.sel(line="seaward").values, slide[None, :], rtol=1e-9)
+    assert np.isinf(used.sel(line="shoreward").values).all()
+    told = " ".join(notice.message for notice in result.notices)
+    assert "upwards" in told and "danforth on sand" in told
+
+
+def test_extremes_over_seeds_find_the_known_distribution(tmp_path):
+    _, result = assessed(
+        tmp_path,
+        GRID + "- seeds: {path: 'waves[storm].seed', count: 60}",
+        "{extremes: {response: SWL/time/storm/worst, probability: 0.9}}",
+    )
+    found = result.tree["assessment/extremes 1"]
+    for number, height in enumerate((0.5, 1.0)):
+        truth = 1e5 * height * (1.0 - 0.1 * math.log(-math.log(0.9)))
+        assert found["lower"].values[number] <= truth <= found["upper"].values[number]
+        assert found["design_value"].values[number] == pytest.approx(truth, rel=0.05)
+
+
+def test_return_levels_over_a_scatter_diagram(tmp_path):
+    (tmp_path / "scatter.csv").write_text(
+        "significant_height,period,probability\n0.5,5,0.9\n1.0,5,0.1\n", encoding="utf-8"
+    )
+    _, result = assessed(
+        tmp_path,
+        "- scatter: {file: scatter.csv, significant_height: 'waves[0].significant_height',"
+        " period: 'waves[0].peak_period'}\n"
+        "- seeds: {path: 'waves[storm].seed', count: 80}",
+        "{long_term: {response: SWL/time/storm/worst, seeds: seed, duration: 3 h, years: [1, 50]}}",
+    )
+    level = result.tree["assessment/long term 1"]["return_level"].values
+    for years, found in zip((1.0, 50.0), level):
+        # The larger sea alone: a tenth of the sea states, Gumbel of mode 1e5 and scale 1e4
+        states = 0.1 * years * YEAR / 10800.0
+        assert found == pytest.approx(1e5 + 1e4 * math.log(states), rel=0.06)
+
+
+@pytest.mark.parametrize(
+    ("assessment", "word"),
+    [
+        ("{extremes: {response: SWL/time/storm/none}}", "no response"),
+        ("{extremes: {response: SWL/time/storm/worst}}", "no axis 'seed'"),
+        ("{lines: {codes: {name: none, analysis: dynamic}}}", "API RP 2SK"),
+        ("{lines: {codes: {name: DNV-OS-E301, analysis: dynamic}}}", "class"),
+        ("{lines: {codes: {name: OCIMF, analysis: dynamic}}}", "rope"),
+        ("{lines: {codes: {name: API RP 2SK, analysis: dynamic}, component: {east: rope}}}", "no line 'east'"),
+        (
+            "{long_term: {response: SWL/time/storm/worst, over: significant_height, duration: 3 h, years: [1]}}",
+            "scatter",
+        ),
+    ],
+)
+def test_what_cannot_be_assessed_is_told_and_the_cases_are_kept(tmp_path, assessment, word):
+    _, result = assessed(tmp_path, GRID, assessment)
+    told = " ".join(f"{notice.message} {notice.remedy}" for notice in result.notices)
+    assert word in told
+    assert np.isfinite(result.tree["SWL/time/storm"]["worst"].values).all()
+
+
+def test_the_report_names_the_governing_case_and_leads_to_its_replay(tmp_path):
+    study, result = assessed(
+        tmp_path, GRID + "- lines_lost: true", "{lines: {codes: {name: API RP 2SK, analysis: dynamic}}}"
+    )
+    told = [[*item, f"governing/case {item[1]}"] for item in governing(study, result, 3)]
+    result.tree.attrs.update({"governing": json.dumps(told), "governing_kind": "utilisation"})
+    page = render_html(compose(result))
+    assert f'href="governing/case {told[0][1]}/report.html"' in page
+    assert "no, see the standard" in page and "lost line" in page
+
+
+def test_the_report_of_failures_and_of_a_single_axis_is_written(tmp_path):
+    study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=5))
+    result = run_study(study, tmp_path / "out", study_cases.failing_case, workers=1)
+    page = render_html(compose(result))
+    assert "the float sinks" in page and "Cases that failed" in page
