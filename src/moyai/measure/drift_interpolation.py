@@ -1,0 +1,144 @@
+"""Interpolation of scattered drift velocities: a smoothing thin-plate spline, or triangles."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+Interpolation = Literal["spline", "triangles"]
+
+_SMOOTHING = np.concatenate([[0.0], 10.0 ** np.arange(-4.0, 3.1, 0.5)])
+
+
+def trend(
+    points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float, targets: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the mean flow plus vortex plus Stokes drift that fits best, at the particles and at the targets.
+
+    Only what is left over is interpolated, so that the steep rise towards the section is not rounded off. The fit is
+    robust: particles far off it lose weight.
+
+    Parameters
+    ----------
+    points, vectors : ndarray, shape (n, 2)
+        Positions about the centre [m] and velocities [m/s].
+    deviation : ndarray, shape (n,)
+        Standard errors, up to a common factor.
+    length : float
+        Breadth of the section [m].
+    targets : ndarray, shape (m, 2)
+
+    Returns
+    -------
+    tuple of ndarray
+        Trend at the points and at the targets [m/s].
+    """
+    basis = _trend_basis(points, length)
+    values = np.concatenate([vectors[:, 0], vectors[:, 1]])
+    scale = np.tile(1.0 / deviation, 2)
+    weight = np.ones(len(points))
+    solution = np.zeros(basis.shape[1])
+    for _ in range(8):
+        root = scale * np.tile(np.sqrt(weight), 2)
+        solution = np.linalg.lstsq(basis * root[:, None], values * root, rcond=None)[0]
+        misfit = ((values - basis @ solution) * scale).reshape(2, -1)
+        size = np.hypot(misfit[0], misfit[1])
+        median = float(np.median(size))
+        # Huber's weights; 1.18 medians of a plane error are one standard deviation
+        weight = np.minimum(1.0, 1.5 * 0.85 * median / np.maximum(size, 1e-300)) if median > 0.0 else weight
+    at_points = (basis @ solution).reshape(2, -1).T
+    at_targets = (_trend_basis(targets, length) @ solution).reshape(2, -1).T
+    return at_points, at_targets
+
+
+def _trend_basis(points: FloatArray, length: float) -> FloatArray:
+    square = (points**2).sum(axis=1)
+    around = np.column_stack([points[:, 1], -points[:, 0]]) / square[:, None]
+    steep = around * (0.25 * length**2 / square[:, None]) ** 2
+    count = len(points)
+    one, none = np.ones(count), np.zeros(count)
+    columns = [
+        np.concatenate([one, none]),
+        np.concatenate([none, one]),
+        np.concatenate([around[:, 0], around[:, 1]]),
+        np.concatenate([steep[:, 0], steep[:, 1]]),
+    ]
+    return np.column_stack(columns)
+
+
+def remainder_smoothing(points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float) -> float:
+    """Return the smoothing of the spline that predicts left-out particles best (by their median).
+
+    Parameters
+    ----------
+    points, vectors, deviation, length
+        As in :func:`trend`.
+    """
+    base, _ = trend(points, vectors, deviation, length, points[:1])
+    rest = vectors - base
+    best, smallest = 0.0, np.inf
+    for candidate in _SMOOTHING[1:]:
+        system = _system(points, deviation, candidate)
+        inverse = np.linalg.inv(system)[: len(points), : len(points)]
+        left_out = (inverse @ rest) / np.diag(inverse)[:, None]
+        size = float(np.median(np.hypot(left_out[:, 0], left_out[:, 1]) / deviation))
+        if size < smallest * (1.0 - 1e-3):
+            best, smallest = float(candidate), size
+    return best
+
+
+def interpolation_matrix(
+    points: FloatArray, targets: FloatArray, deviation: FloatArray, smoothing: float | None
+) -> FloatArray:
+    """Return the matrix that takes values at the points to values at the targets.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+    targets : ndarray, shape (m, 2)
+    deviation : ndarray, shape (n,)
+        Standard errors, up to a common factor.
+    smoothing : float or None
+        Of the thin-plate spline; ``None``: linear between the corners of Delaunay's triangles, NaN outside.
+
+    Returns
+    -------
+    ndarray, shape (m, n)
+    """
+    if smoothing is None:
+        from scipy.interpolate import LinearNDInterpolator
+
+        return np.asarray(LinearNDInterpolator(points, np.eye(len(points)))(targets))
+    count = len(points)
+    centre, scale = _normal(points)
+    inverse = np.linalg.inv(_system(points, deviation, smoothing))[:, :count]
+    rows = np.column_stack([_kernel((targets - centre) / scale, (points - centre) / scale), np.ones(len(targets))])
+    rows = np.column_stack([rows, (targets - centre) / scale])
+    return np.asarray(rows @ inverse)
+
+
+def _system(points: FloatArray, deviation: FloatArray, smoothing: float) -> FloatArray:
+    """Return the matrix of the spline's coefficients [eq:streaks-spline]."""
+    count = len(points)
+    centre, scale = _normal(points)
+    place = (points - centre) / scale
+    relative = (deviation / np.median(deviation)) ** 2
+    system = np.zeros((count + 3, count + 3))
+    system[:count, :count] = _kernel(place, place) + np.diag((smoothing + 1e-9) * relative)
+    system[:count, count] = system[count, :count] = 1.0
+    system[:count, count + 1 :] = place
+    system[count + 1 :, :count] = place.T
+    return system
+
+
+def _normal(points: FloatArray) -> tuple[FloatArray, float]:
+    return points.mean(axis=0), float(np.ptp(points, axis=0).max())
+
+
+def _kernel(first: FloatArray, second: FloatArray) -> FloatArray:
+    square = ((first[:, None, :] - second[None, :, :]) ** 2).sum(axis=-1)
+    return np.asarray(0.5 * square * np.log(np.maximum(square, 1e-300)))
