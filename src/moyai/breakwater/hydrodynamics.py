@@ -238,6 +238,7 @@ def _oblique(
 def _key(unit: FloatingUnit, omega: Array, headings: Array) -> str:
     """Return the key of a solve: geometry, position, water, frequencies, headings, lid, version."""
     outlines = [part for outline in unit.section.outlines for part in (outline.vertices, outline.bulges)]
+    outlines += [part for plate in unit.section.plates for part in (plate.points, plate.edges.bulge)]
     position = (unit.section.draught, unit.section.heel, unit.centre, unit.breakwater.gap_damping_lid)
     water = (unit.water.depth, unit.water.density, unit.water.gravity)
     return key_of(__version__, *outlines, position, water, omega, headings)
@@ -285,7 +286,7 @@ def distinct(omega: Array) -> Array:
 def band(unit: FloatingUnit) -> FrequencyPlan:
     """Return the frequencies that the memory of the water is made of, and why these."""
     # A thin wetted side leaves the exact tail late; a hundredth of the beam bounds the effort
-    height = max(-unit.section.bottom, 0.01 * unit.breakwater.hull.beam)
+    height = max(-unit.section.keel, 0.01 * unit.breakwater.hull.beam)
     if not unit.section.surface_piercing:
         height = max(-unit.section.bounds[3], 0.05 * unit.breakwater.hull.beam)
     return recommend_frequencies(unit.water, breadth=unit.breakwater.hull.beam, wall_height=height)

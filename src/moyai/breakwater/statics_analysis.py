@@ -48,7 +48,7 @@ def statics_dataset(
     matrix = ("influenced_dof", "radiating_dof")
     outline_x, outline_z = _outline(unit)
     out: dict = {
-        "draught": ((), -unit.section.bottom),
+        "draught": ((), -unit.section.keel),
         "body_mass": ((), unit.mass),
         "displaced_mass": ((), statics.displaced_mass),
         "line_vertical_pull": ((), unit.line_pull),
@@ -106,11 +106,14 @@ def _modes(moored: NaturalModes, free: NaturalModes) -> dict:
 
 
 def _outline(unit: FloatingUnit) -> tuple[Array, Array]:
-    """Return the hull at rest as points of the site, outlines closed and parted by NaN."""
+    """Return the hull at rest as points of the site, outlines closed and parted by NaN; a plate runs there and back."""
     pieces = []
     for outline in unit.section.outlines:
         points = outline.edges.polyline()
         pieces.append(np.concatenate([points, points[:1], np.full((1, 2), np.nan)]))
+    for plate in unit.section.plates:
+        points = plate.outline
+        pieces.append(np.concatenate([points, points[-2::-1], np.full((1, 2), np.nan)]))
     every = np.concatenate(pieces)[:-1]
     return every[:, 0], every[:, 1]
 

@@ -15,8 +15,11 @@ from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from moyai.breakwater.model import Breakwater, BreakwaterProblem, Environment
     from moyai.case.schema_breakwater import BreakwaterCase
+    from moyai.core.validity import Notice
     from moyai.potential.sections import Hull
 
 
@@ -149,6 +152,14 @@ def _check_floating(model: BreakwaterCase, hull: Hull, findings: Findings) -> fl
         return None
     for name, level in site.water_levels.items():
         depth = site.water_depth + level
+        lowest = max([draught, *(draught - float(plate.edges.bounds()[2]) for plate in hull.plates)])
+        if draught < depth <= lowest:
+            findings.fault(
+                ("structure", "section", "plates"),
+                f"a plate reaches {lowest:.4g} m down in {depth:.4g} m of water at {name}",
+                allowed=f"less than {depth - draught:.4g} m below the keel",
+                remedy="shorten the plate: it would stand on the bed",
+            )
         if 0.0 < depth <= draught:
             key = "draught" if unit.draught is not None else "mass"
             findings.fault(
@@ -286,26 +297,51 @@ def _check_by_statics(model: BreakwaterCase, findings: Findings, folder: Path) -
         else:
             _check_lines_at_rest(model, unit, environment, findings)
     if not findings.faults:
-        _check_balance(build_problem(model, folder), findings)
+        _check_balance(model, folder, findings, lambda: build_problem(model, folder))
 
 
-def _check_balance(problem: BreakwaterProblem, findings: Findings) -> None:
-    """Find the rest of the unit at every water level and tell what is odd about it."""
+_RESTS: dict[str, tuple[InputError | None, tuple[Notice, ...]]] = {}
+_MOST_RESTS = 256
+
+
+def _check_balance(
+    model: BreakwaterCase, folder: Path, findings: Findings, problem: Callable[[], BreakwaterProblem]
+) -> None:
+    """Find the rest of the unit at every water level and tell what is odd about it.
+
+    The rest does not hang on the waves; the cases of a study that differ in them alone share one search for it. Where
+    files are named it is searched every time, since they may have changed.
+    """
+    key = f"{folder}|{model.model_dump_json(exclude={'waves', 'title', 'analyses'})}"
+    known = None if '"file":"' in key or '"path":"' in key else _RESTS.get(key)
+    if known is None:
+        known = _rest(problem())
+        if len(_RESTS) >= _MOST_RESTS:
+            _RESTS.clear()
+        _RESTS[key] = known
+    error, notices = known
+    for notice in notices:
+        path: KeyPath = ("structure", "mass") if notice.code == "imbalance" else ("structure",)
+        findings.warn(path, notice.message, remedy=notice.remedy)
+    if error is not None:
+        findings.raised(error, ("structure",))
+
+
+def _rest(problem: BreakwaterProblem) -> tuple[InputError | None, tuple[Notice, ...]]:
+    """Return what stands against a rest, and what is odd about it, each once."""
     from moyai.breakwater.assembly import assemble
 
-    said: set[str] = set()
+    said: dict[str, Notice] = {}
     for name, level in problem.environment.water_levels:
         try:
             unit = assemble(problem, name, level)
         except (InputError, ConvergenceError) as error:
             again = InputError(error.fault.message, path=error.fault.path, remedy=error.fault.remedy)
-            findings.raised(again, ("structure",))
-            return
+            return again, tuple(said.values())
         for notice in unit.notices:
-            path: KeyPath = ("structure", "mass") if notice.code == "imbalance" else ("structure",)
-            if notice.severity != "information" and notice.code not in said:
-                said.add(notice.code)
-                findings.warn(path, notice.message, remedy=notice.remedy)
+            if notice.severity != "information":
+                said.setdefault(notice.code, notice)
+    return None, tuple(said.values())
 
 
 _LINE_PLACES = {

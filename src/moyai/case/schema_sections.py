@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from moyai.case.schema_types import Block, Length, NonNegativeLength, PositiveLength
+from moyai.case.schema_types import Block, Length, NonNegativeLength, Number, PositiveLength
 
 if TYPE_CHECKING:
     from moyai.potential.sections import Hull
@@ -15,21 +15,77 @@ _BEAM = "Width across the waves."
 _HEIGHT = "Height from keel to deck."
 
 
-class RectangleSection(Block):
+class SectionPlate(Block):
+    """A plate of no thickness that moves with the section."""
+
+    points: Annotated[tuple[tuple[Length, Length], ...], Field(min_length=2, max_length=200)] = Field(
+        description="Both ends and the corners between, [x, z] in the frame of the section; an end on the outline is "
+        "joined to it.",
+        examples=[[["-5 m", "0 m"], ["-5 m", "-1.5 m"]]],
+    )
+    bulges: tuple[Number, ...] | None = Field(
+        default=None,
+        description="tan(sweep/4) of each edge: 0 straight, 1 half circle to the right of the way. Default: straight.",
+    )
+
+
+class PlatedSection(Block):
+    """What all shapes share: thin plates on the outline, under it or beside it."""
+
+    plates: Annotated[tuple[SectionPlate, ...], Field(max_length=50)] = Field(
+        default=(),
+        description="Thin plates that move with the body: keel plates, a curtain under it. They have no buoyancy; "
+        "their mass belongs to that of the body. Default: none.",
+    )
+
+    def outline(self) -> Hull:
+        """Return the hull without its plates."""
+        raise NotImplementedError
+
+    def hull(self) -> Hull:
+        """Return the hull with its plates.
+
+        Raises
+        ------
+        InputError
+            When a shape is impossible; its path ends on ``plates`` where a plate is the reason.
+        """
+        hull = self.outline()
+        if not self.plates:
+            return hull
+        import numpy as np
+
+        from moyai.core.errors import InputError
+        from moyai.potential.plates import PlateLine
+
+        lines = []
+        for number, plate in enumerate(self.plates):
+            try:
+                bulges = None if plate.bulges is None else np.array(plate.bulges, dtype=float)
+                lines.append(PlateLine(np.array(plate.points, dtype=float), bulges))
+            except InputError as error:
+                fault = error.fault
+                raise InputError(
+                    f"plate {number + 1}: {fault.message}", path="plates", allowed=fault.allowed, remedy=fault.remedy
+                ) from None
+        return hull.with_plates(*lines)
+
+
+class RectangleSection(PlatedSection):
     """A box."""
 
     shape: Literal["rectangle"] = Field(description="Box.")
     beam: PositiveLength = Field(description=_BEAM)
     height: PositiveLength = Field(description=_HEIGHT)
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline."""
         from moyai.potential.shapes import rectangle
 
         return rectangle(self.beam, self.height)
 
 
-class RoundedRectangleSection(Block):
+class RoundedRectangleSection(PlatedSection):
     """A box with round bilges."""
 
     shape: Literal["rounded_rectangle"] = Field(description="Box with quarter circles at the lower corners.")
@@ -37,27 +93,27 @@ class RoundedRectangleSection(Block):
     height: PositiveLength = Field(description=_HEIGHT)
     bilge_radius: PositiveLength = Field(description="Radius of the lower corners, at most half the beam.")
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline."""
         from moyai.potential.shapes import rounded_rectangle
 
         return rounded_rectangle(self.beam, self.height, self.bilge_radius)
 
 
-class CircleSection(Block):
+class CircleSection(PlatedSection):
     """A circular cylinder."""
 
     shape: Literal["circle"] = Field(description="Circular cylinder.")
     radius: PositiveLength = Field(description="Radius.")
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline."""
         from moyai.potential.shapes import circle
 
         return circle(self.radius)
 
 
-class TrapezoidSection(Block):
+class TrapezoidSection(PlatedSection):
     """A symmetric trapezoid."""
 
     shape: Literal["trapezoid"] = Field(description="Symmetric trapezoid.")
@@ -65,14 +121,14 @@ class TrapezoidSection(Block):
     top_beam: PositiveLength = Field(description="Width at the deck.")
     height: PositiveLength = Field(description=_HEIGHT)
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline."""
         from moyai.potential.shapes import trapezoid
 
         return trapezoid(self.bottom_beam, self.top_beam, self.height)
 
 
-class PiTypeSection(Block):
+class PiTypeSection(PlatedSection):
     """A box with a plate hanging from each side."""
 
     shape: Literal["pi_type"] = Field(description="Box with a keel plate under each side.")
@@ -81,14 +137,14 @@ class PiTypeSection(Block):
     plate_depth: PositiveLength = Field(description="Length of the plates under the box.")
     plate_thickness: PositiveLength = Field(description="Thickness of the plates, less than half the beam.")
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline."""
         from moyai.potential.shapes import pi_type
 
         return pi_type(self.beam, self.height, self.plate_depth, self.plate_thickness)
 
 
-class TwinPontoonSection(Block):
+class TwinPontoonSection(PlatedSection):
     """Two boxes side by side."""
 
     shape: Literal["twin_pontoon"] = Field(description="Two equal boxes with a gap between them.")
@@ -99,14 +155,14 @@ class TwinPontoonSection(Block):
         default=0.0, description="Thickness of a deck that joins the boxes at the top, within the height. Default: 0."
     )
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline."""
         from moyai.potential.shapes import twin_pontoon
 
         return twin_pontoon(self.pontoon_beam, self.height, self.gap, deck_thickness=self.deck_thickness)
 
 
-class PolygonSection(Block):
+class PolygonSection(PlatedSection):
     """Any closed outline of straight edges."""
 
     shape: Literal["polygon"] = Field(description="Closed outline through given points.")
@@ -115,7 +171,7 @@ class PolygonSection(Block):
         examples=[[["-5 m", "0 m"], ["5 m", "0 m"], ["4 m", "3 m"], ["-4 m", "3 m"]]],
     )
 
-    def hull(self) -> Hull:
+    def outline(self) -> Hull:
         """Return the outline, counter-clockwise."""
         from moyai.potential.shapes import polygon
 

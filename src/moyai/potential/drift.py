@@ -5,14 +5,17 @@ Forces are per unit wave amplitude squared and per metre of structure, [N/m per 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Rigid
-from moyai.potential.panels import Panels, gauss_rule
+from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule
+from moyai.potential.plate_faces import mean_of_faces, plate_tips, surface_ends, surface_rate
 from moyai.potential.solution import RadiationDiffraction
 from moyai.potential.waves import incident_wave
 
@@ -140,7 +143,8 @@ def mean_drift_near_field(
 
     Five terms: relative elevation at the waterlines, velocity squared, first-order pressure gradient times motion,
     rotation of the first-order force, and second-order change of the hydrostatic pressure by roll. Corners add nothing
-    of their own: their panels are graded so that the squared velocity is smooth in the panel's parameter.
+    of their own: their panels are graded so that the squared velocity is smooth in the panel's parameter. On thin
+    plates the terms are differences of the two faces, and every free edge adds its suction [eq:plate-suction].
 
     Parameters
     ----------
@@ -167,9 +171,12 @@ def mean_drift_near_field(
     unit = -1j * water.gravity / omega
     moving = np.einsum("wnj,wj->wn", part.radiation, -1j * omega * amplitude)
     disturbed = part.scattered + moving
-    potential = unit * wave + disturbed
     tangent = body.du / np.abs(body.du)
-    along = unit * (gradient[:, :, 0] * tangent.real + gradient[:, :, 1] * tangent.imag) + _along(body, disturbed)
+    # On a plate all these are jumps: the incident wave has none
+    closed = np.where(body.kind == PLATE, 0.0, 1.0)
+    known = unit * (gradient[:, :, 0] * tangent.real + gradient[:, :, 1] * tangent.imag)
+    along = closed * known + _along(body, disturbed)
+    potential = closed * unit * wave + disturbed
     arm_x, arm_z = points[:, 0] - centre[0], points[:, 1] - centre[1]
     theta = amplitude[:, roll : roll + 1]
     shift_x = amplitude[:, sway : sway + 1] + theta * arm_z
@@ -183,29 +190,88 @@ def mean_drift_near_field(
         return np.asarray(0.5 * (a * np.conj(b)).real)
 
     square = 0.5 * (mean(along, along) + mean(through, through) + crest**2 * mean(potential, potential))
-    carried = mean(shift_n, -1j * omega * through) + mean(shift_s, -1j * omega * along)
+    carried = closed * mean(shift_n, -1j * omega * through) + mean(shift_s, -1j * omega * along)
     hydrostatic = -0.5 * water.gravity * mean(theta, theta) * arm_z
-    level = square + carried + hydrostatic
-    first = -1j * omega * potential + water.gravity * shift_z
+    faces = _Faces.of(solution, part, wave, gradient, disturbed, through, amplitude) if not closed.all() else None
+    if faces is not None:
+        plate = closed == 0.0
+        square[:, plate] = mean(faces.along, along[:, plate])
+    level = square + carried + closed * hydrostatic
+    first = -1j * omega * potential + closed * water.gravity * shift_z
     lever = arm_z * normal[:, 0] - arm_x * normal[:, 1]
     x, z, m = (water.density * (level * weight * direction).sum(axis=1) for direction in (*normal.T, lever))
     # The first-order force turns with the section; the still pressure turns with it in second order
     force_x, force_z = (water.density * (first * weight * direction).sum(axis=1) for direction in normal.T)
-    still = water.density * water.gravity * points[:, 1] * weight
+    still = water.density * water.gravity * points[:, 1] * weight * closed
     turned = 0.5 * mean(theta, theta)[:, 0]
     x += mean(theta[:, 0], force_z) - turned * float((still * normal[:, 0]).sum())
     z += -mean(theta[:, 0], force_x) - turned * float((still * normal[:, 1]).sum())
 
-    for place, direction, values in _waterline(body):
+    for place, direction, on_plate, values in _waterline(body):
         # Incident wave exactly, the rest from the polynomial of the panel at the still water
         known = unit * incident_wave(place[None, :], part.states.wave_number, part.states.along, water.depth)[0]
-        elevation = (1j * omega / water.gravity) * (known + (disturbed @ values)[:, None])
         lift = amplitude[:, heave : heave + 1] - theta * (place[0] - centre[0])
-        push = 0.5 * water.density * water.gravity * mean(elevation - lift, elevation - lift)[:, 0] / abs(direction[0])
-        x -= push * direction[0]
-        z -= push * direction[1]
-        m -= push * ((place[1] - centre[1]) * direction[0] - (place[0] - centre[0]) * direction[1])
+        faced = [(1.0, disturbed @ values)] if not on_plate else []
+        if on_plate and faces is not None:
+            left, right = surface_ends(part.surface, float(place[0]))
+            towards = np.sign(direction[0])
+            faced = [(-towards, faces.surface @ left), (towards, faces.surface @ right)]
+        for side, value in faced:
+            relative = (1j * omega / water.gravity) * (known + value[:, None]) - lift
+            push = 0.5 * water.density * water.gravity * mean(relative, relative)[:, 0] / abs(direction[0])
+            push = side * push
+            x -= push * direction[0]
+            z -= push * direction[1]
+            m -= push * ((place[1] - centre[1]) * direction[0] - (place[0] - centre[0]) * direction[1])
+    for tip in plate_tips(body):
+        strength = (disturbed @ tip.strength)[:, None]
+        pull = math.pi * water.density / 16.0 * mean(strength, strength)[:, 0]
+        x += pull * tip.outward[0]
+        z += pull * tip.outward[1]
+        m += pull * ((tip.place[1] - centre[1]) * tip.outward[0] - (tip.place[0] - centre[0]) * tip.outward[1])
     return NearFieldDrift(horizontal=x, vertical=z, moment=m)
+
+
+@dataclass(frozen=True, eq=False)
+class _Faces:
+    """Mean tangential velocity of the two faces of plates (omega, plate nodes), disturbance on the free surface."""
+
+    along: ComplexArray
+    surface: ComplexArray
+
+    @classmethod
+    def of(
+        cls,
+        solution: RadiationDiffraction,
+        part: HeadingSolution,
+        wave: ComplexArray,
+        gradient: ComplexArray,
+        disturbed: ComplexArray,
+        through: ComplexArray,
+        amplitude: ComplexArray,
+    ) -> _Faces:
+        """Evaluate Green's representation on the plates."""
+        if part.heading != 0.0:
+            raise InputError(
+                "drift by pressure on thin plates is for normal incidence only",
+                path="heading",
+                remedy="take mean_drift_far_field, which holds for any heading",
+            )
+        body, omega = part.body, part.states.omega[:, None]
+        depth, unit = solution.water.depth, -1j * solution.water.gravity / omega
+        plate = np.flatnonzero(body.kind == PLATE)
+        speed = -1j * omega * amplitude
+        surface = part.scattered_surface + np.einsum("wnj,wj->wn", part.radiation_surface, speed)
+        incident_flux = unit * np.einsum("wnc,nc->wn", gradient, body.normal)
+        gap = part.surface.kind == GAP
+        known = incident_wave(part.surface.points[gap], part.states.wave_number, part.states.along, depth)[0]
+        rate = surface_rate(part, solution.lid, surface, unit * known)
+        on_faces = mean_of_faces(part, depth, disturbed, through - incident_flux, surface, rate)
+        whole = np.zeros_like(disturbed)
+        whole[:, plate] = on_faces
+        tangent = body.du[plate] / np.abs(body.du[plate])
+        known = unit * (gradient[:, plate, 0] * tangent.real + gradient[:, plate, 1] * tangent.imag)
+        return cls(known + _along(body, whole)[:, plate], surface)
 
 
 def _along(body: Panels, potential: ComplexArray) -> ComplexArray:
@@ -215,8 +281,8 @@ def _along(body: Panels, potential: ComplexArray) -> ComplexArray:
     return np.asarray((values @ rule.derivative.T).reshape(potential.shape) / np.abs(body.du))
 
 
-def _waterline(body: Panels) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
-    """Return (point, unit normal, weights that give the value there from all nodes) of every waterline point."""
+def _waterline(body: Panels) -> list[tuple[FloatArray, FloatArray, bool, FloatArray]]:
+    """Return (point, unit normal, whether on a plate, weights that give the value there) of every waterline point."""
     rule = gauss_rule(body.order)
     found = []
     for number, piece in enumerate(body.pieces):
@@ -227,5 +293,6 @@ def _waterline(body: Panels) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
                 normal = -1j * slope / abs(slope)
                 weights = np.zeros(len(body.u))
                 weights[number * body.order : (number + 1) * body.order] = values
-                found.append((np.array([place.real, 0.0]), np.array([normal.real, normal.imag]), weights))
+                direction = np.array([normal.real, normal.imag])
+                found.append((np.array([place.real, 0.0]), direction, piece.kind == PLATE, weights))
     return found

@@ -104,17 +104,16 @@ def all_runs(section: Section, depth: float, axis: float | None) -> list[Run]:
     """Return wetted boundary and plates as runs; only the part right of ``axis`` when it is given."""
     runs = body_runs(section, axis)
     joints = [
-        point
+        complex(*point)
         for plate in section.wetted_plates
         for point, joined in zip((plate.edges.start[0], plate.edges.end[-1]), plate.joined)
         if joined
     ]
-    if joints:
-        runs = [replace(run, corner=run.corner | _at_points(run.edges, as_complex(joints))) for run in runs]
+    runs = [replace(run, corner=run.corner | _at_points(run.edges, joints)) for run in runs]
     for plate in section.wetted_plates:
         if axis is not None and plate.edges.bounds()[1] <= axis:
             continue
-        corner = _corners(plate.edges, False) | _at_points(plate.edges, as_complex(joints))
+        corner = _corners(plate.edges, False) | _at_points(plate.edges, joints)
         ends = plate.edges.start[0, 1], plate.edges.end[-1, 1]
         # An edge on the bed is not free: the jump of the potential goes on in the mirror image
         tips = [not joined and z + depth > 1e-6 * -z for joined, z in zip(plate.joined, ends)]
@@ -122,10 +121,10 @@ def all_runs(section: Section, depth: float, axis: float | None) -> list[Run]:
     return runs
 
 
-def _at_points(edges: Edges, points: ComplexArray) -> NDArray[np.bool_]:
+def _at_points(edges: Edges, points: Sequence[complex]) -> NDArray[np.bool_]:
     """Tell which ends of edges (n + 1,) lie at one of the points."""
     ends = np.concatenate([as_complex(edges.start), as_complex(edges.end[-1:])])
-    near = np.abs(ends[:, None] - points[None, :]) < 1e-9 * np.abs(ends).max()
+    near = np.abs(ends[:, None] - np.array(points, dtype=complex)[None, :]) < 1e-9 * np.abs(ends).max()
     return np.asarray(near.any(axis=1))
 
 

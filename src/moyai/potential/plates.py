@@ -202,6 +202,7 @@ def join_plates(
     every = np.concatenate([np.concatenate([edges.start, edges.end]) for edges in lines])
     tolerance = _JOIN * float(np.ptp(every, axis=0).max())
     joined = [list(plate.joined) for plate in plates]
+    links: list[tuple[int, int]] = []
     for index in range(len(plates)):
         for last in (False, True):
             own = lines[count + index]
@@ -219,8 +220,13 @@ def join_plates(
                 point_there = (lines[line].end if fraction > 0.5 else lines[line].start)[edge]
             if not (plates[index].joined[last] and point_there[1] != 0.0):
                 lines[count + index] = _with_end(lines[count + index], last, point_there)
-            if line < count or owner[line] != line:
-                owner[count + index] = owner[line]
+            links.append((count + index, line))
+    # What hangs together moves together, with a hull if there is one
+    for _ in links:
+        for one, other in links:
+            shared = min(owner[one], owner[other])
+            for number in (one, other):
+                owner[number] = shared if number >= count else owner[number]
     return lines[:count], [
         WettedPlate(lines[count + index], (joined[index][0], joined[index][1]), owner[count + index])
         for index in range(len(plates))
@@ -270,7 +276,7 @@ def check_plates(outlines: Sequence[FloatArray], plates: Sequence[PlateLine]) ->
                     remedy="cut the plate where it meets the hull",
                 )
         for other in range(number + 1, len(lines)):
-            if _meets(inner, lines[other]) or _meets(_inner(lines[other]), line):
+            if _meets(inner, _inner(lines[other])):
                 raise InputError(
                     f"plates {number + 1} and {other + 1} cross or lie on each other",
                     path="plates",
@@ -291,8 +297,10 @@ def _inner(line: ComplexArray) -> ComplexArray:
 def _meets(inner: ComplexArray, other: ComplexArray) -> bool:
     size = max(float(np.ptp(other.real)), float(np.ptp(other.imag)), abs(inner[-1] - inner[0]))
     a, b, c, d = inner[:-1, None], inner[1:, None], other[None, :-1], other[None, 1:]
-    if segments_meet(a, b, c, d, 0.0).any():
+    if segments_meet(a, b, c, d, 1e-9 * size).any():
         return True
     chord = d - c
     along = np.clip(((inner[:, None] - c) / chord).real, 0.0, 1.0)
-    return bool((np.abs(c + along * chord - inner[:, None]) < _JOIN * size).any())
+    touching = (np.abs(c + along * chord - inner[:, None]) < _JOIN * size).any(axis=1)
+    # A single point is where the end of one lies on the other
+    return int(touching.sum()) > 2

@@ -156,8 +156,12 @@ class Hull:
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
-        """Smallest and largest x, smallest and largest z [m], plates included."""
-        every = np.array([part.bounds for part in self.outlines] + [part.edges.bounds() for part in self.plates])
+        """Smallest and largest x, smallest and largest z of the outlines [m]; of the plates where there are no others.
+
+        Plates may reach beyond: beam, height and bottom are those of the body they hang on.
+        """
+        parts = [outline.bounds for outline in self.outlines] or [plate.edges.bounds() for plate in self.plates]
+        every = np.array(parts)
         return float(every[:, 0].min()), float(every[:, 1].max()), float(every[:, 2].min()), float(every[:, 3].max())
 
     @property
@@ -354,6 +358,12 @@ class Section:
     def bottom(self) -> float:
         """Lowest z of the wetted boundary [m]."""
         return self.bounds[2]
+
+    @property
+    def keel(self) -> float:
+        """Lowest z of the wetted outlines without plates [m]; of the plates where there are no outlines."""
+        lines = [chain.edges for chain in self.chains] or [plate.edges for plate in self.wetted_plates]
+        return min(edges.bounds()[2] for edges in lines)
 
     @property
     def surface_piercing(self) -> bool:
