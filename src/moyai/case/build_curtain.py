@@ -193,7 +193,7 @@ def _drag(entry: Any) -> DragLaw:
     ends = [law.coefficient(low) * entry.range[0], law.coefficient(high) * entry.range[1]]
     value = law.coefficient(middle)
     bounds = (min(ends[0] / value, 1.0), max(ends[1] / value, 1.0))
-    return constant_drag(value, bounds, f"{law.name} law at a blockage of {middle:g}")
+    return DragLaw(f"{law.name} at a blockage of {middle:g}", (0.0,), (value,), bounds, _CASE)
 
 
 def _strengths(model: schema.CurtainCase, upper: float, lower: float) -> Strengths:

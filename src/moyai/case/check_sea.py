@@ -120,11 +120,13 @@ def _check_current(model: Any, findings: Findings) -> None:
                 f"the height {highest:g} m is above still water",
                 allowed="at most 0 m",
             )
-        if lowest < -model.site.water_depth * (1.0 + 1e-9):
+        # heights count from still water, which stands deepest over the bed at the highest water level
+        deepest = model.site.water_depth + max(model.site.water_levels.values())
+        if lowest < -deepest * (1.0 + 1e-9):
             findings.fault(
                 ("current", "profile", "table", 0),
                 f"the height {lowest:g} m is under the bed",
-                allowed=f"at least {-model.site.water_depth:g} m",
+                allowed=f"at least {-deepest:g} m",
             )
 
 

@@ -119,6 +119,9 @@ def _level_steps(
     collected.notices.extend(notices)
     yield
     if "limits" in settings.analyses:
+        if answer is None and "waves" in settings.analyses:
+            # snaps in waves keep the proportions of an impact at the current's speed
+            answer = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
         collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, answer, curve, progress)
         yield
 

@@ -162,16 +162,23 @@ def bulging_skirt(unit: LevelCurtain, settings: ImpactSettings) -> BulgingSkirt 
         return None
 
 
-def solve_impact(unit: LevelCurtain, settings: ImpactSettings) -> ImpactAnswer:
+def solve_impact(unit: LevelCurtain, settings: ImpactSettings, speed: float | None = None) -> ImpactAnswer:
     """Solve all models of the impact at a level.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+    settings : ImpactSettings
+    speed : float, optional
+        At the taut instant [m/s]; by the settings when not given.
 
     Raises
     ------
     InputError
         When the curtain is shorter than its span, or a number is out of range.
     """
-    speed, _ = start_speed(unit, settings)
-    impact = impact_of(unit, settings, speed)
+    taken = start_speed(unit, settings)[0] if speed is None else speed
+    impact = impact_of(unit, settings, taken)
     skirt = bulging_skirt(unit, settings)
     comparison = compare_models(impact, skirt)
     fit = [item for item in comparison.models if counts(item.model) and math.isfinite(item.tension)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,12 +87,14 @@ def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | Non
     unit : LevelCurtain
     settings : Settings
     answer : ImpactAnswer or None
-        None where the impact was not asked for.
+        None where neither impact nor slack and taut cycles were asked for.
     curve : DragCurve
         Loads at rest, up to :func:`fastest_water`.
     """
     limits, anchor = settings.limits, settings.anchor_loads
-    with_lines = anchor is not None and unit.curtain.anchors is not None and "anchor_loads" in settings.analyses
+    asked, snapping = "impact" in settings.analyses, "waves" in settings.analyses
+    lines = unit.curtain.anchors
+    with_lines = anchor is not None and lines is not None and "anchor_loads" in settings.analyses
     return SeaLoads(
         period=limits.period_of,
         angle=limits.wave_angle,
@@ -102,14 +105,18 @@ def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | Non
         drag=curve,
         energy=rope_model(unit, anchor) if with_lines and anchor is not None else None,
         pretension=_pretension(unit, settings),
-        impact=None if answer is None or not limits.impact else impact_load(unit, answer, settings),
+        steady=0.0 if lines is None or lines.pretension is None else lines.pretension,
+        impact=impact_load(unit, answer, settings) if answer is not None and asked and limits.impact else None,
+        snaps=replace(impact_load(unit, answer, settings), start_ratio=1.0)
+        if answer is not None and snapping
+        else None,
     )
 
 
 def _pretension(unit: LevelCurtain, settings: Settings) -> float | None:
     """Return the steady tension that the energy model takes [N]; None: that of the statics at each speed."""
     anchor, lines = settings.anchor_loads, unit.curtain.anchors
-    if anchor is None or not anchor.pretension:
+    if anchor is not None and not anchor.pretension:
         return 0.0
     return None if lines is None else lines.pretension
 
@@ -171,6 +178,7 @@ def limits_dataset(
                 "speed_limit_governing": most.governing,
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
+                "with_snaps": int(loads.snaps is not None),
                 "with_energy_model": int(loads.energy is not None),
             },
         )

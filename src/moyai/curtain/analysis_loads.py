@@ -161,7 +161,12 @@ def _factor(unit: LevelCurtain, component: str) -> float:
 
 def _steady(unit: LevelCurtain, component: str, statics: CurtainStatics | None) -> float:
     skirt, floats = unit.curtain.skirt, unit.curtain.floats
+    pulled = 0.0
+    if unit.curtain.anchors is not None and unit.curtain.anchors.pretension is not None:
+        pulled = unit.curtain.anchors.pretension
     if statics is None:
+        if component in ("anchor line", "anchor"):
+            return pulled * _factor(unit, component)
         hanging = skirt.toe_load + skirt.submerged_weight * skirt.length
         still = {"skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length}
         return still.get(component, floats.weight + hanging if component == "float" else 0.0)
@@ -171,8 +176,8 @@ def _steady(unit: LevelCurtain, component: str, statics: CurtainStatics | None) 
         "skirt": statics.section.sheet_tension,
         "joint": statics.section.load * unit.curtain.joint_distance,
         "float": floats.buoyancy - statics.float_reserve,
-        "anchor line": statics.anchor_line_tension,
-        "anchor": statics.anchor_force,
+        "anchor line": max(statics.anchor_line_tension, pulled),
+        "anchor": max(statics.anchor_force, pulled * _factor(unit, "anchor")),
     }[component]
 
 

@@ -322,6 +322,9 @@ def statics_notices(unit: LevelCurtain, significant_height: float) -> tuple[Noti
     """Return where the curtain at rest leaves practice, its class, or the range of its formulas."""
     statics, curtain = unit.statics, unit.curtain
     notices = list(check_statics(statics, abs(unit.normal_speed), unit.water))
+    if curtain.drag.name != "constant":
+        # the coefficient was taken at a blockage that the case gives
+        notices = [notice for notice in notices if notice.code != "curtain-blockage"]
     if unit.site.on_bed:
         notices += check_on_bed(statics, unit.water)
     if curtain.curtain_class:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -182,8 +182,13 @@ class SeaLoads:
     energy : EnergyModel or None
         Anchor lines.
     pretension : float or None
-        Of the anchor line [N]; None: the steady tension.
+        Steady tension that the energy model takes [N]; None: that of the statics.
+    steady : float
+        Tension that the anchor line has at least [N], where the case gives a pretension.
     impact : ImpactLoad or None
+        An impact in the current and under the crest.
+    snaps : ImpactLoad or None
+        Snaps of slack and taut cycles: only where the waves turn the water against the current.
     """
 
     period: Callable[[float], float]
@@ -195,7 +200,9 @@ class SeaLoads:
     drag: DragCurve
     energy: EnergyModel | None = None
     pretension: float | None = None
-    impact: ImpactLoad | None = field(default=None)
+    steady: float = 0.0
+    impact: ImpactLoad | None = None
+    snaps: ImpactLoad | None = None
 
     def water_speed(self, significant_height: float, speed: float, water: Water) -> float:
         """Return the root of the squared velocity under the crest of the highest wave [m/s] [eq:curtain-wave-drag]."""
@@ -210,18 +217,26 @@ class SeaLoads:
         """Return what waves of a significant height [m] add at a surface speed [m/s]."""
         if significant_height <= 0.0:
             return AddedLoads()
-        dragged = increase(self.drag.at(self.water_speed(significant_height, speed, water)), statics)
+        moving, current = self.water_speed(significant_height, speed, water), self.normal_ratio * speed
+        found = increase(self.drag.at(moving), statics)
+        if self.snaps is not None and moving > 2.0 * current:
+            found = found.larger(self.snaps.at(moving))
         if self.energy is None:
-            return dragged
+            return found
         height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
-        float_speed = self.energy.float_speed(height, self.period(significant_height), self.normal_ratio * speed, water)
+        float_speed = self.energy.float_speed(height, self.period(significant_height), current, water)
         steady = statics.anchor_line_tension if self.pretension is None else self.pretension
         rise = float(self.energy.fluctuating_tension(float_speed, steady))
-        return dragged.larger(AddedLoads(anchor_line=rise))
+        return found.larger(AddedLoads(anchor_line=self._lacking(statics) + rise))
+
+    def _lacking(self, statics: CurtainStatics) -> float:
+        """Return what a given pretension has beyond the tension in the current alone [N]."""
+        return max(self.steady - statics.anchor_line_tension, 0.0)
 
     def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
         """Return what waves and impact add at a surface speed [m/s], the larger for each component."""
         found = self.waves(statics, significant_height, speed, water)
+        found = found.larger(AddedLoads(anchor_line=self._lacking(statics)))
         if self.impact is None:
             return found
         return found.larger(self.impact.at(self.water_speed(significant_height, speed, water)))

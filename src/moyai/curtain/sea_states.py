@@ -60,7 +60,7 @@ def design_waves(sea: SeaState, normal: float) -> tuple[DesignWave, ...]:
     """
     angle = math.remainder(sea.heading - normal, 2.0 * math.pi)
     if isinstance(sea, IrregularSea):
-        height = sea.spectrum.significant_height
+        height = significant_height(sea)
         return (DesignWave(sea.name, height, significant_period(sea), angle, True),)
     several = len(sea.periods) > 1
     return tuple(
@@ -71,4 +71,7 @@ def design_waves(sea: SeaState, normal: float) -> tuple[DesignWave, ...]:
 
 def significant_height(sea: SeaState) -> float:
     """Return the significant height [m], of regular waves their height."""
-    return sea.height if isinstance(sea, RegularSea) else sea.spectrum.significant_height
+    if isinstance(sea, RegularSea):
+        return sea.height
+    # H_1/3 of a spectrum made from it differs a little from 4 sqrt(m0)
+    return float(sea.spectrum.parameters.get("significant_height", sea.spectrum.significant_height))
