@@ -159,12 +159,15 @@ def find_spikes(values: FloatArray, options: QualityOptions) -> NDArray[np.bool_
         return spikes
     distance = np.empty(values.size)
     _median_distance(values, max(options.spike_samples, 2), distance)
-    known = np.abs(distance[np.isfinite(distance)])
+    # Every so many samples are enough for a scale
+    thin = slice(None, None, max(values.size // 3000, 1))
+    known = np.abs(distance[thin])
+    known = known[np.isfinite(known)]
     if known.size == 0:
         return spikes
     # A smooth record is monotone between its crests, where the distances vanish: the usual step from sample to sample
     # and the larger distances keep the scale from vanishing too
-    steps = np.abs(np.diff(values))
+    steps = np.abs(np.diff(values)[thin])
     steps = steps[np.isfinite(steps)]
     scale = max(
         1.4826 * float(np.median(known)),

@@ -136,7 +136,7 @@ def _parquet(path: Path) -> Any:
             f"{path.name}: reading Parquet needs pyarrow", path="file", remedy="pip install 'moyai[parquet]'"
         ) from None
     try:
-        return parquet.ParquetFile(path, pre_buffer=False, memory_map=True)
+        return parquet.ParquetFile(path, pre_buffer=False, buffer_size=1 << 20)
     except (OSError, ValueError) as error:  # ArrowInvalid is a ValueError
         raise InputError(f"{path.name} cannot be read as Parquet: {error}", path="file") from None
 
