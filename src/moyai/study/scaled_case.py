@@ -18,13 +18,13 @@ from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block, QuantityOf
 from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
-from moyai.core.quantities import LENGTH, Kind, parse_quantity
+from moyai.core.quantities import Kind, parse_quantity
 from moyai.core.units import parse_unit
 from moyai.design.model_numbers import Motion
 from moyai.design.similarity import Scale, ScaledQuantity
 from moyai.sea.dispersion import wave_number
+from moyai.study.scaled_materials import equivalents
 from moyai.study.scaled_text import Edits, number_text, without_remarks, written_in
-from moyai.tables.lines import line_type
 
 # Keys that tell how large a structure is across the flow
 _SIZES = ("draught", "skirt_length", "skirt_depth", "depth", "beam", "bottom_beam", "pontoon_beam", "radius")
@@ -99,7 +99,12 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
     root = yaml.compose(given, Loader=yaml.SafeLoader)
     edits = Edits(given)
     rows: list[ScaledQuantity] = []
+    tree = list(_blocks(case.model, case.document.data, root, ()))
+    makes = {path: found for block, _, path in tree if (found := equivalents(block, case, dotted(path)))}
+    replaced = {(*path, key) for path, keys in makes.items() for key in keys}
     for leaf in _leaves(case.model, type(case.model), case.document.data, root, ()):
+        if any(leaf.path[:length] in replaced for length in range(len(leaf.path) + 1)):
+            continue
         row = _scaled(leaf, scale, from_model)
         if row is None:
             continue
@@ -108,11 +113,17 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
         text = _as_written(leaf.data, new, row.unit, digits)
         _replace(edits, leaf, text, f"{written_in(old, row.unit)} ({_factor(row.ratio, from_model)})")
         rows.append(row)
-    for block, node, path in _blocks(case.model, case.document.data, root, ()):
-        if isinstance(block, CatalogueSegment):
-            rows += _own_segment(edits, block, node, path, case, scale, from_model, digits)
-        else:
-            rows += _defaults(edits, block, node, path, scale, from_model, digits)
+    for block, node, path in tree:
+        if any(path[:length] in replaced for length in range(len(path) + 1)):
+            continue
+        rows += _defaults(edits, block, node, path, scale, from_model, digits)
+        for key, (make, figures) in makes.get(path, {}).items():
+            own = [_both(dotted((*path, name)), *figures[name], scale, from_model) for name in figures]
+            entries = [f"{name}: {_new(row, from_model, digits)}" for name, row in zip(figures, own, strict=True)]
+            if isinstance(block, CatalogueSegment) and block.catalogue:
+                entries.append(f"name: {block.catalogue}")
+            edits.replace_entry(node, key, entries, f"figures of {make} scaled, which no thinner one has")
+            rows += own
     _rename(edits, root, case.title, scale, from_model)
     text = _header(case, scale, from_model) + edits.text()
     name = f"{case.path.name} scaled"
@@ -168,8 +179,6 @@ def _child(node: Any, key: str) -> Any:
 def _leaves(model: Any, annotation: Any, data: Any, node: Any, path: KeyPath) -> Iterator[_Leaf]:
     """Yield every scalar of the file that the schema reads as a quantity."""
     if isinstance(model, Block):
-        if isinstance(model, CatalogueSegment):
-            return
         for name, field in type(model).model_fields.items():
             key = field.alias or name
             if not (isinstance(data, dict) and key in data):
@@ -253,11 +262,9 @@ def _scaled(leaf: _Leaf, scale: Scale, from_model: bool) -> ScaledQuantity | Non
         unit, value = quantity.unit.symbol or leaf.kind.unit, float(quantity.number)
     else:
         unit, value = leaf.kind.unit, float(leaf.data)
-    ratio = scale.ratio(unit)
-    if ratio == 1.0 or value == 0.0:
+    if scale.ratio(unit) == 1.0 or value == 0.0:
         return None
-    prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
-    return ScaledQuantity(dotted(leaf.path), unit, prototype, model, ratio)
+    return _both(dotted(leaf.path), value, unit, scale, from_model)
 
 
 def _as_written(data: Any, value: float, unit: str, digits: int) -> str:
@@ -282,42 +289,16 @@ def _replace(edits: Edits, leaf: _Leaf, text: str, remark: str) -> None:
         )
 
 
-def _own_segment(
-    edits: Edits,
-    block: CatalogueSegment,
-    node: Any,
-    path: KeyPath,
-    case: Case,
-    scale: Scale,
-    from_model: bool,
-    digits: int,
-) -> list[ScaledQuantity]:
-    """Write a line of the catalogue as a line with figures of its own."""
-    found = line_type(block.catalogue, block.diameter)
-    site = case.model.site
-    figures = {
-        "length": (block.length, "m"),
-        "submerged_weight": (found.submerged_weight_per_length(site.density, site.gravity), "N/m"),
-        "mass": (found.mass_per_length, "kg/m"),
-        "axial_stiffness": (found.axial_stiffness, "N"),
-        "breaking_load": (found.breaking_load, "N"),
-        "diameter": (block.diameter, "m"),
-    }
-    rows = []
-    for key, (value, unit) in figures.items():
-        if not math.isfinite(value):
-            continue
-        ratio = scale.ratio(unit)
-        prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
-        rows.append(ScaledQuantity(dotted((*path, key)), unit, prototype, model, ratio))
-    parts = [
-        f"{row.name.rsplit('.', 1)[-1]}: {written_in(row.prototype if from_model else row.model, row.unit, digits)}"
-        for row in rows
-    ]
-    what = f"{block.catalogue} of {written_in(block.diameter, LENGTH.unit)}, {written_in(block.length, LENGTH.unit)}"
-    remark = f"{what}, in the other size; a thinner one of the catalogue is too stiff"
-    edits.replace_block(node, "{" + ", ".join([*parts, f"name: {block.catalogue}"]) + "}", remark)
-    return rows
+def _both(name: str, value: float, unit: str, scale: Scale, from_model: bool) -> ScaledQuantity:
+    """Return a value of the size given in both sizes."""
+    ratio = scale.ratio(unit)
+    prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
+    return ScaledQuantity(name, unit, prototype, model, ratio)
+
+
+def _new(row: ScaledQuantity, from_model: bool, digits: int) -> str:
+    """Return the value of the new size with its unit."""
+    return written_in(row.prototype if from_model else row.model, row.unit, digits)
 
 
 def _defaults(
@@ -356,9 +337,9 @@ def _default_keys(
         unit, ratio = quantity.kind.unit, scale.ratio(quantity.kind.unit)
         if ratio == 1.0:
             continue
-        prototype, model = (value * ratio, value) if from_model else (value, value / ratio)
-        rows.append(ScaledQuantity(dotted((*path, key)), unit, prototype, model, ratio))
-        keys.append(f"{key}: {written_in(prototype if from_model else model, unit, digits)}")
+        row = _both(dotted((*path, key)), value, unit, scale, from_model)
+        rows.append(row)
+        keys.append(f"{key}: {_new(row, from_model, digits)}")
     return keys
 
 

@@ -94,13 +94,19 @@ class Edits:
         self._remark(span[1], remark)
         return True
 
-    def replace_block(self, node: Any, new: str, remark: str) -> None:
-        """Put ``new`` in place of a block of keys."""
-        last = node if node.flow_style else node.value[-1][1]
-        span = (node.start_mark.index, last.end_mark.index)
-        if span not in self._changes:
-            self._changes[span] = new
-            self._remark(span[1], remark)
+    def replace_entry(self, node: Any, key: str, entries: list[str], remark: str) -> None:
+        """Put other keys in place of one key and its value."""
+        for name, value in node.value:
+            if name.value != key:
+                continue
+            last = value
+            while isinstance(last, yaml.CollectionNode) and not last.flow_style and last.value:
+                last = last.value[-1][1] if isinstance(last, yaml.MappingNode) else last.value[-1]
+            span = (name.start_mark.index, last.end_mark.index)
+            if span not in self._changes:
+                between = ", " if node.flow_style else "\n" + " " * name.start_mark.column
+                self._changes[span] = between.join(entries)
+                self._remark(span[1], remark)
 
     def add_keys(self, node: Any, keys: list[str], remark: str) -> None:
         """Write further keys before the first one of a block."""

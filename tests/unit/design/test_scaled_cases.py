@@ -278,3 +278,75 @@ def test_a_case_out_of_range_is_refused(tmp_path):
     with pytest.raises(InputError, match="digits"):
         scale_case(case, Scale(26.0, 1.0, 1.0), digits=2)
     assert case_of(parse_yaml(case.text), case.path).case_hash == case.case_hash
+
+
+def curtain_case(tmp_path, **changes):
+    text = template("curtain").replace("water_levels: {HWL: 1.5 m, LWL: 0 m} ", "water_levels: {MSL: 0.5 m} ")
+    for old, new in changes.items():
+        text = text.replace(old, new)
+    return read(text, tmp_path, "curtain.yaml")
+
+
+def test_makes_of_a_curtain_become_figures(tmp_path):
+    """Wire of the catalogue, chain and film: EA with the cube, weights with the square of the scale and the water."""
+    from moyai.case.build_curtain import curtain_of
+
+    rng = np.random.default_rng(16)
+    path = tmp_path / "film.yaml"
+    text = template("curtain").replace(
+        "    stiffness: 900 kN/m ", "    film: {material: polyethylene_film, thickness: 1 mm} "
+    )
+    text = text.replace("    submerged_weight: 4 N/m2 ", "    # weight of the film ")
+    path.write_text(text, encoding="utf-8")
+    for case in (curtain_case(tmp_path), load_case(path)):
+        scale = Scale(float(rng.uniform(3, 40)), 1.025, 1.0)
+        scaled = scale_case(case, scale, digits=17)
+        sites = [item.model.site for item in (case, scaled.case)]
+        large, small = (
+            curtain_of(item.model, Water(site.water_depth, site.density, site.gravity))
+            for item, site in zip((case, scaled.case), sites, strict=True)
+        )
+        for name, unit in (("upper_stiffness", "N"), ("lower_stiffness", "N"), ("span", "m")):
+            assert scale.to_prototype(getattr(small, name), unit) == pytest.approx(getattr(large, name), rel=1e-12)
+        for name, unit in (("toe_load", "N/m"), ("submerged_weight", "N/m2"), ("stiffness", "N/m"), ("length", "m")):
+            value = scale.to_prototype(getattr(small.skirt, name), unit)
+            assert value == pytest.approx(getattr(large.skirt, name), rel=1e-12, abs=1e-12), name
+        strengths = [item.strengths.lower_cable.capacity for item in (large, small)]
+        assert scale.to_prototype(strengths[1], "N") == pytest.approx(strengths[0], rel=1e-12)
+        assert "wire_6x19" not in scaled.text.replace("figures of wire_6x19", "")
+
+
+@pytest.mark.slow
+def test_whole_curtain_is_the_same_in_both_sizes(tmp_path):
+    """Statics, impact models and anchor loads of a case file in both sizes: every variable to rounding."""
+    from moyai.cli.runner import run
+
+    case = curtain_case(
+        tmp_path, **{"[statics, impact, waves, anchor_loads, limits]": "[statics, impact, anchor_loads]"}
+    )
+    scaled = scale_case(case, Scale(20.0, 1.025, 1.0), digits=17)
+    large, small = (run(item, silent) for item in (case, scaled.case))
+    compared = 0
+    for group in large.tree.subtree:
+        for name, variable in group.data_vars.items():
+            # planning formulas know one water only; loads are of mixed units and told apart below
+            if variable.dtype.kind not in "fc" or name.startswith("planning") or group.path.endswith("/loads"):
+                continue
+            unit = str(variable.attrs.get("units", ""))
+            ratio = scaled.scale.ratio("" if unit in ("1", "-") else unit)
+            values = np.asarray(variable.values)
+            others = np.asarray(small.tree[group.path][name].values) * ratio
+            known = np.isfinite(values)
+            assert np.array_equal(known, np.isfinite(others)), (group.path, name)
+            if known.any():
+                # a held toe has no flare: what rounding leaves of it is compared with the depth
+                size = max(np.abs(values[known]).max(), 1e-6)
+                assert np.abs(values[known] - others[known]).max() <= 1e-9 * size, (group.path, name)
+                compared += 1
+    assert compared > 110
+    loads = [item.tree["/MSL/loads"] for item in (large, small)]
+    for row, unit in enumerate(loads[0]["load_unit"].values):
+        for name in ("steady_load", "wave_load", "impact_load", "governing_load", "capacity"):
+            one, two = (float(group[name].values[row]) for group in loads)
+            assert scaled.scale.to_prototype(two, str(unit)) == pytest.approx(one, rel=1e-9, nan_ok=True)
+    assert loads[1]["utilisation"].values == pytest.approx(loads[0]["utilisation"].values, rel=1e-9, nan_ok=True)
