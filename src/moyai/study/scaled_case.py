@@ -23,7 +23,7 @@ from moyai.core.units import parse_unit
 from moyai.design.model_numbers import Motion
 from moyai.design.similarity import Scale, ScaledQuantity
 from moyai.sea.dispersion import wave_number
-from moyai.study.scaled_materials import equivalents
+from moyai.study.scaled_materials import Figures, equivalents
 from moyai.study.scaled_text import Edits, number_text, without_remarks, written_in
 
 # Keys that tell how large a structure is across the flow
@@ -100,10 +100,14 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
     edits = Edits(given)
     rows: list[ScaledQuantity] = []
     tree = list(_blocks(case.model, case.document.data, root, ()))
-    makes = {path: found for block, _, path in tree if (found := equivalents(block, case, dotted(path)))}
-    replaced = {(*path, key) for path, keys in makes.items() for key in keys}
+    makes: dict[KeyPath, dict[str, tuple[str, Figures]]] = {}
+    replaced: set[KeyPath] = set()
+    for block, _, path in tree:  # from the outside inwards
+        if not _inside(path, replaced) and (known := equivalents(block, case, dotted(path))):
+            makes[path] = known
+            replaced |= {(*path, key) for key in known}
     for leaf in _leaves(case.model, type(case.model), case.document.data, root, ()):
-        if any(leaf.path[:length] in replaced for length in range(len(leaf.path) + 1)):
+        if _inside(leaf.path, replaced):
             continue
         row = _scaled(leaf, scale, from_model)
         if row is None:
@@ -114,7 +118,7 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
         _replace(edits, leaf, text, f"{written_in(old, row.unit)} ({_factor(row.ratio, from_model)})")
         rows.append(row)
     for block, node, path in tree:
-        if any(path[:length] in replaced for length in range(len(path) + 1)):
+        if _inside(path, replaced):
             continue
         rows += _defaults(edits, block, node, path, scale, from_model, digits)
         for key, (make, figures) in makes.get(path, {}).items():
@@ -128,6 +132,10 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
     text = _header(case, scale, from_model) + edits.text()
     name = f"{case.path.name} scaled"
     return ScaledCase(text, tuple(rows), _read_again(text, name, case.path.parent), from_model, scale)
+
+
+def _inside(path: KeyPath, keys: set[KeyPath]) -> bool:
+    return any(path[:length] in keys for length in range(1, len(path) + 1))
 
 
 def _read_again(text: str, name: str, folder: Path) -> Case:
