@@ -52,7 +52,7 @@ SINGLE = {
     "current table out of order": ("current: {speed: 0.3 m/s,", "current: {profile: {table: [[-8, 0.1], [-9, 0.2]]},", "[[-8", "current.profile.table", "the heights do not rise: -9 m follows -8 m"),
     "current table with a short row": ("current: {speed: 0.3 m/s,", "current: {profile: {table: [[-8], [0, 0.2]]},", "[-8]", "current.profile.table[0]", "the list has 1 value(s); allowed: at least 2"),
     "current table above water": ("current: {speed: 0.3 m/s,", "current: {profile: {table: [[-8, 0.1], [1, 0.2]]},", "[1, 0.2]", "current.profile.table[1]", "the height 1 m is above still water"),
-    "current table under the bed": ("current: {speed: 0.3 m/s,", "current: {profile: {table: [[-11, 0.1], [0, 0.2]]},", "[-11, 0.1]", "current.profile.table[0]", "the height -11 m is under the bed"),
+    "current table under the bed": ("current: {speed: 0.3 m/s,", "current: {profile: {table: [[-12, 0.1], [0, 0.2]]},", "[-12, 0.1]", "current.profile.table[0]", "the height -12 m is under the bed"),
     "current without speed": ("current: {speed: 0.3 m/s,", "current: {", "{ heading", "current", "'speed' is missing"),
     "misspelt kind of sea": ("kind: jonswap", "kind: jonswop", "jonswop", "waves[1].kind", "'jonswop' is not known here; allowed: regular, jonswap, pierson_moskowitz, bretschneider_mitsuyasu, tma, spectrum_file; did you mean 'jonswap'?"),
     "kind of sea missing": ("    kind: jonswap\n", "", "name: storm", "waves[1].kind", "the key 'kind' is missing; allowed: regular, jonswap"),
