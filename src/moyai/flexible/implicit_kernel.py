@@ -427,3 +427,327 @@ def relax(
             forces(x, v, water, system, fluid, bed, force, tension, mass)
             left, worst = _masked_norm(force, nodes)
     return most, left / scale, worst
+
+
+@njit(cache=True, error_model="numpy")
+def _driven_place(x: Any, v: Any, driving: Any, now: float) -> None:
+    """Put driven nodes at their place and velocity of ``now``."""
+    driven, rest, tables, start, step = driving
+    last = tables.shape[1] - 1
+    place = (now - start) / step
+    row = int(place)
+    row = 0 if row < 0 else (last - 1 if row > last - 1 else row)
+    s = place - row
+    for d in range(driven.shape[0]):
+        node, table = driven[d, 0], driven[d, 1]
+        for axis in range(3):
+            p0, p1 = tables[table, row, axis], tables[table, row + 1, axis]
+            v0, v1 = tables[table, row, 3 + axis] * step, tables[table, row + 1, 3 + axis] * step
+            bend, twist = 3.0 * (p1 - p0) - 2.0 * v0 - v1, v0 + v1 - 2.0 * (p1 - p0)
+            x[node, axis] = rest[d, axis] + p0 + s * (v0 + s * (bend + s * twist))
+            v[node, axis] = (v0 + s * (2.0 * bend + 3.0 * s * twist)) / step
+
+
+@njit(cache=True, error_model="numpy")
+def _water_at(water: Any, base: Any, rate: Any, ahead: float, moving: bool) -> None:
+    if moving:
+        for r in range(7):
+            for i in range(water.shape[1]):
+                water[r, i] = base[r, i] + ahead * rate[r, i]
+
+
+@njit(cache=True, error_model="numpy")
+def _measure(change: Any, x: Any, start: Any, end: Any, spring: Any, length: float, pull: float) -> float:
+    """Return a change of place in units of what is allowed: [m] for nodes, [N] of tension for bars."""
+    most = 0.0
+    for i in range(change.shape[0]):
+        for axis in range(3):
+            size = abs(change[i, axis]) / length
+            if not size <= most:
+                most = size
+    for k in range(start.size):
+        a, b = start[k], end[k]
+        size = dot = 0.0
+        for axis in range(3):
+            t = x[b, axis] - x[a, axis]
+            size += t * t
+            dot += t * (change[b, axis] - change[a, axis])
+        value = abs(dot) / max(math.sqrt(size), 1e-100) * spring[k] / pull
+        if not value <= most:
+            most = value
+    return most
+
+
+@njit(cache=True, error_model="numpy")
+def _mass_times(mass: Any, u: Any, nodes: Any, out: Any, sign: float) -> None:
+    for i in range(u.shape[0]):
+        out[i, 0] += sign * (mass[i, 0] * u[i, 0] + mass[i, 1] * u[i, 1] + mass[i, 2] * u[i, 2])
+        out[i, 1] += sign * (mass[i, 1] * u[i, 0] + mass[i, 3] * u[i, 1] + mass[i, 4] * u[i, 2])
+        out[i, 2] += sign * (mass[i, 2] * u[i, 0] + mass[i, 4] * u[i, 1] + mass[i, 5] * u[i, 2])
+        for axis in range(3):
+            out[i, axis] *= nodes[9 + axis, i]
+
+
+@njit(cache=True, error_model="numpy")
+def _pack(values: Any, rank: Any, out: Any) -> None:
+    for i in range(values.shape[0]):
+        for axis in range(3):
+            out[3 * rank[i] + axis] = values[i, axis]
+
+
+@njit(cache=True, error_model="numpy")
+def acceleration(
+    x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, rank: Any, tension: Any, mass: Any, result: Any
+) -> None:
+    """Write the acceleration of what is free."""
+    nodes = system[0]
+    forces(x, v, water, system, fluid, bed, result, tension, mass)
+    for i in range(x.shape[0]):
+        fx, fy, fz = nodes[9, i] * result[i, 0], nodes[10, i] * result[i, 1], nodes[11, i] * result[i, 2]
+        px, py, pz = nodes[9, i], nodes[10, i], nodes[11, i]
+        a, b, c = mass[i, 0], mass[i, 1] * px * py, mass[i, 2] * px * pz
+        d, e, f = mass[i, 3], mass[i, 4] * py * pz, mass[i, 5]
+        p, q, s = d * f - e * e, c * e - b * f, b * e - c * d
+        whole = 1.0 / (a * p + b * q + c * s)
+        result[i, 0] = whole * (p * fx + q * fy + s * fz)
+        result[i, 1] = whole * (q * fx + (a * f - c * c) * fy + (b * c - a * e) * fz)
+        result[i, 2] = whole * (s * fx + (b * c - a * e) * fy + (a * d - b * b) * fz)
+
+
+@njit(cache=True, error_model="numpy")
+def _stage(
+    h: float, gain: float, ahead: Any, across: Any, guess: Any, system: Any, fluid: Any, bed: Any, rank: Any, band: Any,
+    fresh: bool, water: Any, driving: Any, now: float, limits: Any, place: Any, speed: Any, mass: Any, tension: Any,
+    force: Any, right: Any, change: Any, counts: Any,
+) -> int:  # fmt: skip
+    """Solve one stage for its acceleration ``guess`` by Newton's method; 0 when solved, 1 when not.
+
+    ``limits`` is allowed error of place, allowed error of tension. The factor in ``band`` is kept as long as it serves.
+    """
+    nodes, start, end = system[0], system[2], system[3]
+    spring = system[1][1]
+    count = guess.shape[0]
+    last = math.inf
+    for attempt in range(12):
+        for i in range(count):
+            for axis in range(3):
+                speed[i, axis] = across[i, axis] + gain * guess[i, axis]
+                place[i, axis] = ahead[i, axis] + gain * speed[i, axis]
+        _driven_place(place, speed, driving, now)
+        forces(place, speed, water, system, fluid, bed, force, tension, mass)
+        counts[0] += 1
+        _mass_times(mass, guess, nodes, force, -1.0)
+        if fresh:
+            tangent(place, speed, water, system, fluid, bed, mass, rank, 1.0, gain, gain * gain, band)
+            counts[1] += 1
+            if not factor(band):
+                return 1
+            fresh = False
+        _pack(force, rank, right)
+        solve(band, right)
+        for i in range(count):
+            for axis in range(3):
+                step = right[3 * rank[i] + axis] * nodes[9 + axis, i]
+                guess[i, axis] += step
+                change[i, axis] = gain * gain * step
+        size = _measure(change, place, start, end, spring, limits[0], limits[1])
+        if not size < 1e12:
+            return 1
+        if size <= 0.02:
+            for i in range(count):
+                for axis in range(3):
+                    speed[i, axis] = across[i, axis] + gain * guess[i, axis]
+                    place[i, axis] = ahead[i, axis] + gain * speed[i, axis]
+            _driven_place(place, speed, driving, now)
+            return 0
+        # a bar that turned slack or taut wants a new tangent
+        if size > 0.3 * last:
+            fresh = True
+        last = size
+    return 1
+
+
+@njit(cache=True, error_model="numpy")
+def _energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
+    """Return kinetic energy of what is free and elastic energy of bars and hinges [J]."""
+    nodes, bars, start, end, curve, curves, hinges, bending, attached = system
+    kinetic = elastic = 0.0
+    for i in range(x.shape[0]):
+        p, q, s = nodes[9, i] * v[i, 0], nodes[10, i] * v[i, 1], nodes[11, i] * v[i, 2]
+        kinetic += 0.5 * (mass[i, 0] * p * p + mass[i, 3] * q * q + mass[i, 5] * s * s)
+        kinetic += mass[i, 1] * p * q + mass[i, 2] * p * s + mass[i, 4] * q * s
+    for k in range(start.size):
+        size = 0.0
+        for axis in range(3):
+            size += (x[end[k], axis] - x[start[k], axis]) ** 2
+        stretch = math.sqrt(size) - bars[0, k]
+        if curve[k] < 0:
+            if bars[1, k] * stretch > bars[3, k]:
+                elastic += 0.5 * bars[1, k] * stretch * stretch
+        elif stretch > 0.0:
+            strain, j, area, table = stretch / bars[0, k], 0, 0.0, curves[curve[k]]
+            while j + 2 < table.shape[1] and strain > table[0, j + 1]:
+                area += 0.5 * (table[1, j] + table[1, j + 1]) * (table[0, j + 1] - table[0, j])
+                j += 1
+            rest = strain - table[0, j]
+            elastic += bars[0, k] * (area + rest * (table[1, j] + 0.5 * table[2, j] * rest))
+    for h in range(hinges.shape[0]):
+        one = two = dot = 0.0
+        for axis in range(3):
+            p = x[hinges[h, 1], axis] - x[hinges[h, 0], axis]
+            q = x[hinges[h, 2], axis] - x[hinges[h, 1], axis]
+            one, two, dot = one + p * p, two + q * q, dot + p * q
+        elastic += bending[h] * (1.0 - dot / math.sqrt(one * two))
+    return kinetic, elastic
+
+
+@njit(cache=True, error_model="numpy")
+def _powers(x: Any, v: Any, force: Any, system: Any, fluid: Any, own: Any, tension: Any, result: Any) -> None:
+    """Write the power of the loads on what is free and of the driven points on the bars [W]."""
+    nodes, bars, start, end, curve, curves, hinges, bending, attached = system
+    own[:] = 0.0
+    for k in range(start.size):
+        a, b = start[k], end[k]
+        size = rate = 0.0
+        for axis in range(3):
+            t = x[b, axis] - x[a, axis]
+            size += t * t
+            rate += t * (v[b, axis] - v[a, axis])
+        size = max(math.sqrt(size), 1e-100)
+        elastic, _ = _elastic(bars, k, size, curve[k], curves)
+        pull, _ = _cut(elastic + bars[2, k] * rate / size, bars[3, k], fluid[2])
+        for axis in range(3):
+            t = (x[b, axis] - x[a, axis]) / size
+            own[a, axis] += pull * t
+            own[b, axis] -= pull * t
+    for h in range(hinges.shape[0]):
+        _bend(x, hinges[h, 0], hinges[h, 1], hinges[h, 2], bending[h], own)
+    result[0] = result[1] = 0.0
+    for i in range(x.shape[0]):
+        for axis in range(3):
+            if nodes[9 + axis, i] > 0.0:
+                result[0] += (force[i, axis] - own[i, axis]) * v[i, axis]
+            else:
+                result[1] -= own[i, axis] * v[i, axis]
+
+
+@njit(cache=True, error_model="numpy")
+def implicit_march(
+    x: Any, v: Any, a: Any, system: Any, rank: Any, band: Any, fluid: Any, bed: Any, water: Any, driving: Any, method: Any,
+    control: Any, timing: Any, ledger: Any, saved: Any, counts: Any,
+) -> tuple[int, int, float, int]:  # fmt: skip
+    """Advance by rows of the result with an error-controlled implicit Runge-Kutta method [eq:flexible-dirk].
+
+    ``water`` is (now, at the start, rate, moving); ``method`` is (stages, embedded, exponent); ``control`` is 0 step, 1
+    smallest step, 2 largest step, 3 tolerance, 4 length for the error of place, 5 largest tension so far, 6 fixed step (1) or
+    not (0), 7 whether ``a`` is known; ``counts`` is force evaluations, factorisations, steps, rejected steps. Returns status,
+    good rows, time reached, node of the largest acceleration.
+    """
+    nodes, start, end = system[0], system[2], system[3]
+    spring = system[1][1]
+    stages, embedded, exponent = method
+    now_water, base, rate, moving = water
+    time, interval, rows, first_row = timing
+    places, pulls, peaks, energy, keep_nodes, keep_bars = saved
+    count, many = x.shape[0], stages.shape[0]
+    gamma = stages[1, 1]
+    vs, accelerations = np.zeros((many, count, 3)), np.zeros((many, count, 3))
+    ahead, across, place, speed = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
+    force, change, own = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
+    mass, old_mass, right = np.empty((count, 6)), np.empty((count, 6)), np.empty(3 * count)
+    tension, peak = np.zeros(start.size), np.full(start.size, -1e300)
+    limits, powers, before = np.empty(2), np.zeros(2), np.zeros(2)
+    begin = time
+    _water_at(now_water, base, rate, 0.0, moving)
+    acceleration(x, v, now_water, system, fluid, bed, rank, tension, mass, a)
+    old_mass[:] = mass
+    forces(x, v, now_water, system, fluid, bed, force, tension, mass)
+    _powers(x, v, force, system, fluid, own, tension, before)
+    for row in range(rows):
+        target = begin + (row + 1) * interval
+        while time < target - 1e-9 * interval:
+            h = control[0]
+            remaining = target - time
+            h = remaining / math.ceil(remaining / h * (1.0 - 1e-9))
+            limits[0], limits[1] = control[3] * control[4], control[3] * control[5]
+            gain = gamma * h
+            vs[0], accelerations[0] = v, a
+            bad, fresh = 0, True
+            for s in range(1, many):
+                part = 0.0
+                for j in range(s + 1):
+                    part += stages[s, j]
+                for i in range(count):
+                    for axis in range(3):
+                        p, q = x[i, axis], v[i, axis]
+                        for j in range(s):
+                            p += h * stages[s, j] * vs[j, i, axis]
+                            q += h * stages[s, j] * accelerations[j, i, axis]
+                        ahead[i, axis], across[i, axis] = p, q
+                        accelerations[s, i, axis] = accelerations[s - 1, i, axis]
+                _water_at(now_water, base, rate, time + part * h - begin, moving)
+                bad = _stage(
+                    h, gain, ahead, across, accelerations[s], system, fluid, bed, rank, band, fresh, now_water, driving,
+                    time + part * h, limits, place, speed, mass, tension, force, right, change, counts,
+                )  # fmt: skip
+                if bad > 0:
+                    break
+                fresh = False
+                vs[s] = speed
+            error = math.inf
+            if bad == 0:
+                for i in range(count):
+                    for axis in range(3):
+                        total = 0.0
+                        for j in range(many):
+                            total += (stages[many - 1, j] - embedded[j]) * vs[j, i, axis]
+                        change[i, axis] = h * total * nodes[9 + axis, i]
+                # the stiff part of the estimate is filtered by the matrix of the step
+                own[:] = 0.0
+                _mass_times(mass, change, nodes, own, 1.0)
+                _pack(own, rank, right)
+                solve(band, right)
+                for i in range(count):
+                    for axis in range(3):
+                        change[i, axis] = right[3 * rank[i] + axis]
+                error = _measure(change, place, start, end, spring, limits[0], limits[1])
+            if control[6] > 0.0:
+                if bad > 0:
+                    return STUCK, row, time, 0
+            elif not error <= 1.0:
+                counts[3] += 1
+                control[0] = h * (0.25 if bad > 0 or not error < 1e6 else max(0.2, 0.9 * error**-exponent))
+                if control[0] < control[1]:
+                    _, worst = _masked_norm(force, nodes)
+                    return STUCK, row, time, worst
+                continue
+            x[:], v[:], a[:] = place, speed, accelerations[many - 1]
+            time += h
+            counts[2] += 1
+            forces(x, v, now_water, system, fluid, bed, force, tension, mass)
+            for k in range(start.size):
+                peak[k] = max(peak[k], tension[k])
+                control[5] = max(control[5], abs(tension[k]))
+            _powers(x, v, force, system, fluid, own, tension, powers)
+            ledger[0] += 0.5 * h * (powers[0] + before[0])
+            ledger[1] += 0.5 * h * (powers[1] + before[1])
+            before[:] = powers
+            new, _ = _energies(x, v, mass, system)
+            old, _ = _energies(x, v, old_mass, system)
+            ledger[2] += new - old
+            old_mass[:] = mass
+            if control[6] == 0.0:
+                control[0] = min(control[2], h * min(4.0, 0.9 * max(error, 1e-8) ** -exponent))
+        kinetic, elastic = _energies(x, v, mass, system)
+        out = first_row + row
+        energy[out, 0], energy[out, 1], energy[out, 2] = kinetic, elastic, ledger[0] + ledger[1] + ledger[2]
+        for j in range(keep_nodes.size):
+            for axis in range(3):
+                places[out, j, axis] = x[keep_nodes[j], axis]
+        for j in range(keep_bars.size):
+            pulls[out, j] = tension[keep_bars[j]]
+            peaks[out, j] = peak[keep_bars[j]]
+        peak[:] = tension
+        if not (kinetic + elastic < np.inf):
+            return NOT_FINITE, row, time, 0
+    return GOOD, rows, time, 0

@@ -14,11 +14,13 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
 from moyai.flexible.explicit import LOAD_STEPS, SAFETY, ExplicitRun
 from moyai.flexible.flow import Flow
+from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.result import History, RunStatus, State
+from moyai.flexible.tableaus import TABLEAUS
 
-Method = Literal["explicit"]
+Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
 #: Energy that may appear from nowhere before a run is stopped, as a part of the energy that went through it.
 ENERGY_TOLERANCE = 0.02
@@ -68,6 +70,7 @@ def simulate(
     step: float | None = None,
     safety: float = SAFETY,
     load_steps: int = LOAD_STEPS,
+    tolerance: float = TOLERANCE,
     keep_nodes: ArrayLike | None = None,
     keep_bars: ArrayLike | None = None,
     progress: Progress = silent,
@@ -86,14 +89,18 @@ def simulate(
         Motion of the water; still water when left out.
     start : State, optional
         Where to start; as built and at rest when left out (:func:`moyai.flexible.statics.solve_equilibrium` gives the state at rest).
-    method : {"explicit"}
-        Scheme.
+    method : {"explicit", "tr_bdf2", "esdirk4"}
+        Central differences at the pace of the elastic wave, or an implicit method of second or fourth order whose steps
+        follow its error.
     step : float, optional
-        Time step [s]; the largest stable one times ``safety`` when left out. Rounded down to fill an output step.
+        Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or, for
+        the implicit methods, what ``tolerance`` asks for.
     safety : float
         Part of the largest stable step, 0 to 1.
     load_steps : int
         Steps between two evaluations of the loads of the water, at most.
+    tolerance : float
+        Error of one implicit step: of tensions over the largest tension, of places over the mean bar length.
     keep_nodes, keep_bars : array_like of int, optional
         Which to keep in the result; all when left out.
     progress : Progress
@@ -113,12 +120,20 @@ def simulate(
     start = start or State.at_rest(network)
     rows, interval = _rows(duration, output_step)
     _check_motions(network, motions or {}, start.time, start.time + duration)
-    if method != "explicit":
-        raise InputError(f"unknown method {method!r}", path="method", allowed="explicit")
+    if method != "explicit" and method not in TABLEAUS:
+        raise InputError(f"unknown method {method!r}", path="method", allowed=", ".join(("explicit", *TABLEAUS)))
+    if not 0.0 < tolerance < 1.0:
+        raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
+    if step is not None and not step > 0.0:
+        raise InputError(f"step is {step:g} s", path="step", allowed="greater than 0")
     if not 0.0 < safety <= 1.0:
         raise InputError(f"safety is {safety:g}", path="safety", allowed="above 0, at most 1")
     nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
-    run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps)
+    run: ExplicitRun | ImplicitRun
+    if method == "explicit":
+        run = ExplicitRun(network, motions or {}, flow, start, safety=safety, load_steps=load_steps)
+    else:
+        run = ImplicitRun(network, motions or {}, flow, start, method=method, tolerance=tolerance)
     saved = (
         np.full((rows + 1, nodes.size, 3), np.nan), np.full((rows + 1, bars.size), np.nan),
         np.full((rows + 1, bars.size), np.nan), np.full((rows + 1, 3), np.nan), nodes, bars,
@@ -133,7 +148,7 @@ def simulate(
         while done < rows:
             count = min(per_chunk, rows - done)
             good = run.advance(count, 1 + done, interval, step, saved)
-            steps += good * round(interval / run.step)
+            steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else steps + good * round(interval / run.step)
             smallest = min(smallest, run.step)
             energy = saved[3][: 1 + done + good]
             total = energy[:, 0] + energy[:, 1]
@@ -156,12 +171,12 @@ def simulate(
     return _history(network, run, saved, last, start.time, interval, steps, smallest, status, message, throughput)  # type: ignore[arg-type]
 
 
-def _limit(run: ExplicitRun) -> float:
+def _limit(run: ExplicitRun | ImplicitRun) -> float:
     return run.limit()[0] if np.isfinite(run.place).all() else math.nan
 
 
 def _history(
-    network: Network, run: ExplicitRun, saved: tuple[np.ndarray, ...], last: int, begin: float, interval: float, steps: int, smallest: float,
+    network: Network, run: ExplicitRun | ImplicitRun, saved: tuple[np.ndarray, ...], last: int, begin: float, interval: float, steps: int, smallest: float,
     status: RunStatus, message: str, throughput: float,
 ) -> History:  # fmt: skip
     energy = saved[3][:last]
@@ -173,5 +188,5 @@ def _history(
     )  # fmt: skip
     return History(
         network, begin + interval * np.arange(last), saved[4], saved[5], saved[0][:last], saved[1][:last], saved[2][:last],
-        energy[:, 0], energy[:, 1], energy[:, 2], run.state(), "explicit", smallest, steps, status, message, (check,),
+        energy[:, 0], energy[:, 1], energy[:, 2], run.state(), run.name, smallest, steps, status, message, (check,),
     )  # fmt: skip

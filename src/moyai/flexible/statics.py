@@ -16,7 +16,6 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -161,6 +160,8 @@ def solve_equilibrium(
 
 def _shake(network: Network, place: Array, flow: Flow, extent: float) -> Array:
     """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen."""
+    from moyai.flexible.simulate import simulate
+
     interval = 0.5 * math.sqrt(extent / network.water.gravity)
     still = Motion(0.0, 10.0 * interval, np.zeros((2, 3)), np.zeros((2, 3)))
     motions = dict.fromkeys(network.motion_names, still)
