@@ -81,6 +81,10 @@ def spectrum_of(state: Any, water: Water, folder: Path, path: str) -> spectra.Sp
     if isinstance(state, surroundings.Tma):
         return spectra.tma(state.significant_height, state.peak_period, state.peak_enhancement, water)
     try:
+        if state.record is not None:
+            from moyai.sea.spectrum_archives import read_archive
+
+            return read_archive(folder / state.file).spectrum(state.record, state.place)
         return spectra.from_file(
             folder / state.file, frequency_column=state.frequency_column, density_column=state.density_column
         )

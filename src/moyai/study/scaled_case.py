@@ -19,15 +19,10 @@ from moyai.case.schema_types import Block, QuantityOf
 from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.core.quantities import Kind, parse_quantity
-from moyai.core.units import parse_unit
-from moyai.design.model_numbers import Motion
 from moyai.design.similarity import Scale, ScaledQuantity
-from moyai.sea.dispersion import wave_number
 from moyai.study.scaled_materials import Figures, equivalents
 from moyai.study.scaled_text import Edits, number_text, without_remarks, written_in
 
-# Keys that tell how large a structure is across the flow
-_SIZES = ("draught", "skirt_length", "skirt_depth", "depth", "beam", "bottom_beam", "pontoon_beam", "radius")
 _SIZE_IN_TITLE = re.compile(r" \((?:model|prototype of) 1:[0-9.e+]+\)$")
 _SHOWN = ("m", "s", "m/s", "kg", "N", "N/m", "kg/m", "Pa", "N m", "kg m2")
 
@@ -384,56 +379,3 @@ def _header(case: Case, scale: Scale, from_model: bool) -> str:
         f"Behind a changed value stands that of the {sizes[1]} and the factor; other comments are of the file given.",
     ]
     return "".join(f"# {line}\n" for line in lines) + "\n"
-
-
-def motions_of(scaled: ScaledCase, case: Case) -> dict[str, Motion]:
-    """Return how fast the water passes the structure and its thinnest member, in the prototype.
-
-    The speed is that of the current and of the largest wave at the surface by linear theory together; a member is
-    missing where the case does not tell its size, all are where nothing moves.
-
-    Parameters
-    ----------
-    scaled : ScaledCase
-    case : Case
-        The case given.
-    """
-    prototype = scaled.case if scaled.from_model else case
-    speed, period = _fastest(prototype)
-    if not speed > 0.0:
-        return {}
-    sizes: dict[str, float] = {}
-    for row in scaled.rows:
-        key = re.sub(r"\[\d+\]$", "", row.name).rsplit(".", 1)[-1]
-        size = abs(row.prototype) * float(parse_unit(row.unit).factor)
-        if key in _SIZES and "structure" not in sizes:
-            sizes["structure"] = size
-        elif key.endswith("diameter"):
-            sizes["thinnest member"] = min(size, sizes.get("thinnest member", math.inf))
-    depth = float(prototype.model.site.water_depth)
-    return {name: Motion(speed, size, period, depth) for name, size in sizes.items()}
-
-
-def _fastest(case: Case) -> tuple[float, float]:
-    """Return the largest speed of the water [m/s] and the shortest wave period [s]."""
-    current, site = getattr(case.model, "current", None), case.model.site
-    steady = 0.0 if current is None else _current_speed(current)
-    orbital, shortest = 0.0, math.inf
-    for sea in getattr(case.model, "waves", ()) or ():
-        height = getattr(sea, "height", None) or getattr(sea, "significant_height", None)
-        periods = sea.all_periods() if hasattr(sea, "all_periods") else ()
-        periods = periods or tuple(
-            value for name in ("peak_period", "significant_period") if (value := getattr(sea, name, None)) is not None
-        )
-        for period in periods:
-            shortest = min(shortest, period)
-            if height is not None:
-                number = float(wave_number(2.0 * math.pi / period, site.water_depth, site.gravity))
-                orbital = max(orbital, math.pi * height / (period * math.tanh(number * site.water_depth)))
-    return steady + orbital, shortest
-
-
-def _current_speed(current: Any) -> float:
-    if current.speed is not None:
-        return float(current.speed)
-    return max((abs(row[1]) for row in getattr(current.profile, "table", ())), default=0.0)

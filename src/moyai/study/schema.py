@@ -87,6 +87,20 @@ class Scatter(Block):
     counts: Annotated[Truth, Field(description="The cells are numbers of sea states, not probabilities.")] = False
 
 
+class SpectraOfFile(Block):
+    """The spectra of a file of SWAN, WAVEWATCH III or NDBC, one case a time."""
+
+    name: Name = "record"
+    file: FileName
+    sea: Annotated[str, Field(description="Path of the sea state that they replace.")]
+    place: Annotated[int, Field(strict=True, ge=0)] = 0
+    records: Annotated[
+        tuple[Annotated[int, Field(strict=True, ge=0)], ...],
+        Field(description="Numbers of the times; all when absent."),
+    ] = ()
+    direction: Annotated[Truth, Field(description="Let the waves come from the mean direction of the file.")] = False
+
+
 class Distribution(Block):
     """How one value is spread."""
 
@@ -135,12 +149,13 @@ class Variation(Block):
     table: TableOfCases | None = None
     return_periods: ReturnPeriods | None = None
     scatter: Scatter | None = None
+    spectra: SpectraOfFile | None = None
     sample: Sample | None = None
     seeds: Seeds | None = None
     lines_lost: LinesLost | Truth | None = None
 
     exactly_one: ClassVar[KeyGroups] = (
-        ("grid", "list", "table", "return_periods", "scatter", "sample", "seeds", "lines_lost"),
+        ("grid", "list", "table", "return_periods", "scatter", "spectra", "sample", "seeds", "lines_lost"),
     )
 
 

@@ -276,6 +276,45 @@ def _scatter(given: schema.Scatter, base: Any, folder: Path) -> tuple[Axis, ...]
     return (Axis(given.name, points),)
 
 
+def _spectra(given: schema.SpectraOfFile, base: Any, folder: Path) -> tuple[Axis, ...]:
+    from moyai.sea.spectrum_archives import read_archive
+
+    file = folder / given.file
+    archive = read_archive(file)
+    if given.place >= len(archive.place):
+        raise InputError(
+            f"{given.file} has no place {given.place}", path="place", allowed=f"0 to {len(archive.place) - 1}"
+        )
+    places = resolve(base, given.sea)
+    sea = value_of(base, places[0])
+    if not isinstance(sea, dict):
+        raise InputError(f"'{given.sea}' is no sea state", path=given.sea, allowed="for instance waves[0]")
+    kept = {key: value for key, value in sea.items() if key in _OF_THE_SEA}
+    points = []
+    height = archive.significant_height()
+    for record in given.records or range(len(archive.time)):
+        if record >= len(archive.time):
+            raise InputError(f"there is no record {record}", path="records", allowed=f"0 to {len(archive.time) - 1}")
+        if not height[record, given.place] > 0.0:
+            raise InputError(
+                f"record {record} ({archive.time[record]}) of {given.file} holds no energy",
+                path="records",
+                remedy="list the records that are wanted under 'records'",
+            )
+        block = {**kept, "kind": "spectrum_file", "file": str(file.resolve()), "record": record, "place": given.place}
+        if given.direction:
+            bearing = float(archive.direction[record, given.place])
+            if not math.isfinite(bearing):
+                raise InputError(f"{given.file} tells no direction for record {record}", path="direction")
+            block.pop("heading_deg", None)
+            block["from_bearing_deg"] = round(bearing, 3)
+        points.append(Point(archive.time[record], ((given.sea, block),)))
+    return (Axis(given.name, tuple(points)),)
+
+
+_OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")
+
+
 def _sample(given: schema.Sample, base: Any, folder: Path) -> tuple[Axis, ...]:
     from scipy.stats import qmc
 
@@ -355,6 +394,7 @@ _BUILDERS: dict[str, Callable[[Any, Any, Path], tuple[Axis, ...]]] = {
     "table": _table,
     "return_periods": _return_periods,
     "scatter": _scatter,
+    "spectra": _spectra,
     "sample": _sample,
     "seeds": _seeds,
     "lines_lost": _lines_lost,

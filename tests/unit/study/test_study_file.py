@@ -239,3 +239,15 @@ def test_shared_changes_reach_every_case(tmp_path):
         study_cases.write_text(tmp_path, "- seeds: {path: 'waves[0].seed', count: 2}", set="{structure.draught: 2.8 m}")
     )
     assert [case_at(study, case).model.structure.draught for case in study.cases] == [2.8, 2.8]
+
+
+def test_spectra_of_a_file_replace_a_sea_state_and_keep_its_seed(tmp_path):
+    rows = "".join(f"2020 01 0{day} 00 00 9 " + f"{0.1 * day} (0.100) 0.3 (0.200) 0.1 (0.300)\n" for day in (2, 1))
+    (tmp_path / "buoy.data_spec").write_text("#YY MM DD hh mm Sep\n" + rows, encoding="utf-8")
+    study = load_study(study_cases.write_text(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]'}"))
+    assert [case.labels for case in study.cases] == [("2020-01-01T00:00",), ("2020-01-02T00:00",)]
+    sea = case_at(study, study.cases[1]).model.waves[0]
+    assert (sea.kind, sea.record, sea.seed, sea.name) == ("spectrum_file", 1, 1, "storm")
+    told = faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', direction: true}")
+    assert "tells no direction" in told
+    assert "0 to 1" in faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', records: [5]}")

@@ -1,0 +1,372 @@
+"""Wave spectra as wave models and buoys write them: SWAN, WAVEWATCH III, NDBC.
+
+Every reader gives the same: times, places, frequencies, frequency spectra, and mean directions where the file tells
+them. Format descriptions: SWAN user manual, appendix on spectral files; WAVEWATCH III user manual, point output; NDBC
+web data guide. Checked against files of all three.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.sea.spectra import from_table
+from moyai.sea.spectrum import Spectrum
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SpectrumArchive:
+    """Spectra of several times and places.
+
+    Parameters
+    ----------
+    format : str
+        ``swan``, ``ww3`` or ``ndbc``.
+    time : tuple of str
+        ISO 8601, one a record.
+    place : tuple of str
+        Names or coordinates, one a place.
+    frequency : ndarray (f,)
+        [Hz], rising.
+    density : ndarray (time, place, f)
+        [m2/Hz]; NaN where a record holds nothing for a place.
+    direction : ndarray (time, place)
+        Mean direction that the waves come from, clockwise from north [degrees]; NaN where the file tells none.
+    """
+
+    format: str
+    time: tuple[str, ...]
+    place: tuple[str, ...]
+    frequency: Array
+    density: Array
+    direction: Array
+
+    def spectrum(self, record: int, place: int = 0) -> Spectrum:
+        """Return one spectrum.
+
+        Raises
+        ------
+        InputError
+            For a record or place that the file does not have, or one without energy.
+        """
+        for name, number, count in (("record", record, len(self.time)), ("place", place, len(self.place))):
+            if not 0 <= number < count:
+                raise InputError(f"there is no {name} {number}", path=name, allowed=f"0 to {count - 1}")
+        values = self.density[record, place]
+        if not np.isfinite(values).all() or not values.any():
+            raise InputError(f"record {record} ({self.time[record]}) holds no energy", path="record")
+        return from_table(self.frequency, values, f"{self.format} {self.time[record]}")
+
+    def significant_height(self) -> Array:
+        """Return four times the root of the energy of every spectrum, trapezoidal [m] (time, place)."""
+        return np.asarray(4.0 * np.sqrt(np.trapezoid(self.density, self.frequency, axis=-1)))
+
+
+def read_archive(path: str | Path) -> SpectrumArchive:
+    """Read a file of spectra; its format is found from its content.
+
+    Parameters
+    ----------
+    path : path-like
+        SWAN spectral file (1-D or 2-D), WAVEWATCH III point spectra (NetCDF or text), NDBC spectral density (recent
+        ``data_spec`` and yearly files).
+
+    Raises
+    ------
+    InputError
+        When the file is absent or of another kind, with what was found.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise InputError(f"no such file: {file}", path="file")
+    head = file.read_bytes()[:200]
+    if head[:3] == b"CDF" or head[:4] == b"\x89HDF":
+        return _ww3_netcdf(file)
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        text = file.read_text(encoding="latin-1")
+    first = text.lstrip()[:60]
+    if first.upper().startswith("SWAN"):
+        return _swan(text, file)
+    if "WAVEWATCH III SPECTRA" in first:
+        return _ww3_text(text, file)
+    if re.match(r"#?YY", first):
+        return _ndbc(text, file)
+    raise InputError(
+        f"{file.name} is no file of spectra that is known here (it starts with {first[:30]!r})",
+        path="file",
+        allowed="SWAN, WAVEWATCH III or NDBC; a table of two columns goes without 'record'",
+    )
+
+
+def is_archive(path: str | Path) -> bool:
+    """Whether a file looks like one that :func:`read_archive` reads."""
+    try:
+        head = Path(path).read_bytes()[:200]
+    except OSError:
+        return False
+    text = head.decode("latin-1").lstrip().lstrip("﻿")
+    return (
+        head[:3] == b"CDF"
+        or head[:4] == b"\x89HDF"
+        or text.upper().startswith("SWAN")
+        or "WAVEWATCH III SPECTRA" in text[:60]
+        or re.match(r"#?YY", text) is not None
+    )
+
+
+def _mean_direction(density: Array, directions: Array, frequency: Array) -> float:
+    """Return the mean direction of a 2-D spectrum (f, d) whose directions are where the waves come from."""
+    angle = np.radians(directions)
+    total = np.gradient(frequency) @ density
+    if not total.any():
+        return math.nan
+    return math.degrees(math.atan2(float((total * np.sin(angle)).sum()), float((total * np.cos(angle)).sum()))) % 360.0
+
+
+class _Lines:
+    """The lines of a file, read one after the other, with their numbers for messages."""
+
+    def __init__(self, text: str, file: Path) -> None:
+        self.lines, self.file, self.at = text.splitlines(), file, 0
+
+    def more(self) -> bool:
+        while self.at < len(self.lines) and not self.lines[self.at].strip():
+            self.at += 1
+        return self.at < len(self.lines)
+
+    def next(self) -> str:
+        if not self.more():
+            raise self.fault("the file ends too early")
+        self.at += 1
+        return self.lines[self.at - 1]
+
+    def numbers(self, count: int) -> Array:
+        """Return the next numbers, over as many lines as they take."""
+        found: list[float] = []
+        while len(found) < count:
+            line = self.next()
+            try:
+                found += [float(word) for word in line.replace("D", "E").split()]
+            except ValueError:
+                raise self.fault(f"expected numbers, found {line.strip()[:40]!r}") from None
+        return np.array(found[:count])
+
+    def whole(self) -> int:
+        word = (self.next().split() or [""])[0]
+        try:
+            return int(word)
+        except ValueError:
+            raise self.fault(f"expected a whole number, found {word!r}") from None
+
+    def fault(self, message: str) -> InputError:
+        return InputError(f"{self.file.name}, line {self.at}: {message}", path="file")
+
+
+def _swan(text: str, file: Path) -> SpectrumArchive:
+    lines = _Lines("\n".join(line for line in text.splitlines() if not line.startswith("$")), file)
+    lines.next()
+    timed, places, frequency, directions, nautical = False, ["point"], np.zeros(0), np.zeros(0), True
+    exception, energy_unit, columns = -99.0, 1.0, 1
+    times: list[str] = []
+    density: list[list[Array]] = []
+    mean: list[list[float]] = []
+    while lines.more():
+        line = lines.next()
+        word = line.split()[0].upper()
+        if word == "TIME":
+            timed = True
+            lines.whole()
+        elif word in ("LONLAT", "LOCATIONS"):
+            places = [" ".join(lines.next().split()[:2]) for _ in range(lines.whole())]
+        elif word in ("AFREQ", "RFREQ"):
+            frequency = lines.numbers(lines.whole())
+        elif word in ("NDIR", "CDIR"):
+            nautical = word == "NDIR"
+            directions = lines.numbers(lines.whole())
+        elif word == "QUANT":
+            columns = lines.whole()
+            names = []
+            for number in range(columns):
+                names.append(lines.next().split()[0])
+                unit = lines.next().split()[0]
+                value = float(lines.next().split()[0])
+                if number == 0:
+                    exception = value
+                    # Energy density in J/m2/Hz is that of sea water as SWAN assumes it
+                    energy_unit = 1.0 / (1025.0 * 9.81) if unit.startswith("J") else 1.0
+            if names[0] not in ("VaDens", "EnDens"):
+                raise lines.fault(f"the first quantity is {names[0]}, not a density")
+        elif timed and re.match(r"\d{8}\.\d{4,6}", line.strip()):
+            stamp = line.split()[0]
+            times.append(f"{stamp[:4]}-{stamp[4:6]}-{stamp[6:8]}T{stamp[9:11]}:{stamp[11:13]}")
+            density.append([])
+            mean.append([])
+        elif word in ("FACTOR", "ZERO", "NODATA", "LOCATION"):
+            if not timed and not times:
+                times, density, mean = ["stationary"], [[]], [[]]
+            values, towards = _swan_block(word, lines, frequency, directions, nautical, exception, energy_unit, columns)
+            density[-1].append(values)
+            mean[-1].append(towards)
+        else:
+            raise lines.fault(f"unknown key {word!r}")
+    if not frequency.size or not density:
+        raise lines.fault("no frequencies or no spectra")
+    if any(len(row) != len(places) for row in density):
+        raise lines.fault("a time holds other than one block a place")
+    return SpectrumArchive(
+        "swan", tuple(times), tuple(places), frequency, np.array(density), np.array(mean, dtype=float)
+    )
+
+
+def _swan_block(
+    word: str, lines: _Lines, frequency: Array, directions: Array, nautical: bool, exception: float, unit: float,
+    columns: int,
+) -> tuple[Array, float]:  # fmt: skip
+    """Return the frequency spectrum of one block and its mean direction (coming from, from north)."""
+    count = frequency.size
+    if word == "NODATA":
+        return np.full(count, math.nan), math.nan
+    if word == "ZERO":
+        return np.zeros(count), math.nan
+    if word == "LOCATION":
+        table = lines.numbers(count * columns).reshape(count, columns)
+        values = np.where(table[:, 0] == exception, 0.0, table[:, 0]) * unit
+        return values, float(table[int(np.argmax(values)), 1]) % 360.0 if columns > 1 else math.nan
+    factor = float(lines.next().split()[0])
+    raw = lines.numbers(count * directions.size).reshape(count, directions.size)
+    spread = np.where(raw == exception, 0.0, raw) * factor * unit
+    step = 360.0 / directions.size if directions.size > 1 else 1.0
+    if directions.size > 1 and abs(abs(directions[1] - directions[0]) - step) > 0.1:
+        step = float(abs(directions[1] - directions[0]))
+    # Cartesian directions are where the waves go, counter-clockwise from east
+    came_from = directions if nautical else (270.0 - directions) % 360.0
+    return spread.sum(axis=1) * step, _mean_direction(spread, came_from, frequency)
+
+
+def _ww3_text(text: str, file: Path) -> SpectrumArchive:
+    lines = _Lines(text, file)
+    heading = re.search(r"'\s+(\d+)\s+(\d+)\s+(\d+)", lines.next())
+    if heading is None:
+        raise lines.fault("the heading lacks the numbers of frequencies, directions and points")
+    count, turns, points = (int(item) for item in heading.groups())
+    frequency, directions = lines.numbers(count), lines.numbers(turns)
+    step = 2.0 * math.pi / turns
+    times: list[str] = []
+    places: list[str] = []
+    density: list[list[Array]] = []
+    mean: list[list[float]] = []
+    while lines.more():
+        stamp = lines.next().split()
+        times.append(f"{stamp[0][:4]}-{stamp[0][4:6]}-{stamp[0][6:8]}T{stamp[1][:2]}:{stamp[1][2:4]}")
+        density.append([])
+        mean.append([])
+        for _ in range(points):
+            name = lines.next().split("'")[1].strip()
+            if len(places) < points:
+                places.append(name)
+            # Fortran order: frequency runs first; values per radian and hertz
+            spread = lines.numbers(count * turns).reshape(turns, count).T
+            density[-1].append(spread.sum(axis=1) * step)
+            # Directions are where the waves go, counter-clockwise from east
+            mean[-1].append(_mean_direction(spread, (270.0 - np.degrees(directions)) % 360.0, frequency))
+    return SpectrumArchive("ww3", tuple(times), tuple(places), frequency, np.array(density), np.array(mean))
+
+
+def _ww3_netcdf(file: Path) -> SpectrumArchive:
+    import xarray as xr
+
+    try:
+        data = xr.open_dataset(file, engine="scipy" if file.read_bytes()[:3] == b"CDF" else "h5netcdf")
+    except (OSError, ValueError) as error:
+        raise InputError(f"{file.name} cannot be read: {error}", path="file") from None
+    with data:
+        if "efth" not in data or "frequency" not in data or "direction" not in data:
+            held = ", ".join(map(str, list(data.data_vars)[:6]))
+            raise InputError(f"{file.name} holds no WAVEWATCH III spectra (efth)", path="file", allowed=f"found {held}")
+        frequency = np.asarray(data["frequency"].values, dtype=float)
+        directions = np.asarray(data["direction"].values, dtype=float)
+        name = "station" if "station" in data["efth"].dims else None
+        dims = ["time", *([name] if name else []), "frequency", "direction"]
+        spread = np.asarray(data["efth"].transpose(*dims).values, dtype=float)
+        if name is None:
+            spread = spread[:, None]
+        times = tuple(str(value)[:16] for value in data["time"].values)
+        step = 2.0 * math.pi / directions.size
+        # In WAVEWATCH III's point files the directions are where the waves go, clockwise from north
+        came_from = (directions + 180.0) % 360.0
+        mean = np.array([[_mean_direction(np.nan_to_num(one), came_from, frequency) for one in row] for row in spread])
+        places = tuple(f"station {number + 1}" for number in range(spread.shape[1]))
+        return SpectrumArchive("ww3", times, places, frequency, spread.sum(axis=-1) * step, mean)
+
+
+def _ndbc(text: str, file: Path) -> SpectrumArchive:
+    rows = [line for line in text.splitlines() if line.strip()]
+    paired = "(" in rows[1] if len(rows) > 1 else False
+    times, density = [], []
+    if paired:
+        frequency = np.array([float(item) for item in re.findall(r"\(([\d.]+)\)", rows[1])])
+        for number, row in enumerate(rows[1:], start=2):
+            values = [float(item) for item in re.findall(r"([\d.]+)\s+\(", row)]
+            if len(values) != frequency.size:
+                raise InputError(f"{file.name}, line {number}: {len(values)} values, not {frequency.size}", path="file")
+            times.append(_stamp(*row.split()[:5]))
+            # 999 stands for missing
+            density.append([math.nan if value >= 999.0 else value for value in values])
+    else:
+        header = rows[0].lstrip("#").split()
+        leading = 5 if "mm" in header[:6] else 4
+        frequency = np.array([float(item) for item in header[leading:]])
+        for number, row in enumerate(rows[1:], start=2):
+            words = row.split()
+            if words[0].startswith("#"):
+                continue
+            if len(words) != len(header):
+                raise InputError(f"{file.name}, line {number}: {len(words)} values, not {len(header)}", path="file")
+            times.append(_stamp(words[0], words[1], words[2], words[3], words[4] if leading == 5 else "00"))
+            density.append([math.nan if float(item) >= 999.0 else float(item) for item in words[leading:]])
+    order = np.argsort(times)
+    table = np.array(density)[order][:, None, :]
+    direction = _ndbc_direction(file, len(times), order)
+    place = re.match(r"\w+?(?=[.w])", file.name)
+    return SpectrumArchive(
+        "ndbc", tuple(times[i] for i in order), (place[0] if place else "buoy",), frequency, table, direction
+    )
+
+
+def _ndbc_direction(file: Path, count: int, order: NDArray[np.intp]) -> Array:
+    """Return the mean directions of the energy, from the files of first moments that lie beside the densities."""
+    beside = [file.with_suffix(suffix) for suffix in (".swdir", ".swr1")]
+    nothing = np.full((count, 1), math.nan)
+    if file.suffix != ".data_spec" or not all(other.is_file() for other in beside):
+        return nothing
+
+    def table(path: Path) -> Array:
+        rows = [line for line in path.read_text(encoding="latin-1").splitlines()[1:] if line.strip()]
+        return np.array([[float(item) for item in re.findall(r"([\d.]+)\s+\(", row)] for row in rows])
+
+    density, angle, first = table(file), table(beside[0]), table(beside[1])
+    if not density.shape == angle.shape == first.shape:
+        return nothing
+    good = (density < 999.0) & (angle < 999.0) & (first < 999.0)
+    weight = np.where(good, density * first, 0.0)
+    mean = np.degrees(
+        np.arctan2((weight * np.sin(np.radians(angle))).sum(axis=1), (weight * np.cos(np.radians(angle))).sum(axis=1))
+    )
+    return np.asarray((mean % 360.0)[order][:, None])
+
+
+def _stamp(year: str, month: str, day: str, hour: str, minute: str) -> str:
+    whole = int(year) if int(year) > 100 else 1900 + int(year)
+    moment = datetime(whole, int(month), int(day), int(hour), int(minute), tzinfo=UTC)
+    return moment.strftime("%Y-%m-%dT%H:%M")
