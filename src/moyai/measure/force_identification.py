@@ -300,6 +300,8 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
             fit = _fit(used, columns, rate, setup, component, method, omega, blocks, rng)
             fits.append(fit)
             notices.extend(_fit_notices(fit))
+            if setup.regular and method != "fourier":
+                notices.extend(_harmonic_notices(fit, used, omega))
     numbers = tuple(
         float(0.5 * np.ptp(used.velocity[:, c]) * period / setup.widths[c])
         if setup.regular
@@ -396,20 +398,26 @@ def _fit(
     stretch = 1.0
     if method == "fourier":
         gain = _fourier_gain(record, columns, omega)
+        rest = force - columns @ (gain @ force)
+        extra, *_ = np.linalg.lstsq(beside, rest, rcond=None)
+        modelled = force - rest + beside @ extra
     else:
         weight = np.ones(force.size)
-        gain = _gain(columns, beside, weight)
-        for _ in range(0 if method == "least_squares" else 40):
-            modelled, residual = _modelled(columns, beside, gain, force)
-            previous, weight = weight, _weights(method, modelled, residual)
-            gain = _gain(columns, beside, weight)
+        whole = _gain(columns, beside, weight)
+        design = np.hstack([columns, beside])
+        modelled = design @ (whole @ force)
+        for _ in range(0 if method == "least_squares" else 60):
+            previous, weight = weight, _weights(method, modelled, force - modelled)
+            whole = _gain(columns, beside, weight)
+            modelled = design @ (whole @ force)
             if np.abs(weight - previous).max() < 1e-12:
                 break
+        gain = whole[:2]
         if method == "robust":
             # Huber's estimate answers a change of the record through the samples that are not cut off
             stretch = float(weight.mean() / np.mean(weight >= 1.0))
     found = gain @ force
-    modelled, residual = _modelled(columns, beside, gain, force)
+    residual = force - modelled
     samples, covariance = _bootstrap(stretch * gain, residual, found, blocks, setup, rng)
     coefficients = _coefficients(gain, found, covariance, force, columns, record.step, omega, blocks, setup)
     spread = np.sqrt(np.diagonal(covariance))
@@ -433,13 +441,13 @@ def _fit(
 
 
 def _gain(columns: Array, beside: Array, weight: Array) -> Array:
-    """Return the matrix (2, samples) that takes the force to the coefficients by weighted least squares."""
+    """Return the matrix that takes the force to all coefficients by weighted least squares; C_M and C_D come first."""
     design = np.hstack([columns, beside])
     size = np.linalg.norm(design, axis=0)
     root = np.sqrt(weight)[:, None]
     safe = np.where(size > 0.0, size, 1.0)
     inverse = np.linalg.pinv(root * design / safe, rcond=1e-13)
-    return np.asarray((inverse / safe[:, None])[:2] * root[:, 0])
+    return np.asarray((inverse / safe[:, None]) * root[:, 0])
 
 
 def _fourier_gain(record: ForceRecord, columns: Array, omega: float) -> Array:
@@ -455,16 +463,6 @@ def _fourier_gain(record: ForceRecord, columns: Array, omega: float) -> Array:
     size = np.linalg.norm(harmonic, axis=0)
     safe = np.where(size > 0.0, size, 1.0)
     return np.asarray((np.linalg.pinv(harmonic / safe, rcond=1e-13) / safe[:, None]) @ inverse)
-
-
-def _modelled(columns: Array, beside: Array, gain: Array, force: Array) -> tuple[Array, Array]:
-    """Return the modelled force, mean and harmonics included, and the residual."""
-    morison = columns @ (gain @ force)
-    rest = force - morison
-    if beside.shape[1]:
-        extra, *_ = np.linalg.lstsq(beside, rest, rcond=None)
-        morison, rest = morison + beside @ extra, rest - beside @ extra
-    return morison, rest
 
 
 def _weights(method: Method, modelled: Array, residual: Array) -> Array:
@@ -563,6 +561,28 @@ def _fit_notices(fit: Fit) -> list[Notice]:
             )
         )
     return notices
+
+
+def _harmonic_notices(fit: Fit, record: ForceRecord, omega: float) -> list[Notice]:
+    """Tell of harmonics in the residual: they repeat in every period, so that no interval shows what they do."""
+    orders = (2, 3)
+    design = _beside(record, orders, False, omega)
+    part, *_ = np.linalg.lstsq(design, fit.residual, rcond=None)
+    share = float(np.var(design @ part)) / max(float(np.var(fit.residual)), 1e-300)
+    size = float(np.std(design @ part)) / max(float(np.std(fit.force)), 1e-300)
+    # noise alone leaves a share of about twice the number of fitted terms over that of samples
+    if share < max(0.1, 8.0 * design.shape[1] / len(design)) or size < 1e-6:
+        return []
+    return [
+        Notice(
+            "identification-harmonics",
+            f"component {fit.component + 1}, {fit.method.replace('_', ' ')}: second and third harmonic make "
+            f"{100.0 * share:.0f} % of the residual; they may shift C_D beyond its interval",
+            value=share,
+            limit=0.1,
+            remedy="give 'harmonics: [2, 3]', or trust the Fourier method",
+        )
+    ]
 
 
 __all__ = [
