@@ -286,7 +286,8 @@ def _check_by_building(model: CurtainCase, findings: Findings, folder: Path) -> 
     from moyai.sea.water import Water
 
     water = Water(model.site.water_depth, model.site.density, model.site.gravity)
-    if findings.sound("site", "waves", "settings"):
+    levels = any(fault.path.startswith("settings.water_levels") for fault in findings.faults)
+    if findings.sound("site", "waves") and not levels:
         calm = model.model_copy(update={"current": None})
         try:
             environment = environment_of(calm, water, folder)

@@ -92,11 +92,13 @@ def impact_of(unit: LevelCurtain, settings: ImpactSettings, speed: float) -> Imp
     upper = curtain.upper_stiffness
     lower = curtain.lower_stiffness if curtain.lower_stiffness > 0.0 else _NO_CABLE * upper
     share = 0.5 if settings.cables == "one" else 1.0
-    draught = settings.draught if settings.draught is not None else curtain.skirt.length
+    draught = settings.draught
+    if draught is None:
+        draught = min(curtain.skirt.length, _DEEPEST * unit.water.depth)
     return Impact(
         curtain.span,
         curtain.length,
-        min(draught, _DEEPEST * unit.water.depth),
+        draught,
         share * upper,
         share * lower,
         speed,
