@@ -25,7 +25,7 @@ SAFETY = 0.95
 #: Steps between two evaluations of the loads, at most.
 LOAD_STEPS = 12
 #: Bound of the load interval times the fastest rate of drag.
-DRAG_SHARE = 0.1
+DRAG_SHARE = 0.3
 
 
 def driving_tables(network: Network, motions: Mapping[str, Motion]) -> tuple[Any, Any, Any, float, float]:
@@ -131,7 +131,10 @@ class ExplicitRun:
         while most > 1 and most * row_interval / least * drag > DRAG_SHARE:
             most -= 1
         # the cheapest way to fill the row: the loads cost about as much as two steps
-        choices = [(math.ceil(least / n), n) for n in range(max(1, most // 2), most + 1)]
+        choices = [(math.ceil(least / n), n) for n in range(1, most + 1)]
+        if self.safety == 1.0:
+            # the pace of the wave itself: no shorter step will do
+            choices = [(count, n) for count, n in choices if count * n == least]
         per_row, per_load = min(choices, key=lambda choice: choice[0] * (choice[1] + 2.0))
         return row_interval / (per_row * per_load), per_load, per_row
 

@@ -22,8 +22,8 @@ from moyai.flexible.tableaus import TABLEAUS
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
-#: Energy that may appear from nowhere before a run is stopped, as a part of the energy that went through it.
-ENERGY_TOLERANCE = 0.02
+#: Energy from nowhere, as a part of the energy that went through the network: what is called good, and what stops a run.
+ENERGY_TOLERANCE, ENERGY_STOP = 0.02, 0.25
 
 
 def _rows(duration: float, output_step: float) -> tuple[int, float]:
@@ -155,7 +155,7 @@ def simulate(
             throughput = max(throughput, float(np.max(total)), float(np.max(np.abs(energy[:, 2]))))
             gain = total[-1] - total[0] - energy[-1, 2]
             done += good
-            if good < count or not gain <= ENERGY_TOLERANCE * throughput:
+            if good < count or not gain <= ENERGY_STOP * throughput:
                 status = "not_converged"
                 worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
                 message = (
