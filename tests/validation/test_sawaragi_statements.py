@@ -19,6 +19,7 @@ import pytest
 from moyai.curtain.impact import closed_form, edge_impact, impact_numbers, peak_by_energy
 from moyai.curtain.impact_waves import slack_taut_motion
 from moyai.design.similarity import Scale, scale_water
+from moyai.sea.water import Water
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "curtain"
 
@@ -31,7 +32,7 @@ def example(name):
     return module
 
 
-SNAP, SWEEP = example("snap_in_current"), example("tension_coefficient")
+SNAP, SWEEP, MASS = example("snap_in_current"), example("tension_coefficient"), example("added_mass")
 
 
 def log_slope(of, name, at, step=1e-3):
@@ -72,6 +73,54 @@ def test_statement_2_steel_is_sharper_and_higher_at_the_same_level():
     assert steel.plateau / line.plateau == pytest.approx(1.0, abs=0.2)
     without_drag = [peak_by_energy(SNAP.flume(total)) for total in (150.0, 39000.0)]
     assert without_drag[0].time / without_drag[1].time == pytest.approx(229.76 / 15.95, rel=2e-3)
+
+
+# Kd: M/M0 and N/(omega M0) at h/d = 10 and 3, by an eigenfunction expansion with a Galerkin velocity in the gap
+PLATE = {
+    0.1: ((2.7125, 0.0518), (2.7748, 0.1790)),
+    0.3: ((3.3762, 0.5178), (3.2294, 0.6342)),
+    0.5: ((3.6389, 1.7709), (3.4964, 1.6465)),
+    0.7: ((2.6742, 2.9419), (2.7460, 2.8391)),
+    1.0: ((0.9909, 2.7650), (1.0148, 2.7876)),
+    2.0: ((0.2071, 1.1248), (0.2068, 1.1248)),
+    4.0: ((0.4335, 0.3693), (0.4335, 0.3693)),
+    10.0: ((0.7618, 0.0628), (0.7618, 0.0628)),
+    30.0: ((0.9258, 0.0070), (0.9258, 0.0070)),
+}
+
+
+@pytest.mark.parametrize(("column", "relative_depth"), [(0, 10.0), (1, 3.0)])
+def test_statement_3_added_mass_tends_to_the_flat_plate_at_high_frequency(column, relative_depth):
+    """From below and slowly, through a minimum of 0.207 at Kd = 2; N falls as 4 rho g^2/omega^3."""
+    number = np.array(list(PLATE))
+    water = Water(relative_depth * MASS.DRAUGHT, 1000.0, 9.81)
+    mass, damping = MASS.against_frequency(math.inf, number, water)
+    printed = np.array([row[column] for row in PLATE.values()])
+    # the reference was computed to three digits at small and large Kd
+    assert mass == pytest.approx(printed[:, 0], rel=1.5e-3)
+    assert damping == pytest.approx(printed[:, 1], rel=3e-3)
+    high = np.array([20.0, 40.0, 80.0])
+    mass, damping = MASS.against_frequency(math.inf, high, water)
+    assert np.all(np.diff(mass) > 0.0) and np.all(mass < 1.0) and mass[-1] > 0.96
+    omega = np.sqrt(high * water.gravity / MASS.DRAUGHT)
+    tail = damping * omega * MASS.flat_mass(MASS.DRAUGHT) * omega**3
+    assert tail[-1] == pytest.approx(4.0 * water.density * water.gravity**2, rel=0.01)
+
+
+def test_statement_4_half_circle_about_one_and_four_tenths():
+    masses, lengths = MASS.against_curvature(np.array([0.0]))
+    assert masses[0, 0] == pytest.approx(1.4609, abs=2e-4)
+    assert 1.40 < masses[0, 0] < 1.50
+    assert masses[0, 0] / lengths[0] ** 2 == pytest.approx(0.592, abs=1e-3)
+
+
+def test_statement_5_stretching_skirt_falls_with_the_centre_distance():
+    distance = np.array([0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0])
+    masses, lengths = MASS.against_curvature(distance)
+    for values in masses[1:]:
+        over_arc = values / lengths**2
+        assert np.all(np.diff(over_arc) < 0.0)
+        assert np.all(over_arc < 0.6) and np.all(over_arc[distance >= 1.0] < 0.1)
 
 
 def test_statement_6_coefficient_falls_with_the_froude_number():

@@ -115,7 +115,8 @@ def _number_or_text(text: str) -> float | str:
 
 def _of_case(request: Request, path: Path, length: float, gravity: float, from_model: bool) -> Answer:
     from moyai.case.reader import load_case
-    from moyai.study.scaled_case import motions_of, scale_case
+    from moyai.study.scaled_case import scale_case
+    from moyai.study.scaled_motion import motions_of
 
     if request.given_density is not None:
         raise InputError("a case file states its own water", path="given_density", remedy="leave --given-density out")

@@ -44,3 +44,9 @@ def test_snap_example(tmp_path, monkeypatch, capsys) -> None:
     printed = run("snap_in_current", ("snap_in_current.png",), tmp_path, monkeypatch, capsys)
     assert "spike 7.538 N" in printed and "plateau 2.917 N" in printed
     assert load("snap_in_current").release(39000.0).rise == pytest.approx(0.016, rel=0.05)
+
+
+def test_added_mass_example(tmp_path, monkeypatch, capsys) -> None:
+    printed = run("added_mass", ("added_mass.png",), tmp_path, monkeypatch, capsys)
+    assert "1.4609 M0 of the chord, 0.5921 of the arc" in printed
+    assert "plate, Kd = 2: M/M0 = 0.2068" in printed
