@@ -16,6 +16,7 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.units import parse_unit
 from moyai.measure.detrend import Detrend
 from moyai.measure.quality import QualityOptions
+from moyai.measure.record import FloatArray
 from moyai.measure.sensors import QUANTITIES, Sensor
 from moyai.measure.sources import ClockCorrection, ColumnSource, LoggerSource, TimeSource
 from moyai.measure.spectra import WelchOptions
@@ -24,6 +25,7 @@ from moyai.measure.survey import (
     ChannelUse,
     CurrentUse,
     Directions,
+    LoadMeasure,
     ReflectionUse,
     Spectral,
     Survey,
@@ -122,6 +124,7 @@ class _Builder:
                 largest_lag=model.tensions.largest_lag if model.tensions is not None else 0.0,
                 normal_heading=normal,
                 reflection=self._reflection(),
+                load_measure=self._load_measure(),
                 case_text=self.document.text,
                 case_hash=hashlib.sha256(self.document.text.encode("utf-8")).hexdigest(),
             )
@@ -297,6 +300,23 @@ class _Builder:
             return ()
         limit = math.inf if keys.snap_limit is None else keys.snap_limit
         return tuple(TensionUse(e.channel, e.group, keys.steady, keys.cutoff, limit) for e in keys.lines)
+
+    def _load_measure(self) -> LoadMeasure | None:
+        keys, site = self.model.tensions, self.model.site
+        if keys is None or keys.curtain_depth is None:
+            return None
+        if site is None:
+            self.fault(("tensions", "curtain_depth"), "'curtain_depth' needs 'site'", remedy="give the water")
+            return None
+        from moyai.curtain.squared_velocity import effective_height, squared_velocity
+
+        water = Water(site.water_depth, site.density, site.gravity)
+        depth, rule, ratio = keys.curtain_depth, keys.direction_rule, keys.height_ratio
+
+        def measure(height: FloatArray, period: FloatArray, angle: FloatArray, current: FloatArray) -> FloatArray:
+            return squared_velocity(effective_height(height, angle, rule, ratio), period, current, depth, water)
+
+        return measure
 
     def _reflection(self) -> ReflectionUse | None:
         keys = self.model.reflection

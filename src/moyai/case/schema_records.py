@@ -19,6 +19,7 @@ from moyai.case.schema_types import (
     Name,
     NonNegativeLength,
     Number,
+    PositiveLength,
     PositiveNumber,
     QuantityOf,
     Truth,
@@ -257,6 +258,13 @@ class TensionKeys(Block):
     largest_lag: Annotated[float, QuantityOf(quantities.TIME, least=0.0)] = Field(
         default=0.0, description="How far the lag may be refined by correlation."
     )
+    curtain_depth: PositiveLength | None = Field(
+        default=None, description="Depth of a curtain: tensions are also set against the squared velocity over it."
+    )
+    direction_rule: Literal["paper", "normal", "none"] = Field(
+        default="paper", description="How the angle lowers the wave height in that: cos^2, cos, not."
+    )
+    height_ratio: PositiveNumber = Field(default=1.8, description="Height in that over H1/3.")
     snap_limit: PositiveForceOrNone | None = Field(default=None, description="Rise that counts as a snap event.")
 
 

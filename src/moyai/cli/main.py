@@ -14,6 +14,7 @@ from typing import Annotated, Any
 
 import typer
 
+from moyai.cli.compare import compare
 from moyai.cli.console import (
     BAD_INPUT,
     FAILED,
@@ -47,6 +48,7 @@ app = typer.Typer(
 )
 app.command()(study)
 app.add_typer(measure)
+app.command()(compare)
 app.command()(scale)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]

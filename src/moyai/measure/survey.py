@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.measure.quality import QualityOptions
+from moyai.measure.record import FloatArray
 from moyai.measure.sensors import Sensor
 from moyai.measure.sources import LoggerSource
 from moyai.measure.spectra import WelchOptions
@@ -108,6 +110,10 @@ class TensionUse:
     snap_limit: float = math.inf
 
 
+LoadMeasure = Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]
+"""From wave height, period, angle and current of the blocks to what loads the structure."""
+
+
 @dataclass(frozen=True)
 class ReflectionUse:
     """Gauges in front of and behind a structure, with their positions along the waves [m]."""
@@ -151,6 +157,9 @@ class Survey:
     normal_heading : float
         Heading of the structure's normal [rad].
     reflection : ReflectionUse, optional
+    load_measure : callable, optional
+        From H1/3 [m], T1/3 [s], angle from the normal [rad] and normal current [m/s] to the squared velocity that loads
+        a curtain [m2/s2].
     case_text, case_hash : str
     """
 
@@ -172,6 +181,7 @@ class Survey:
     largest_lag: float = 0.0
     normal_heading: float = math.nan
     reflection: ReflectionUse | None = None
+    load_measure: LoadMeasure | None = None
     case_text: str = ""
     case_hash: str = ""
 

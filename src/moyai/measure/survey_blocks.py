@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
+from moyai.measure.clocks import interpolate
 from moyai.measure.currents import block_means, components, heading_of_bearing
 from moyai.measure.directional import directional_spectrum, fourier_directions
 from moyai.measure.irregular_reflection import separate_irregular, transmission
@@ -18,6 +19,7 @@ from moyai.measure.record import FloatArray, Record
 from moyai.measure.sensors import Sensor, surface_elevation
 from moyai.measure.spectra import WelchOptions, cross_spectra, spectrum_of
 from moyai.measure.survey import ReflectionUse, Survey
+from moyai.measure.tensions import find_delay, split_tension, tension_statistics, wave_maxima
 from moyai.measure.waves import STATISTICS, Waves, find_waves
 
 
@@ -153,7 +155,7 @@ def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record
         _directions(survey, data, notices),
         _current(survey, data),
         _reflection(survey, data, notices),
-        _tensions(survey, data, cut, start, notices),
+        _tensions(survey, data, cut, notices),
         tuple(notices),
     )
 
@@ -332,6 +334,70 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
 
 
 def _tensions(
-    survey: Survey, data: _Samples, cut: dict[str, Waves], start: float, notices: list[Notice]
+    survey: Survey, data: _Samples, cut: dict[str, Waves], notices: list[Notice]
 ) -> dict[str, dict[str, float]]:
-    return {}
+    """Return steady part, largest tensions of the waves and snaps of every line."""
+    out: dict[str, dict[str, float]] = {}
+    waves = cut.get(survey.wave_of_tensions)
+    for use in survey.tensions:
+        found = data.get(use.channel)
+        if found is None or np.count_nonzero(np.isfinite(found[1])) < 20:
+            continue
+        time, values = found
+        known = np.isfinite(values)
+        if not known.all() and use.steady == "low_pass":
+            notices.append(
+                Notice("tension-gaps", f"{use.channel}: a block with gaps bears no low pass and is left out")
+            )
+            continue
+        time, values = time[known], values[known]
+        rate = 1.0 / float(np.median(np.diff(time)))
+        split = split_tension(time, values, use.steady, cutoff=use.cutoff)
+        figures = {"steady": split.level, "snaps": math.nan}
+        if math.isfinite(use.snap_limit):
+            above = split.fluctuating > use.snap_limit
+            figures["snaps"] = float(np.count_nonzero(above[1:] & ~above[:-1]))
+        if waves is not None and len(waves):
+            lag = survey.tension_lag + _refined_lag(survey, data, found, split.fluctuating)
+            statistics = tension_statistics(
+                wave_maxima(time, split.fluctuating, waves.start, waves.period, delay=lag).maximum
+            )
+            figures |= {
+                "maximum": statistics.maximum,
+                "tenth": statistics.tenth,
+                "third": statistics.third,
+                "mean": statistics.mean,
+                "waves": float(statistics.count),
+                "lag": lag,
+            }
+        if rate < SLOWEST_TENSION_RATE:
+            message = f"{use.channel}: {rate:.3g} samples a second do not resolve snaps, which rise in 0.01 to 0.1 s"
+            remedy = "read the largest tensions as lower bounds"
+            notices.append(Notice("tension-sampling", message, rate, SLOWEST_TENSION_RATE, remedy=remedy))
+        out[use.channel] = figures
+    return out
+
+
+SLOWEST_TENSION_RATE = 10.0
+"""Rate below which even a snap that rises in a tenth of a second may fall between two samples [Hz]."""
+
+
+def _refined_lag(
+    survey: Survey, data: _Samples, tension: tuple[FloatArray, FloatArray], fluctuating: FloatArray
+) -> float:
+    """Return what correlation adds to the stated lag [s], 0 where it is not asked for or not to be had."""
+    wave = data.get(survey.wave_of_tensions)
+    if survey.largest_lag <= 0.0 or wave is None or not np.isfinite(tension[1]).all():
+        return 0.0
+    elevation = interpolate(wave[0] + survey.tension_lag, wave[1], tension[0], largest_gap=2.5 * _step(wave[0]))
+    shared = np.isfinite(elevation)
+    if np.count_nonzero(shared) < 0.9 * elevation.size:
+        return 0.0
+    try:
+        return find_delay(tension[0], np.where(shared, elevation, 0.0), fluctuating, longest=survey.largest_lag)
+    except InputError:
+        return 0.0
+
+
+def _step(time: FloatArray) -> float:
+    return float(np.median(np.diff(time)))

@@ -19,6 +19,7 @@ from moyai.measure.record import FloatArray, Record, instant_text
 from moyai.measure.spectra import FIGURES
 from moyai.measure.survey import Survey
 from moyai.measure.survey_blocks import BlockResult, work_off
+from moyai.measure.survey_fits import fit_relations
 from moyai.measure.waves import STATISTICS, fit_rayleigh, fit_weibull
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK
     -------
     Result
         Groups ``blocks``, ``waves``, ``spectra``, ``directions``, ``current``, ``reflection``, ``tensions``,
-        ``quality`` and ``whole``; those without content are absent.
+        ``fits``, ``quality`` and ``whole``; those without content are absent.
 
     Raises
     ------
@@ -218,6 +219,9 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
         groups["tensions"] = groups["tensions"].assign_coords(
             group=("line", np.array([entry.group for entry in survey.tensions], dtype=object))
         )
+    fits = fit_relations(survey, groups)
+    if fits is not None:
+        groups["fits"] = fits
     groups["quality"], notices = _quality(survey, found, names, dated)
     whole = _whole(survey, found)
     if whole is not None:

@@ -83,6 +83,7 @@ def compose(result: Result) -> Document:
         ("directions", "Directions", _directions),
         ("current", "Currents", _current),
         ("tensions", "Tensions", _tensions),
+        ("fits", "Relations", _fits),
         ("reflection", "Reflection and transmission", _reflection),
         ("whole", "Distribution of heights", _whole),
         ("blocks", "Channels", _channels),
@@ -340,6 +341,20 @@ def _tensions(tree: Any, clock: _Clock) -> list[Block]:
         title = f"Tensions of every block, {line}"
         blocks.append(_block_table(tree, clock, "tensions", f"tensions-{place + 1}", title, TENSION_COLUMNS, place))
     return blocks
+
+
+def _fits(tree: Any, clock: _Clock) -> list[Block]:
+    group = tree["fits"]
+    texts = [(name, [str(value) for value in group[name].values]) for name in ("relation", "of", "parameter")]
+    numbers = ("value", "error", "low", "high", "determination", "count")
+    columns = [Column(str(group[name].attrs["long_name"]), values) for name, values in texts]
+    columns += [
+        Column(
+            str(group[name].attrs["long_name"]), list(np.asarray(group[name].values, float)), digits=4, uniform=False
+        )
+        for name in numbers
+    ]
+    return [Table("fits", "Relations between the blocks", tuple(columns), "In SI units; bounds are those of 95 %.")]
 
 
 def _reflection(tree: Any, clock: _Clock) -> list[Block]:

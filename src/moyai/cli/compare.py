@@ -1,0 +1,110 @@
+"""``moyai compare``: a result against a record."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
+from moyai.core.errors import InputError
+
+
+def compare(
+    result: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.nc of a run.", show_default=False)],
+    record: Annotated[Path, typer.Argument(metavar="RECORD", help="Record with headings (CSV).", show_default=False)],
+    pair: Annotated[
+        list[str] | None,
+        typer.Option("--pair", metavar="VARIABLE=COLUMN", help="Which belongs to which; by equal names when absent."),
+    ] = None,
+    along: Annotated[
+        str, typer.Option("--along", metavar="COLUMN", help="Column of the time or other coordinate.")
+    ] = "",
+    select: Annotated[
+        list[str] | None, typer.Option("--select", metavar="DIMENSION=ENTRY", help="Entry along another dimension.")
+    ] = None,
+    shift: Annotated[float, typer.Option("--shift", help="Added to the record's coordinate.")] = 0.0,
+    lag: Annotated[float, typer.Option("--lag", help="How far the model may be moved to fit best.")] = 0.0,
+    by: Annotated[
+        str, typer.Option("--by", metavar="COLUMN[=EDGES]", help="Sea state whose classes are told: H13=0,1,2,3.")
+    ] = "",
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder of the comparison; out/compare_<record> when absent.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
+) -> None:
+    """Compare a result with a record: overlay, scatter, bias, RMS, skill, by sea state."""
+    with guard(as_json):
+        from moyai.cli.runner import prepare_output
+        from moyai.core.results import read_result
+        from moyai.measure.comparison_run import Pairing, compare_result
+        from moyai.report.writer import write_report
+
+        started = time.perf_counter()
+        pairs = [Pairing(*_split(entry, "pair")) for entry in pair or ()]
+        state, edges = _state(by)
+        found = compare_result(
+            read_result(result),
+            record,
+            pairs,
+            coordinate=along,
+            select=dict(_split(entry, "select") for entry in select or ()),
+            start=shift,
+            largest_lag=lag,
+            state=state,
+            edges=edges,
+        )
+        folder = prepare_output(output if output is not None else Path("out") / f"compare_{record.stem}")
+        files = [found.write(folder / "results.nc")]
+        with progress_bars(True):
+            files += write_report(found, folder, pdf=pdf)
+        seconds = time.perf_counter() - started
+        if as_json:
+            print_json(_as_record(found, files))
+        else:
+            from moyai.cli.tables import print_summary
+
+            print_summary(rich_console(), found, files, seconds, [])
+        raise typer.Exit(OK)
+
+
+def _split(entry: str, option: str) -> tuple[str, str]:
+    first, sign, second = entry.partition("=")
+    if not sign or not first.strip() or not second.strip():
+        raise InputError(f"'{entry}' has no '='", path=f"--{option}", allowed="name=name")
+    return first.strip(), second.strip()
+
+
+def _state(text: str) -> tuple[str, tuple[float, ...]]:
+    name, sign, numbers = text.partition("=")
+    if not sign:
+        return name.strip(), ()
+    try:
+        return name.strip(), tuple(float(part) for part in numbers.split(","))
+    except ValueError:
+        raise InputError(f"'{numbers}' are no numbers", path="--by", allowed="H13=0,1,2,3") from None
+
+
+def _as_record(result: Any, files: list[Path]) -> dict[str, Any]:
+    pairs = []
+    for name in result.tree.children:
+        group = result.tree[name]
+        words = [str(value) for value in group["figure"].values]
+        pairs.append(
+            {
+                "pair": str(group.attrs["label"]),
+                "lag": float(group.attrs["lag"]),
+                "agreement": dict(zip(words, (float(value) for value in group["agreement"].values), strict=True)),
+            }
+        )
+    return {
+        "status": result.status,
+        "message": result.message,
+        "pairs": pairs,
+        "files": [str(path) for path in files],
+        "notices": [notice.as_dict() for notice in result.notices],
+        "faults": [],
+    }
