@@ -143,7 +143,18 @@ def _read(path: Path, coordinate: str) -> tuple[Record, str]:
         except InputError:
             scale = 1.0
     stated = names[place]
-    record = read_record(LoggerSource("record", (path,), columns, TimeSource((place + 1,)), format="csv"))
+    try:
+        record = read_record(LoggerSource("record", (path,), columns, TimeSource((place + 1,)), format="csv"))
+    except InputError:
+        if unit:
+            raise
+        # A coordinate that is no number may be a date
+        stamps = TimeSource((place + 1,), form="iso")
+        try:
+            return read_record(LoggerSource("record", (path,), columns, stamps, format="csv")), stated
+        except InputError:
+            pass
+        raise
     return replace(record, time=record.time * scale), stated
 
 
@@ -232,7 +243,9 @@ def _values(
     order = [key for key in (along, dimension, "time", "period", "omega") if key in candidates]
     if not order:
         raise InputError(f"'{name}' has no coordinate along {dimension}", path="coordinate")
-    coordinate = np.asarray(node[order[0]].values, dtype=float)
+    stored = np.asarray(node[order[0]].values)
+    dated = stored.dtype.kind == "M"
+    coordinate = stored.astype("datetime64[ns]").astype(np.int64) * 1e-9 if dated else stored.astype(float)
     values = np.asarray(array.values)
     values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
     if coordinate.size > 1 and coordinate[0] > coordinate[-1]:

@@ -189,8 +189,8 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
     import xarray as xr
 
     start = np.array([block.start for block in found])
-    units = "seconds since 1970-01-01 00:00:00" if dated else "s"
-    time = xr.Variable("block", start, {"units": units, "long_name": "start of the block", "dated": int(dated)})
+    words = "start of the block, since 1970-01-01 UTC" if dated else "start of the block"
+    time = xr.Variable("block", start, {"units": "s", "long_name": words, "dated": int(dated)})
     groups: dict[str, xr.Dataset] = {}
     names = [channel.name for channel in survey.channels]
     symbols = _symbols(survey)
@@ -368,12 +368,11 @@ def _quality(
         rows = rows[:MOST_FINDINGS]
         notices.append(Notice("findings-cut", f"{lost} further stretches are not listed; all are counted", float(lost)))
     columns: list[Any] = list(zip(*rows)) if rows else [[] for _ in range(6)]
-    units = "seconds since 1970-01-01 00:00:00" if dated else "s"
     data = {
         "channel": ("finding", np.array(columns[0], dtype=object), {"units": "", "long_name": "channel"}),
         "kind": ("finding", np.array(columns[1], dtype=object), {"units": "", "long_name": "what was found"}),
-        "start": ("finding", np.array(columns[2], dtype=float), {"units": units, "long_name": "first instant"}),
-        "end": ("finding", np.array(columns[3], dtype=float), {"units": units, "long_name": "last instant"}),
+        "start": ("finding", np.array(columns[2], dtype=float), {"units": "s", "long_name": "first instant"}),
+        "end": ("finding", np.array(columns[3], dtype=float), {"units": "s", "long_name": "last instant"}),
         "count": ("finding", np.array(columns[4], dtype=float), {"units": "", "long_name": "samples"}),
         "detail": ("finding", np.array(columns[5], dtype=object), {"units": "", "long_name": "detail"}),
     }
