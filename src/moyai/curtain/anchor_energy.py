@@ -230,6 +230,47 @@ def calibrate(
     return Calibration(rule, root**2, 2.0 * root * error, bounds, root * speed, amplitude)
 
 
+def calibration_bounds(
+    observed: ArrayLike,
+    float_speed: ArrayLike,
+    pretension: ArrayLike,
+    *,
+    line_factor: float,
+    rule: FittingRule = "mean_zero",
+    resamples: int = 500,
+    seed: int = 0,
+    confidence: float = 0.95,
+) -> tuple[float, float]:
+    """Return bounds of M m_B K [kg N/m] by drawing the observations again and fitting each draw.
+
+    They need no law of the scatter, and stand beside :attr:`Calibration.interval`, which rests on the variance of the
+    root of the product.
+
+    Parameters
+    ----------
+    observed, float_speed, pretension, line_factor, rule
+        As in :func:`calibrate`.
+    resamples, seed : int
+        Draws and their seed.
+    confidence : float
+        Of the bounds.
+
+    Raises
+    ------
+    InputError
+        As :func:`calibrate`, and for fewer than fifty draws.
+    """
+    fit = calibrate(observed, float_speed, pretension, line_factor=line_factor, rule=rule)
+    if resamples < 50 or not 0.0 < confidence < 1.0:
+        raise InputError(f"{resamples} draws at {confidence:g}", path="resamples", allowed="at least 50, 0 to 1")
+    speed = np.broadcast_to(np.asarray(float_speed, dtype=np.float64), fit.observed.shape)
+    rng = np.random.default_rng(seed)
+    rows = rng.integers(0, fit.observed.size, (resamples, fit.observed.size))
+    roots = np.array([_root(rule, fit.observed[row], speed[row]) for row in rows])
+    low, high = np.percentile(roots**2, [50.0 * (1.0 - confidence), 50.0 * (1.0 + confidence)])
+    return float(low), float(high)
+
+
 def error_against_product(observed: ArrayLike, float_speed: ArrayLike, product: ArrayLike) -> tuple[Array, Array]:
     """Return mean and root mean square of the paper's error for each M m_B K, the curves that a fit reads."""
     calculated = np.sqrt(np.asarray(product, dtype=np.float64))[:, None] * np.asarray(float_speed)
