@@ -25,6 +25,7 @@ _SYNONYMS = {
     "type": "kind", "number": "count", "direction": "heading_deg", "angle": "heading_deg",
     "radius_of_gyration": "roll_gyradius",
     "gyradius": "roll_gyradius", "moorings": "lines", "mooring": "lines", "cd": "current_drag_coefficient",
+    "viscosity": "kinematic_viscosity", "nu": "kinematic_viscosity",
     "zeta": "fraction_of_critical", "levels": "water_levels", "environment": "site",
 }  # fmt: skip
 

@@ -128,7 +128,9 @@ class Homography:
 
     def to_world(self, pixels: ArrayLike) -> FloatArray:
         """Return x, z [m] of pixels, shape (n, 2)."""
-        return _project(np.linalg.inv(self.matrix), np.atleast_2d(np.asarray(pixels, dtype=float)))
+        return _project(
+            np.asarray(np.linalg.inv(self.matrix), dtype=float), np.atleast_2d(np.asarray(pixels, dtype=float))
+        )
 
 
 def _project(matrix: FloatArray, points: FloatArray) -> FloatArray:

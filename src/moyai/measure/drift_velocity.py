@@ -183,7 +183,7 @@ def _basis(phase: FloatArray, number: int) -> FloatArray:
 
 
 def _least_squares(basis: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    inverse = np.linalg.pinv(basis.T @ basis)
+    inverse = np.asarray(np.linalg.pinv(basis.T @ basis), dtype=float)
     coefficients = inverse @ (basis.T @ values)
     return inverse, coefficients, values - basis @ coefficients
 

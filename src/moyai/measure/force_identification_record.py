@@ -139,7 +139,7 @@ def _refuse_clipped(values: Array, name: str) -> None:
     jumps = np.abs(np.diff(values))
     quantum = float(jumps[jumps > 0.0].min())
     centred = values - values.mean()
-    crossings = np.count_nonzero(np.diff(np.signbit(centred)))
+    crossings = int(np.count_nonzero(np.diff(np.signbit(centred))))
     period = 2.0 * values.size / max(crossings, 1)
     for sign, word in ((1.0, "top"), (-1.0, "bottom")):
         extreme = float((sign * values).max())
@@ -149,7 +149,7 @@ def _refuse_clipped(values: Array, name: str) -> None:
         longest = int(runs.max())
         amplitude = float(np.maximum(abs(sign * extreme - float(values.mean())), quantum))
         # how long a sine stays within one step of the gauge at its crest
-        natural = period / math.pi * math.acos(1.0 - min(quantum / amplitude, 1.0))
+        natural = period / math.pi * math.acos(1.0 - quantum / amplitude)
         if longest >= _LEAST_PLATEAU and longest > 2.0 * natural + 2.0:
             raise InputError(
                 f"{name} is clipped: it stays at its {word} {sign * extreme:.6g} for {longest} samples",

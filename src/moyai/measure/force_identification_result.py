@@ -47,7 +47,7 @@ def identification_dataset(found: Identification) -> xr.Dataset:
 
     methods, components = found.setup.methods, found.record.components
     shape = (len(methods), components, len(COEFFICIENTS))
-    dims = ("method", "component", "coefficient")
+    dims = ("fit_method", "component", "coefficient")
     names = ("value", "low", "high", "statistical_half_width", "phase_half_width", "phase_sensitivity", "known")
     arrays = {name: np.full(shape, np.nan) for name in names}
     scalars = {
@@ -75,7 +75,7 @@ def identification_dataset(found: Identification) -> xr.Dataset:
     dataset = xr.Dataset(
         data,
         coords={
-            "method": list(methods),
+            "fit_method": list(methods),
             "component": np.arange(1, components + 1),
             "coefficient": list(COEFFICIENTS),
         },
@@ -103,13 +103,13 @@ def _reduction(found: Identification, inertia: np.ndarray) -> dict[str, tuple[tu
     if ideal is None:
         return {}
     fall = np.asarray(ideal)[None, :] - inertia
-    out: dict[str, tuple[tuple[str, ...], np.ndarray]] = {"inertia_reduction": (("method", "component"), fall)}
+    out: dict[str, tuple[tuple[str, ...], np.ndarray]] = {"inertia_reduction": (("fit_method", "component"), fall)}
     if found.record.components == 2 and found.setup.regular:
         speed = 0.5 * np.ptp(found.record.velocity, axis=0)
         other = speed[::-1] / speed
         # Gamma = omega A fall v_own / v_other, and Gamma = gamma v_x v_y T
         circulation = 2.0 * math.pi / found.period * found.setup.area * fall / other[None, :]
-        out["equivalent_gamma"] = (("method", "component"), circulation / (speed.prod() * found.period))
+        out["equivalent_gamma"] = (("fit_method", "component"), circulation / (speed.prod() * found.period))
     return out
 
 
@@ -120,7 +120,7 @@ def record_dataset(found: Identification) -> xr.Dataset:
     shape = (len(found.setup.methods), found.record.components)
     fitted = np.array([[found.fit(m, c).force for c in range(shape[1])] for m in found.setup.methods])
     left = np.array([[found.fit(m, c).residual for c in range(shape[1])] for m in found.setup.methods])
-    dims = ("method", "component", "time")
+    dims = ("fit_method", "component", "time")
     return _labelled(
         xr.Dataset(
             {
@@ -133,7 +133,7 @@ def record_dataset(found: Identification) -> xr.Dataset:
             coords={
                 "time": found.record.time,
                 "component": np.arange(1, shape[1] + 1),
-                "method": list(found.setup.methods),
+                "fit_method": list(found.setup.methods),
             },
         )
     )

@@ -78,7 +78,7 @@ class SectionMap:
         total = np.zeros_like(point)
         for coefficient in self.series[::-1]:
             total = total * square + coefficient
-        return self.scale * (point + total * inverse)
+        return np.asarray(self.scale * (point + total * inverse), dtype=np.complex128)
 
     def to_circle(self, plane: ArrayLike) -> ComplexArray:
         """Return zeta of points x + i z outside the section, by Newton's method from far to near.
@@ -91,7 +91,7 @@ class SectionMap:
         target = np.asarray(plane, dtype=complex)
         if np.any(self.contains(target)):
             raise InputError("a point lies inside the section", path="points")
-        zeta = target / self.scale
+        zeta: ComplexArray = np.asarray(target / self.scale, dtype=np.complex128)
         zeta = np.where(np.abs(zeta) < 1.05, 1.05 * np.exp(1j * np.angle(zeta)), zeta)
         for _ in range(60):
             step = (self.to_plane(zeta) - target) / (self.scale * _derivative(zeta, self.corner, self.kind == "circle"))

@@ -301,7 +301,9 @@ def _paths(partner: dict[int, tuple[int, int, float]], count: int) -> list[tuple
     seen = np.zeros(count, dtype=bool)
 
     def walk(end: int) -> tuple[list[int], list[int], list[int], list[int]]:
-        path, entries, steps, exits = [end // 2], [end % 2], [], []
+        path, entries = [end // 2], [end % 2]
+        steps: list[int] = []
+        exits: list[int] = []
         while True:
             leave = 2 * path[-1] + 1 - entries[-1]
             if leave not in joined:

@@ -78,10 +78,10 @@ def regular_pulses(interval: float, on_times: ArrayLike, powers: ArrayLike, coun
     index = np.arange(count)
     duration = np.resize(np.atleast_1d(np.asarray(on_times, dtype=float)), count)
     power = np.resize(np.atleast_1d(np.asarray(powers, dtype=float)), count)
-    return PulseTrain(interval * index, duration, power)
+    return PulseTrain(np.asarray(interval * index, dtype=float), duration, power)
 
 
-def direction_evidence(light: FloatArray, steps: FloatArray, train: PulseTrain) -> tuple[float, int, bool]:
+def direction_evidence(light: FloatArray, steps: NDArray[np.int64], train: PulseTrain) -> tuple[float, int, bool]:
     """Tell the direction of a chain from the light of its streaks [eq:streaks-order].
 
     Parameters
@@ -118,7 +118,7 @@ def direction_evidence(light: FloatArray, steps: FloatArray, train: PulseTrain) 
     return abs(with_time[0] - against[0]), (with_time if forward else against)[1], forward
 
 
-def _misfit(rest: FloatArray, order: FloatArray) -> float:
+def _misfit(rest: FloatArray, order: NDArray[np.int64]) -> float:
     """Return minus the log-likelihood of what is left of the light: a constant, a slow trend and scatter."""
     along = order - order.mean()
     centred = rest - np.median(rest)
@@ -151,7 +151,7 @@ def require_time_order(train: PulseTrain, least_streaks: int) -> None:
             path="timing.count",
             remedy="open the shutter for longer, or chop the light faster",
         )
-    steps = np.ones(least_streaks - 1, dtype=int)
+    steps = np.ones(least_streaks - 1, dtype=np.int64)
     evidence = [
         direction_evidence(train.light[first : first + least_streaks], steps, train)[0]
         for first in range(train.count - least_streaks + 1)

@@ -49,7 +49,7 @@ def compose(result: Result) -> Document:
     fits = [
         Option(f"component {component}, {method.replace('_', ' ')}", tuple(_fit_figures(record, method, component)))
         for component in found.labels("component")
-        for method in found.labels("method")
+        for method in found.labels("fit_method")
     ]
     sections = [
         Section("summary", "Summary", (*_key_figures(found), *notice_blocks(result), *_tables(found))),
@@ -80,19 +80,19 @@ def _text(found: Group, name: str, method: str, component: str) -> tuple[str, bo
 
 def _place(found: Group, method: str, component: str, name: str) -> tuple[int, int, int]:
     return (
-        found.labels("method").index(method),
+        found.labels("fit_method").index(method),
         found.labels("component").index(component),
         found.labels("coefficient").index(name),
     )
 
 
 def _entry(found: Group, key: str, at: tuple[int, int, int]) -> float:
-    values = found.array(key, "method", "component", "coefficient")
+    values = found.array(key, "fit_method", "component", "coefficient")
     return math.nan if values is None else float(values[at])
 
 
 def _key_figures(found: Group) -> tuple[Block, ...]:
-    methods, components = found.labels("method"), found.labels("component")
+    methods, components = found.labels("fit_method"), found.labels("component")
     if not methods:
         return ()
     items = []
@@ -110,7 +110,7 @@ def _key_figures(found: Group) -> tuple[Block, ...]:
 def _tables(found: Group) -> list[Block]:
     rows: list[list[str | float]] = []
     for component in found.labels("component"):
-        for method in found.labels("method"):
+        for method in found.labels("fit_method"):
             for name, symbol in COEFFICIENTS:
                 at = _place(found, method, component, name)
                 text, known = _text(found, name, method, component)
@@ -147,11 +147,11 @@ def _tables(found: Group) -> list[Block]:
         )
     ]
     extra: list[list[str | float]] = []
-    for i, method in enumerate(found.labels("method")):
+    for i, method in enumerate(found.labels("fit_method")):
         for c, component in enumerate(found.labels("component")):
             row: list[str | float] = [component, method.replace("_", " ")]
             for key in ("correlation", "condition", "explained", "drag_share", "inertia_reduction", "equivalent_gamma"):
-                values = found.array(key, "method", "component")
+                values = found.array(key, "fit_method", "component")
                 row.append(math.nan if values is None else float(values[i, c]))
             extra.append(row)
     names = (
@@ -177,12 +177,12 @@ def _tables(found: Group) -> list[Block]:
 
 def _fit_figures(record: Group, method: str, component: str) -> list[Block]:
     time = record.real("time", "time")
-    if time is None or method not in record.labels("method"):
+    if time is None or method not in record.labels("fit_method"):
         return [Paragraph(DASH)]
-    i, c = record.labels("method").index(method), record.labels("component").index(component)
+    i, c = record.labels("fit_method").index(method), record.labels("component").index(component)
     force = record.array("force", "time", "component")
-    fitted = record.array("fitted_force", "method", "component", "time")
-    residual = record.array("residual", "method", "component", "time")
+    fitted = record.array("fitted_force", "fit_method", "component", "time")
+    residual = record.array("residual", "fit_method", "component", "time")
     if force is None or fitted is None or residual is None:
         return [Paragraph(DASH)]
     series = []
@@ -204,14 +204,14 @@ def _fit_figures(record: Group, method: str, component: str) -> list[Block]:
 
 
 def _spread_figures(found: Group) -> list[Block]:
-    samples = found.array("sample", "method", "component", "coefficient", "draw")
+    samples = found.array("sample", "fit_method", "component", "coefficient", "draw")
     if samples is None or not np.isfinite(samples).any():
         return []
     blocks: list[Block] = []
     for c, component in enumerate(found.labels("component")):
         series = tuple(
             Series(method.replace("_", " "), {"m": samples[i, c, 0]}, samples[i, c, 1], 0, i, style="points")
-            for i, method in enumerate(found.labels("method"))
+            for i, method in enumerate(found.labels("fit_method"))
         )
         blocks.append(
             Figure(
