@@ -55,7 +55,14 @@ class ExplicitRun:
     name = "explicit"
 
     def __init__(
-        self, network: Network, motions: Mapping[str, Motion], flow: Flow, start: State, *, safety: float, load_steps: int
+        self,
+        network: Network,
+        motions: Mapping[str, Motion],
+        flow: Flow,
+        start: State,
+        *,
+        safety: float,
+        load_steps: int,
     ) -> None:
         self.network, self.flow, self.safety, self.load_steps = network, flow, safety, load_steps
         self.arrays = kernel_arrays(network)
@@ -110,7 +117,9 @@ class ExplicitRun:
         pulls[0] = peaks[0] = self.packed.bar_row(kernel.PULL)[bars]
         level = -1e300 if self.network.bed is None else self.network.bed.level
         energy[0, 0] = kernel.kinetic_energy(memory, sizes[0])
-        energy[0, 1] = kernel.elastic_energy(memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, level)
+        energy[0, 1] = kernel.elastic_energy(
+            memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, level
+        )
         energy[0, 2] = 0.0
 
     def limit(self) -> tuple[float, int]:

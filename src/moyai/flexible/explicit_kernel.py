@@ -400,7 +400,13 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
     for r in range(runs.shape[0] + 1):
         a0, b0, k0, count, curve = 0, 1, 0, sizes[1], -1
         if r > 0:
-            a0, b0, k0, count, curve = runs[r - 1, 0], runs[r - 1, 1], RIB + runs[r - 1, 2], runs[r - 1, 3], runs[r - 1, 4]
+            a0, b0, k0, count, curve = (
+                runs[r - 1, 0],
+                runs[r - 1, 1],
+                RIB + runs[r - 1, 2],
+                runs[r - 1, 3],
+                runs[r - 1, 4],
+            )
         for i in range(count):
             a, b, k = a0 + i, b0 + i, k0 + i
             dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
@@ -411,8 +417,10 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
             elif stretch > 0.0:
                 strain, j, area = stretch / A[LENGTH + k], 0, 0.0
                 while j + 2 < curves.shape[2] and strain > curves[curve, 0, j + 1]:
-                    area += 0.5 * (curves[curve, 1, j] + curves[curve, 1, j + 1]) * (
-                        curves[curve, 0, j + 1] - curves[curve, 0, j]
+                    area += (
+                        0.5
+                        * (curves[curve, 1, j] + curves[curve, 1, j + 1])
+                        * (curves[curve, 0, j + 1] - curves[curve, 0, j])
                     )
                     j += 1
                 rest = strain - curves[curve, 0, j]

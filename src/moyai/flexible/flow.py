@@ -59,7 +59,9 @@ class Flow:
     def __post_init__(self) -> None:
         given = np.array(self.velocity, dtype=np.float64)
         if given.shape != (3,) or not np.isfinite(given).all():
-            raise InputError(f"velocity of the flow is {self.velocity}", path="flow.velocity", allowed="three finite numbers")
+            raise InputError(
+                f"velocity of the flow is {self.velocity}", path="flow.velocity", allowed="three finite numbers"
+            )
         given.setflags(write=False)
         object.__setattr__(self, "velocity", given)
         if self.waves is not None and self.waves.water is None:
@@ -67,7 +69,9 @@ class Flow:
         if not (math.isfinite(self.ramp) and self.ramp >= 0.0):
             raise InputError(f"ramp of the flow is {self.ramp:g} s", path="flow.ramp", allowed="0 or more")
         if self.interval is not None and not self.interval > 0.0:
-            raise InputError(f"interval of the flow is {self.interval:g} s", path="flow.interval", allowed="greater than 0")
+            raise InputError(
+                f"interval of the flow is {self.interval:g} s", path="flow.interval", allowed="greater than 0"
+            )
         stretching_code(self.stretching)
 
     @property

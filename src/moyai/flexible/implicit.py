@@ -29,7 +29,14 @@ class ImplicitRun:
     """The state of one run; :func:`moyai.flexible.simulate.simulate` makes it and asks it to advance."""
 
     def __init__(
-        self, network: Network, motions: Mapping[str, Motion], flow: Flow, start: State, *, method: str, tolerance: float
+        self,
+        network: Network,
+        motions: Mapping[str, Motion],
+        flow: Flow,
+        start: State,
+        *,
+        method: str,
+        tolerance: float,
     ) -> None:
         self.network, self.flow, self.name = network, flow, method
         self.arrays = kernel_arrays(network)
@@ -57,7 +64,16 @@ class ImplicitRun:
         weights = float(np.max(self.arrays.node("weight"), initial=0.0))
         mean = float(np.mean(network.bars.length)) if len(network.bars) else 1.0
         self.control = np.array(
-            [1e-3, 1e-9, 1e3, tolerance, mean, max(float(np.max(np.abs(self.tension), initial=0.0)), weights, 1e-300), 0.0, 0.0]
+            [
+                1e-3,
+                1e-9,
+                1e3,
+                tolerance,
+                mean,
+                max(float(np.max(np.abs(self.tension), initial=0.0)), weights, 1e-300),
+                0.0,
+                0.0,
+            ]
         )
         self.ledger, self.counts = np.zeros(3), np.zeros(4, dtype=np.int64)
         self.step, self.worst = math.inf, 0

@@ -81,7 +81,11 @@ def pack(arrays: KernelArrays) -> Packed:
     """
     count, bars = arrays.nodes.shape[1], arrays.start.size
     if max(count, bars) + 2 * _LANES > kernel.ROW:
-        raise InputError(f"{max(count, bars)} nodes or bars", path="network", allowed=f"up to {kernel.ROW - 2 * _LANES} in the explicit scheme")
+        raise InputError(
+            f"{max(count, bars)} nodes or bars",
+            path="network",
+            allowed=f"up to {kernel.ROW - 2 * _LANES} in the explicit scheme",
+        )
     memory = _untouched(kernel.TOTAL_ROWS * kernel.ROW)
     # a bar between neighbours goes on the spine, the first one for each pair; its direction may be reversed
     low = np.minimum(arrays.start, arrays.end)
@@ -95,7 +99,9 @@ def pack(arrays: KernelArrays) -> Packed:
     place[spine] = low[spine]
     place[order] = kernel.RIB + np.arange(order.size)
     sizes = np.array([-(-count // _LANES) * _LANES, -(-(count - 1) // _LANES) * _LANES], dtype=np.int64)
-    for row, name in enumerate(("MASS", "WEIGHT", "VOLUME", "DRAG", "ADDED", "STIFF", "DAMP", "HEIGHT", "FORM", "FREE_X", "FREE_Y", "FREE_Z")):
+    for row, name in enumerate(
+        ("MASS", "WEIGHT", "VOLUME", "DRAG", "ADDED", "STIFF", "DAMP", "HEIGHT", "FORM", "FREE_X", "FREE_Y", "FREE_Z")
+    ):
         first = getattr(kernel, name)
         memory[first : first + count] = arrays.nodes[row]
     memory[kernel.MASS + count : kernel.MASS + sizes[0]] = 1.0

@@ -38,7 +38,11 @@ def _rows(duration: float, output_step: float) -> tuple[int, float]:
 def _check_motions(network: Network, motions: Mapping[str, Motion], start: float, end: float) -> None:
     for name in network.motion_names:
         if name not in motions:
-            raise InputError(f"driven points follow the motion {name!r}, which is not given", path="motions", allowed=", ".join(network.motion_names))
+            raise InputError(
+                f"driven points follow the motion {name!r}, which is not given",
+                path="motions",
+                allowed=", ".join(network.motion_names),
+            )
         motion = motions[name]
         slack = 1e-9 * max(1.0, abs(end))
         if motion.start > start + slack or motion.end < end - slack:
@@ -48,7 +52,9 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
             )  # fmt: skip
     for name in motions:
         if name not in network.motion_names:
-            raise InputError(f"no point follows a motion {name!r}", path="motions", allowed=", ".join(network.motion_names) or "none")
+            raise InputError(
+                f"no point follows a motion {name!r}", path="motions", allowed=", ".join(network.motion_names) or "none"
+            )
 
 
 def _kept(given: ArrayLike | None, count: int, path: str) -> np.ndarray:

@@ -131,7 +131,9 @@ def solve_equilibrium(
     typical = float(np.mean(network.bars.length)) if len(network.bars) else 1.0
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if count > 1 else 1.0
     # rounding of a coordinate times the stiffest bar
-    noise = 16.0 * np.finfo(np.float64).eps * float(arrays.greatest_spring.max(initial=0.0)) * float(np.max(np.abs(place)))
+    noise = (
+        16.0 * np.finfo(np.float64).eps * float(arrays.greatest_spring.max(initial=0.0)) * float(np.max(np.abs(place)))
+    )
     fluid = np.array([network.water.density, network.water.gravity, 0.0])
     steps, residual, worst, shaken = 0, math.inf, 0, 0
     while True:
@@ -167,7 +169,16 @@ def _shake(network: Network, place: Array, flow: Flow, extent: float) -> Array:
     motions = dict.fromkeys(network.motion_names, still)
     state, energy = State(0.0, place, np.zeros_like(place)), 0.0
     for _ in range(_SHAKE_INTERVALS):
-        history = simulate(network, motions, duration=interval, output_step=interval, flow=flow, start=state, keep_nodes=[0], keep_bars=[])
+        history = simulate(
+            network,
+            motions,
+            duration=interval,
+            output_step=interval,
+            flow=flow,
+            start=state,
+            keep_nodes=[0],
+            keep_bars=[],
+        )
         if history.status != "converged":
             break
         now = float(history.kinetic_energy[-1])

@@ -1,0 +1,97 @@
+"""The same network on a finer mesh, or with another viscosity."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.flexible.network import Bars, Network, Nodes, Strand
+from moyai.flexible.result import State
+
+
+def refined(network: Network, factor: int, state: State | None = None) -> tuple[Network, State]:
+    """Cut every bar into ``factor`` equal bars; return the finer network and the state at its nodes.
+
+    Nodes are numbered anew, along the bars; named points and strands keep their names.
+
+    Raises
+    ------
+    InputError
+        For a factor below 1.
+    """
+    if factor < 1:
+        raise InputError(f"a mesh refined {factor} times", path="factor", allowed="1 or more")
+    old, bars = network.nodes, network.bars
+    now = state or State.at_rest(network)
+    number = np.full(len(old), -1, dtype=np.int64)
+    source: list[tuple[int, int, float]] = []
+    chains = np.empty((len(bars), factor + 1), dtype=np.int64)
+
+    def place(node: int) -> int:
+        if number[node] < 0:
+            number[node] = len(source)
+            source.append((node, node, 0.0))
+        return int(number[node])
+
+    for k in range(len(bars)):
+        a, b = int(bars.start[k]), int(bars.end[k])
+        chains[k, 0] = place(a)
+        for part in range(1, factor):
+            chains[k, part] = len(source)
+            source.append((a, b, part / factor))
+        chains[k, factor] = place(b)
+    for node in range(len(old)):
+        place(node)
+    first, second = (np.array([entry[i] for entry in source], dtype=np.int64) for i in (0, 1))
+    share = np.array([entry[2] for entry in source])[:, None]
+    own = first == second
+    values = {}
+    for entry in fields(Nodes):
+        given = getattr(old, entry.name)
+        if entry.name == "position":
+            values[entry.name] = (1.0 - share) * given[first] + share * given[second]
+        elif entry.name == "motion":
+            values[entry.name] = np.where(own, given[first], -1)
+        else:
+            values[entry.name] = np.where(own if given.ndim == 1 else own[:, None], given[first], 0)
+    strands = []
+    for strand in network.strands:
+        nodes: list[int] = []
+        numbers: list[int] = []
+        for k in strand.bars:
+            chain = list(chains[k])
+            piece = list(range(int(k) * factor, (int(k) + 1) * factor))
+            # a strand may run through a bar against its direction
+            if nodes and nodes[-1] == chain[-1]:
+                chain, piece = chain[::-1], piece[::-1]
+            nodes.extend(chain if not nodes else chain[1:])
+            numbers.extend(piece)
+        strands.append(Strand(strand.name, np.array(nodes), np.array(numbers)))
+    finer = Network(
+        Nodes(**values),
+        Bars(
+            chains[:, :-1].ravel(), chains[:, 1:].ravel(), np.repeat(bars.length / factor, factor),
+            np.repeat(bars.kind, factor), bars.types, np.repeat(bars.flow_factor, factor),
+        ),
+        network.water, network.bed, tuple(strands), {name: int(number[node]) for name, node in network.points.items()},
+        network.motion_names,
+    )  # fmt: skip
+    place_now = (1.0 - share) * now.position[first] + share * now.position[second]
+    speed_now = (1.0 - share) * now.velocity[first] + share * now.velocity[second]
+    return finer, State(now.time, place_now, speed_now)
+
+
+def with_viscosity(network: Network, factor: float) -> Network:
+    """Return the network with all viscosities multiplied by ``factor``.
+
+    Raises
+    ------
+    InputError
+        For a negative factor.
+    """
+    if not factor >= 0.0:
+        raise InputError(f"viscosity times {factor:g}", path="factor", allowed="0 or more")
+    types = tuple(replace(kind, viscosity=factor * kind.viscosity) for kind in network.bars.types)
+    return replace(network, bars=replace(network.bars, types=types))

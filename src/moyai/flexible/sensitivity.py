@@ -1,0 +1,130 @@
+"""What a peak is worth: the same run at half the step, on a finer mesh, with other viscosity."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import Network
+from moyai.flexible.refine import refined, with_viscosity
+from moyai.flexible.result import State
+from moyai.flexible.simulate import simulate
+
+
+@dataclass(frozen=True)
+class PeakSensitivity:
+    """The highest tension of a bar and what it becomes when the discretisation or the viscosity changes.
+
+    Parameters
+    ----------
+    peak : float
+        Of the run itself [N].
+    half_step, double_mesh, half_viscosity, double_viscosity : float
+        Highest tension at the same place with half the step, with every bar cut in two, and with half and twice the
+        viscosity [N].
+    step : float
+        Time step of the run itself [s].
+    """
+
+    peak: float
+    half_step: float
+    double_mesh: float
+    half_viscosity: float
+    double_viscosity: float
+    step: float
+
+    @property
+    def discretisation_error(self) -> float:
+        """Relative change with step and mesh together: what the number is worth, apart from viscosity."""
+        return abs(self.half_step / self.peak - 1.0) + abs(self.double_mesh / self.peak - 1.0)
+
+    @property
+    def viscosity_effect(self) -> float:
+        """Largest relative change when the viscosity is halved or doubled."""
+        return max(abs(self.half_viscosity / self.peak - 1.0), abs(self.double_viscosity / self.peak - 1.0))
+
+    def notices(self, limit: float = 0.02) -> tuple[Notice, ...]:
+        """Tell when the peak moves by more than ``limit`` with the discretisation."""
+        if self.discretisation_error <= limit:
+            return ()
+        return (
+            Notice(
+                "peak-not-converged",
+                f"the peak of {self.peak:.4g} N moves by {100 * self.discretisation_error:.1f} % with half the step and mesh",
+                self.discretisation_error,
+                limit,
+                "warning",
+                "use more segments, or the pace of the elastic wave (safety=1) when a wave front makes the peak",
+            ),
+        )
+
+
+def peak_sensitivity(
+    network: Network,
+    motions: Mapping[str, Motion] | None = None,
+    *,
+    bar: int,
+    after: float = 0.0,
+    start: State | None = None,
+    progress: Progress = silent,
+    **options: Any,
+) -> PeakSensitivity:
+    """Run a network five times and compare the highest tension of one bar.
+
+    Parameters
+    ----------
+    network, motions
+        As in :func:`moyai.flexible.simulate.simulate`.
+    bar : int
+        The bar; on the finer mesh the tension is that of its first or last half, whichever is nearer to the end of its
+        strand.
+    after : float
+        Only peaks after this time since the start count [s].
+    start : State, optional
+        As built and at rest when left out.
+    progress : Progress
+        Told the number of the run.
+    **options
+        Further arguments of ``simulate``; ``duration`` and ``output_step`` among them.
+
+    Returns
+    -------
+    PeakSensitivity
+
+    Raises
+    ------
+    InputError
+        For an unknown bar.
+    ConvergenceError
+        When one of the runs had to stop.
+    """
+    if not 0 <= bar < len(network.bars):
+        raise InputError(f"bar {bar}", path="bar", allowed=f"0 to {len(network.bars) - 1}")
+    last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in network.strands)
+
+    def peak(which: str, mesh: Network, begin: State | None, number: int, **more: Any) -> tuple[float, float]:
+        history = simulate(mesh, motions, start=begin, keep_nodes=[0], keep_bars=[number], **{**options, **more})
+        if history.status != "converged":
+            raise ConvergenceError(f"run with {which}: {history.message}", path="sensitivity")
+        chosen = history.time >= history.time[0] + after
+        return float(np.max(history.tension_peak[chosen, 0])), history.step
+
+    first, step = peak("the given step and mesh", network, start, bar)
+    progress("sensitivity", 1, 5)
+    half, _ = peak("half the step", network, start, bar, step=0.5 * step)
+    progress("sensitivity", 2, 5)
+    finer, state = refined(network, 2, start)
+    mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0))
+    progress("sensitivity", 3, 5)
+    less, _ = peak("half the viscosity", with_viscosity(network, 0.5), start, bar)
+    progress("sensitivity", 4, 5)
+    more, _ = peak("twice the viscosity", with_viscosity(network, 2.0), start, bar)
+    progress("sensitivity", 5, 5)
+    return PeakSensitivity(first, half, mesh, less, more, step)

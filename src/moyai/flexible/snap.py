@@ -1,0 +1,150 @@
+"""Snap loads in a record of tension: when a line is slack, when it comes taut, how fast and how high the load rises."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One time that a slack line comes taut, and the load that follows until it is slack again.
+
+    Parameters
+    ----------
+    time : float
+        When the tension leaves the slack level [s].
+    slack_before : float
+        How long it was slack before [s].
+    peak, peak_time : float
+        Highest tension until the next slack or the end [N], and when [s].
+    rise_time : float
+        From a tenth to nine tenths of the peak, on the way to it [s].
+    is_snap : bool
+        Whether the peak exceeds the threshold.
+    """
+
+    time: float
+    slack_before: float
+    peak: float
+    peak_time: float
+    rise_time: float
+    is_snap: bool
+
+
+@dataclass(frozen=True, eq=False)
+class SnapRecord:
+    """Snap loads of one record.
+
+    Parameters
+    ----------
+    slack_level, threshold : float
+        Tension below which a line counts as slack, and peak above which a contact counts as a snap [N].
+    slack : ndarray, shape (k, 2)
+        Begin and end of every slack interval [s].
+    contacts : tuple of Contact
+        In order.
+    """
+
+    slack_level: float
+    threshold: float
+    slack: Array
+    contacts: tuple[Contact, ...]
+
+    @property
+    def snaps(self) -> tuple[Contact, ...]:
+        """Contacts whose peak exceeds the threshold."""
+        return tuple(contact for contact in self.contacts if contact.is_snap)
+
+    @property
+    def slack_time(self) -> float:
+        """Total time that the line is slack [s]."""
+        return float(np.sum(self.slack[:, 1] - self.slack[:, 0]))
+
+    def exceedance(self) -> tuple[Array, Array]:
+        """Return the peaks of the snaps, falling, and the part of snaps that reaches each (Weibull positions) [N, -]."""
+        peaks = np.sort([contact.peak for contact in self.snaps])[::-1]
+        return peaks, np.arange(1, peaks.size + 1) / (peaks.size + 1.0)
+
+
+def _crossing(time: Array, tension: Array, i: int, level: float) -> float:
+    """Return when the straight piece from i to i + 1 crosses a level."""
+    low, high = tension[i], tension[i + 1]
+    return float(time[i] + (level - low) / (high - low) * (time[i + 1] - time[i])) if high != low else float(time[i])
+
+
+def _reaches(time: Array, tension: Array, first: int, last: int, level: float) -> float:
+    """Return when the tension, seen back from its peak, last passed a level upwards."""
+    for i in range(last - 1, first - 1, -1):
+        if tension[i] < level <= tension[i + 1]:
+            return _crossing(time, tension, i, level)
+    return float(time[first])
+
+
+def find_snaps(
+    time: ArrayLike, tension: ArrayLike, *, slack_level: float, threshold: float, peaks: ArrayLike | None = None
+) -> SnapRecord:
+    """Find slack intervals, contacts and snaps in a record of tension.
+
+    There is no standard: slack levels from zero to a tenth of the pretension and thresholds of the wave-frequency
+    amplitude are in use. Both are therefore given by the user and returned with the record.
+
+    Parameters
+    ----------
+    time, tension : array_like, shape (n,)
+        [s], rising; [N].
+    slack_level : float
+        Tension at or below which the line is slack [N].
+    threshold : float
+        A contact with a higher peak is a snap [N].
+    peaks : array_like, optional
+        Highest tension since the row before (:attr:`moyai.flexible.result.History.tension_peak`), so that no peak is lost between
+        rows.
+
+    Raises
+    ------
+    InputError
+        For records of different lengths, times that do not rise, or a negative level.
+    """
+    t, pull = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
+    most = pull if peaks is None else np.asarray(peaks, dtype=np.float64)
+    if t.ndim != 1 or t.shape != pull.shape or most.shape != t.shape or t.size < 2:
+        raise InputError(
+            f"records of {t.shape}, {pull.shape}, {most.shape}", path="tension", allowed="equal, two values or more"
+        )
+    if not np.all(np.diff(t) > 0.0):
+        raise InputError("times do not rise", path="time", allowed="rising")
+    if not (slack_level >= 0.0 and threshold >= slack_level):
+        raise InputError(
+            f"slack level {slack_level:g} N, threshold {threshold:g} N",
+            path="slack_level",
+            allowed="0 <= level <= threshold",
+        )
+    loose = pull <= slack_level
+    turns = np.flatnonzero(np.diff(loose.astype(np.int8)))
+    begin = float(t[0])
+    slack, contacts = [], []
+    taut_from: list[tuple[float, float, int]] = []
+    for i in turns:
+        now = _crossing(t, pull, int(i), slack_level)
+        if loose[i]:
+            slack.append((begin, now))
+            taut_from.append((now, now - begin, int(i)))
+        begin = now
+    if loose[-1]:
+        slack.append((begin, float(t[-1])))
+    for number, (when, before, row) in enumerate(taut_from):
+        ends = [j for j in turns if j > row and not loose[j]]
+        last = int(ends[0]) if ends else t.size - 1
+        place = row + 1 + int(np.argmax(most[row + 1 : last + 1]))
+        highest = float(most[place])
+        top = row + 1 + int(np.argmax(pull[row + 1 : last + 1]))
+        rise = _reaches(t, pull, row, top, 0.9 * pull[top]) - _reaches(t, pull, row, top, 0.1 * pull[top])
+        contacts.append(Contact(when, before, highest, float(t[place]), rise, highest > threshold))
+    return SnapRecord(slack_level, threshold, np.array(slack).reshape(-1, 2), tuple(contacts))
