@@ -11,10 +11,14 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.potential.edges import FloatArray
+from moyai.potential.edges import FloatArray, arc_slope, as_complex
 from moyai.potential.heading import HeadingSolution
+from moyai.potential.plates import WettedPlate
 from moyai.potential.sections import Section
 from moyai.sea.water import Water
+
+# Between a plate and the still water [degrees]
+_LEAST_ANGLE = 0.5
 
 
 def check_frequencies(omega: ArrayLike) -> FloatArray:
@@ -62,21 +66,51 @@ def check_headings(heading: ArrayLike) -> FloatArray:
 
 
 def check_section(section: Section, water: Water) -> None:
-    """Refuse a section that touches the bed.
+    """Refuse a section that touches the bed, and plates that go through it or leave the still water along itself.
 
     Raises
     ------
     InputError
-        When the section is as deep as the water or deeper.
+        When the section is as deep as the water or deeper (a plate may stand on the bed with its end).
     """
-    clearance = water.depth + section.bottom
-    if clearance <= 1e-6 * -section.bottom:
+    lines = [chain.edges for chain in section.chains]
+    low = min((edges.bounds()[2] for edges in lines), default=0.0)
+    for plate in section.wetted_plates:
+        lowest = plate.edges.bounds()[2]
+        ends = min(plate.edges.start[0, 1], plate.edges.end[-1, 1])
+        stands = abs(water.depth + lowest) <= 1e-6 * -lowest and ends == lowest
+        if not stands:
+            low = min(low, lowest)
+        _check_waterline(plate, section.name)
+    clearance = water.depth + low
+    if clearance <= 1e-6 * -low:
         raise InputError(
-            f"{section.name} reaches down to z = {section.bottom:g} m in water {water.depth:g} m deep",
+            f"{section.name} reaches down to z = {low:g} m in water {water.depth:g} m deep",
             path="section",
             allowed=f"clearance above the bed greater than 0 (found {clearance:g} m)",
-            remedy="reduce the draught or take a higher water level",
+            remedy="reduce the draught, shorten the plate or take a higher water level",
         )
+
+
+def _check_waterline(plate: WettedPlate, name: str) -> None:
+    """Refuse a plate that leaves the still water along itself: waves run up the wedge above it for ever."""
+    ends = np.array([0.0, 1.0])
+    edges = plate.edges
+    for edge, place in ((0, 0), (len(edges) - 1, 1)):
+        point = (edges.end if place else edges.start)[edge]
+        if point[1] != 0.0:
+            continue
+        start, end = as_complex(edges.start[edge]), as_complex(edges.end[edge])
+        slope = arc_slope(start, end, edges.bulge[edge], ends)[place]
+        angle = math.degrees(math.asin(min(1.0, abs(slope.imag / slope))))
+        if angle < _LEAST_ANGLE:
+            raise InputError(
+                f"a plate of {name} leaves the still water at {angle:.3g} degrees",
+                path="section",
+                allowed=f"{_LEAST_ANGLE:g} degrees or more at a finite frequency",
+                remedy="waves never come back from so thin a wedge; take another arc, or the limit of infinite "
+                "frequency (solve_plate_limit)",
+            )
 
 
 def gap_notices(section: Section, water: Water, omega: FloatArray, lid: float) -> tuple[Notice, ...]:
@@ -126,6 +160,10 @@ def _side_depth(section: Section, x: float) -> float:
             return float(-edges.end[0, 1])
         if math.isclose(edges.end[-1, 0], x):
             return float(-edges.start[-1, 1])
+    for plate in section.wetted_plates:
+        for point in (plate.edges.start[0], plate.edges.end[-1]):
+            if point[1] == 0.0 and math.isclose(point[0], x):
+                return -plate.edges.bounds()[2]
     return -section.bottom
 
 

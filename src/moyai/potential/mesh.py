@@ -220,12 +220,17 @@ class Surroundings:
                 if np.abs(ends - self._axis).min() < 1e-9 * np.ptp(ends):
                     others &= ~((self._owner[:, 0] == run - len(self._runs)) & (apart == 0))
         best = np.full(len(points), math.inf)
+        bed = 2.0 * (self.depth + points.imag)
+        if run >= 0 and self._runs[run].kind == PLATE:
+            edges = self._runs[run].edges
+            if min(edges.start[edge, 1], edges.end[edge, 1]) + self.depth < 1e-6 * self.size:
+                bed = best  # a plate that stands on the bed goes on in its mirror image
         if others.any():
             offset = points[:, None] - self._first[None, others]
             chord = self._chord[None, others]
             along = np.clip((offset / chord).real, 0.0, 1.0)
             best = np.abs(offset - along * chord).min(axis=1)
-        return np.minimum(best, 2.0 * (self.depth + points.imag))
+        return np.minimum(best, bed)
 
     def corner_scale(self, run: int, edge: int, place: int) -> float:
         """Local length at the start (0) or end (1) of an edge: its neighbour, other edges, bed, still water."""

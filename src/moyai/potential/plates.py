@@ -220,7 +220,9 @@ def join_plates(
                 point_there = (lines[line].end if fraction > 0.5 else lines[line].start)[edge]
             if not (plates[index].joined[last] and point_there[1] != 0.0):
                 lines[count + index] = _with_end(lines[count + index], last, point_there)
-            links.append((count + index, line))
+            if (line, count + index) not in links:
+                links.append((count + index, line))
+    _refuse_loops(links, len(lines), count)
     # What hangs together moves together, with a hull if there is one
     for _ in links:
         for one, other in links:
@@ -228,24 +230,48 @@ def join_plates(
             for number in (one, other):
                 owner[number] = shared if number >= count else owner[number]
     return lines[:count], [
-        WettedPlate(lines[count + index], (joined[index][0], joined[index][1]), owner[count + index])
+        WettedPlate(lines[count + index], (bool(joined[index][0]), bool(joined[index][1])), owner[count + index])
         for index in range(len(plates))
     ]
 
 
+def _refuse_loops(links: Sequence[tuple[int, int]], lines: int, hulls: int) -> None:
+    """Refuse plates that enclose water together with each other or a hull: its potential is anything plus a constant.
+
+    Raises
+    ------
+    InputError
+        With the number of the plate that closes the ring.
+    """
+    group = list(range(lines))
+    for plate, other in links:
+        if group[plate] == group[other]:
+            raise InputError(
+                f"plate {plate - hulls + 1} closes a ring around water",
+                path="plates",
+                allowed="plates that leave every part of the water open to the rest",
+                remedy="draw the enclosed part as a closed outline, or leave a gap",
+            )
+        old = group[plate]
+        group = [group[other] if item == old else item for item in group]
+
+
 def _touched(lines: Sequence[Edges], own: int, point: complex, tolerance: float) -> tuple[int, int, float] | None:
-    """Return line, edge and fraction of what lies at a point, other than the line itself; corners come first."""
-    found: tuple[int, int, float] | None = None
+    """Return line, edge and fraction of what lies at a point, other than the line itself.
+
+    The first line counts (hulls stand before plates), on it a corner before the middle of an edge.
+    """
     for number, edges in enumerate(lines):
-        if number == own:
-            continue
-        for edge in range(len(edges)):
+        found: tuple[int, int, float] | None = None
+        for edge in range(len(edges) if number != own else 0):
             fraction, distance = _place_on(edges, edge, point)
             if distance <= tolerance:
                 if min(fraction, 1.0 - fraction) * float(edges.lengths[edge]) <= tolerance:
                     return number, edge, fraction
                 found = found or (number, edge, fraction)
-    return found
+        if found:
+            return found
+    return None
 
 
 def check_plates(outlines: Sequence[FloatArray], plates: Sequence[PlateLine]) -> None:

@@ -572,3 +572,91 @@ def add_helmholtz(
                     k0, k1 = _bessel_k(kappa * r)
                     single[i, n] -= weights[k] * element[n] * k0
                     double[i, n] += 0.5 * weights[k] * kappa * k1 / r * turning
+
+
+@njit(cache=True, error_model="numpy")
+def _bessel_bends(y: complex) -> tuple:
+    """Second derivatives of I_0 and W of :func:`_bessel_parts` in y."""
+    digamma = 1.0 - _EULER
+    i0_bend = 0.0j
+    w_bend = 0.0j
+    term = 0.5 + 0.0j  # y^(m-2) / (m! (m-2)!)
+    for m in range(2, 60):
+        digamma += 1.0 / m
+        i0_bend += term
+        w_bend += digamma * term
+        if abs(term) * digamma < 1e-17 * abs(i0_bend):
+            break
+        term = term * y / ((m + 1) * (m - 1))
+    return i0_bend, w_bend
+
+
+@njit(cache=True, error_model="numpy")
+def add_helmholtz_slopes(
+    targets: tuple,
+    own: IntArray,
+    panels: tuple,
+    nodes: tuple,
+    rule: tuple,
+    kappa: float,
+    log_single: ComplexArray,
+    log_double: ComplexArray,
+    single: ComplexArray,
+    double: ComplexArray,
+) -> None:
+    """Turn the derivatives along unit normals of ln r into those of -K_0(kappa r), at real targets [eq:plate-oblique].
+
+    ``single`` and ``double`` hold what :func:`add_rankine_slopes` gives when they come in, ``log_single`` and
+    ``log_double`` what :func:`add_rankine` gives for the same targets: near panels need them. A panel is near, or far,
+    as a whole: the weights of its nodes belong together.
+    """
+    target_u, normal = targets
+    u, v, du, dv, element = nodes
+    t, weights, _ = rule
+    real = panels[6]
+    p = t.shape[0]
+    constant = math.log(0.5 * kappa)
+    quarter = 0.25 * kappa * kappa
+    for i in range(target_u.shape[0]):
+        cu = target_u[i]
+        cv = np.conj(cu)
+        direction = normal[i]
+        opposite = np.conj(direction)
+        near = False
+        for n in range(real.shape[0] * p):
+            k = n % p
+            if k == 0:
+                near = False
+                for m in range(n, n + p):
+                    near = near or abs(quarter * (u[m] - cu) * (v[m] - cv)) < 4.0
+            a = u[n] - cu
+            b = v[n] - cv
+            size = weights[k] * element[n]
+            y = quarter * a * b
+            y_target = -quarter * (direction * b + opposite * a)
+            y_source = -1j * quarter * (b * du[n] - a * dv[n]) * weights[k]
+            y_both = -1j * quarter * (direction * dv[n] - opposite * du[n]) * weights[k]
+            if near:
+                i0, i0_slope, w, w_slope = _bessel_parts(y)
+                i0_bend, w_bend = _bessel_bends(y)
+                # Weights of ln r and of its derivative along the target's normal, both with the element of the source
+                log, log_rate = log_single[i, n], single[i, n]
+                turn, turn_rate = log_double[i, n], double[i, n]
+                # The same without the element
+                bare = log / element[n] + weights[k] * constant
+                bare_rate = log_rate / element[n]
+                steep = bare * i0_slope - weights[k] * w_slope
+                bend = bare * i0_bend - weights[k] * w_bend
+                single[i, n] = i0 * log_rate + steep * y_target * element[n]
+                double[i, n] = (
+                    i0 * turn_rate
+                    + i0_slope * y_target * turn
+                    + (bend * y_target + i0_slope * bare_rate) * y_source / weights[k]
+                    + steep * y_both / weights[k]
+                )
+            else:
+                z = kappa * np.sqrt(a * b)
+                k0, k1 = _bessel_k(z)
+                rate = 2.0 * k1 / z
+                single[i, n] = rate * y_target * size
+                double[i, n] = -4.0 * (k0 + 2.0 * k1 / z) / (z * z) * y_target * y_source + rate * y_both

@@ -14,7 +14,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Status
 from moyai.core.validity import IdentityCheck
 from moyai.potential.checks import check_frequencies, check_headings, check_section, gap_notices, identity_checks
-from moyai.potential.edges import FloatArray
+from moyai.potential.edges import Edges, FloatArray
 from moyai.potential.heading import HeadingSolution, Problem, solve_in_chunks, wave_states
 from moyai.potential.limits import limit_added_mass
 from moyai.potential.mesh import Resolution, lay_out
@@ -133,6 +133,9 @@ def _solve_once(
     limits = [
         limit_added_mass(problem, section.waterplane_breadth, infinite_frequency=which) for which in (True, False)
     ]
+    if any(_blocks_the_water(plate.edges, water.depth) for plate in section.wetted_plates):
+        # The water on either side of a wall from surface to bed has nowhere to go slowly
+        limits[1] = np.full_like(limits[1], np.nan)
     status, message = _verdict(done, checks, len(normal.states.omega), len(omega))
     return RadiationDiffraction(
         section=section,
@@ -149,6 +152,12 @@ def _solve_once(
         message=message,
         checks=checks,
     )
+
+
+def _blocks_the_water(plate: Edges, depth: float) -> bool:
+    """Tell whether a plate runs from the still water to the bed."""
+    ends = plate.start[0, 1], plate.end[-1, 1]
+    return max(ends) == 0.0 and min(ends) + depth < 1e-6 * depth
 
 
 def _solve_oblique(

@@ -16,7 +16,7 @@ import numpy as np
 from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.mesh import Layout
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
-from moyai.potential.quadrature import add_helmholtz, add_rankine, add_rankine_slopes
+from moyai.potential.quadrature import add_helmholtz, add_helmholtz_slopes, add_rankine, add_rankine_slopes
 
 # Stacks of matrices are cut so that one takes about this many bytes
 _STACK_BYTES = 6.0e7
@@ -71,6 +71,18 @@ class Block:
         return max(1, int(_STACK_BYTES / (16.0 * (len(self.surface) ** 2 + 1))))
 
 
+def _slopes(u: ComplexArray, normal: ComplexArray, own: np.ndarray, tables: tuple, crest: float) -> ComplexArray:
+    """Return derivatives of S and D along normals at real targets, one image (2, targets, nodes)."""
+    shape = 2, len(u), len(tables[1][0])
+    slopes = np.zeros(shape, dtype=complex)
+    add_rankine_slopes((u, normal), own, *tables, *slopes)
+    if crest > 0.0:
+        plain = np.zeros(shape, dtype=complex)
+        add_rankine((u, u.conj(), np.ones(len(u), dtype=bool)), own, *tables, *plain)
+        add_helmholtz_slopes((u, normal), own, *tables, crest, *plain, *slopes)
+    return slopes
+
+
 def influence(
     layout: Layout, depth: float, crest_wave_number: float = 0.0
 ) -> list[tuple[int, ComplexArray, ComplexArray]]:
@@ -99,7 +111,7 @@ def influence(
             else:
                 add_rankine(targets, image_own[other], *tables, single, double)
             if len(plate):
-                add_rankine_slopes((image_u[plate], image_normal), image_own[plate], *tables, *slopes)
+                slopes += _slopes(image_u[plate], image_normal, image_own[plate], tables, crest_wave_number)
         if not len(plate):
             return single, double
         whole = np.zeros((2, count, count), dtype=complex)
