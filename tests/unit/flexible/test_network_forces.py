@@ -1,0 +1,194 @@
+"""Forces, tangents and schemes of flexible networks held against identities at random inputs."""
+
+import math
+
+import numpy as np
+import pytest
+from networks_for_tests import NO_GRAVITY, random_network, rope, still
+
+from moyai.flexible import explicit_kernel, implicit_kernel
+from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.explicit import ExplicitRun
+from moyai.flexible.flow import Flow
+from moyai.flexible.implicit import ImplicitRun
+from moyai.flexible.network import Bars, BarType, Network, Nodes
+from moyai.flexible.result import State
+from moyai.flexible.simulate import simulate
+from moyai.flexible.statics import kernel_bed, kernel_system, order_of_unknowns
+from moyai.sea.irregular import WaveComponents
+from moyai.sea.water import Water
+
+
+def evaluate(network, place, speed, water):
+    arrays = kernel_arrays(network)
+    count = len(network.nodes)
+    force, mass, tension = np.zeros((count, 3)), np.zeros((count, 6)), np.zeros(len(network.bars))
+    fluid = np.array([network.water.density, network.water.gravity, 0.0])
+    implicit_kernel.forces(place, speed, water, kernel_system(arrays), fluid, kernel_bed(network), force, tension, mass)
+    return force, mass, tension
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_elastic_forces_are_the_gradient_of_the_energy(seed):
+    rng = np.random.default_rng(seed)
+    network = random_network(rng, bed=False)
+    place, still_water = np.array(network.nodes.position), np.zeros((7, len(network.nodes)))
+    # far below the surface weight and buoyancy are constant: subtract them by evaluating without stretch
+    arrays = kernel_arrays(network)
+    system, mass = kernel_system(arrays), np.zeros((len(place), 6))
+    force, _, _ = evaluate(network, place, np.zeros_like(place), still_water)
+    constant = np.zeros_like(place)
+    constant[:, 2] = -arrays.node("weight") + network.water.density * network.water.gravity * network.node_volume
+
+    def energy(x):
+        return implicit_kernel._energies(x, np.zeros_like(x), mass, system)[1]
+
+    step = 1e-6
+    scale = np.max(np.abs(force - constant))
+    for node in range(len(place)):
+        for axis in range(3):
+            up, down = place.copy(), place.copy()
+            up[node, axis] += step
+            down[node, axis] -= step
+            slope = (energy(up) - energy(down)) / (2.0 * step)
+            assert force[node, axis] - constant[node, axis] == pytest.approx(-slope, abs=2e-5 * scale)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_tangent_is_the_derivative_of_the_forces(seed):
+    rng = np.random.default_rng(100 + seed)
+    # bars well in tension or well slack, so that the difference quotient does not cross the kink; no hinges, of which the
+    # tangent keeps the positive part only
+    network = random_network(rng, bending=False)
+    count = len(network.nodes)
+    place, speed = np.array(network.nodes.position), rng.normal(0.0, 0.01, (count, 3))
+    arrays = kernel_arrays(network)
+    rank, width = order_of_unknowns(arrays)
+    water = np.zeros((7, count))
+    fluid, bed = np.array([network.water.density, network.water.gravity, 0.0]), kernel_bed(network)
+    force, mass, _ = evaluate(network, place, speed, water)
+    rate_part, place_part = 0.7, 0.3
+    band = np.zeros((3 * count, width + 1))
+    implicit_kernel.tangent(
+        place, speed, water, kernel_system(arrays), fluid, bed, mass, rank, 0.0, rate_part, place_part, band
+    )
+    matrix = np.zeros((3 * count, 3 * count))
+    for row in range(3 * count):
+        for column in range(max(0, row - width), row + 1):
+            matrix[row, column] = matrix[column, row] = band[row, width - row + column]
+    direction = rng.normal(0.0, 1.0, (count, 3)) * arrays.nodes[9:12].T
+    step = 1e-7
+    ahead, _, _ = evaluate(network, place + place_part * step * direction, speed + rate_part * step * direction, water)
+    behind, _, _ = evaluate(network, place - place_part * step * direction, speed - rate_part * step * direction, water)
+    change = -(ahead - behind) / (2.0 * step)
+    flat = np.zeros(3 * count)
+    for axis in range(3):
+        flat[3 * rank + axis] = direction[:, axis]
+    product = matrix @ flat
+    found = np.stack([product[3 * rank + axis] for axis in range(3)], axis=1)
+    free = arrays.nodes[9:12].T > 0.0
+    assert found[free] == pytest.approx(change[free], rel=2e-2, abs=2e-2 * np.max(np.abs(change)))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_both_families_of_schemes_see_the_same_forces(seed):
+    """The vectorised kernels and the plain ones: same acceleration in waves and current, partly out of the water."""
+    rng = np.random.default_rng(200 + seed)
+    network = random_network(rng, bed=False)
+    lift = -network.nodes.position[:, 2].mean()
+    nodes = network.nodes
+    raised = np.array(nodes.position) + np.array([0.0, 0.0, lift])
+    network = Network(
+        Nodes(raised, nodes.kind, nodes.held, nodes.motion, nodes.mass, nodes.volume, nodes.drag_area, nodes.added_mass,
+              nodes.contact_area, nodes.height, nodes.form),
+        network.bars, network.water, None, network.strands,
+    )  # fmt: skip
+    sea = WaveComponents([1.0, 1.7], [0.5, 0.2], [0.3, 2.0], [0.2, -1.0], [0.12, 0.3], Water(30.0, 1025.0, 9.81))
+    flow = Flow((0.4, -0.3, 0.0), waves=sea)
+    state = State(0.7, raised, rng.normal(0.0, 0.5, raised.shape))
+    one = ExplicitRun(network, {}, flow, state, safety=0.9, load_steps=4)
+    two = ImplicitRun(network, {}, flow, state, method="tr_bdf2", tolerance=1e-3)
+    memory, sizes = one.packed.memory, one.packed.sizes
+    for axis in range(3):
+        source = (explicit_kernel.QX + axis * explicit_kernel.ROW, explicit_kernel.TX + axis * explicit_kernel.ROW)
+        memory[source[1] : source[1] + sizes[0]] = memory[source[0] : source[0] + sizes[0]]
+    explicit_kernel.spine_forces(memory, sizes[1])
+    explicit_kernel.rib_forces(memory, one.packed.runs, one.arrays.curves)
+    explicit_kernel.bending_forces(memory, one.arrays.hinges, one.arrays.bending)
+    before = one.speed.copy()
+    explicit_kernel.kick_and_drift(memory, sizes[0], 1.0, 0.0)
+    found = (one.speed - before).T
+    assert found == pytest.approx(two.acceleration, rel=1e-9, abs=1e-9 * np.max(np.abs(two.acceleration)))
+    assert one.packed.bar_row(explicit_kernel.PULL) == pytest.approx(two.tension, rel=1e-9, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("method", ["explicit", "esdirk4"])
+def test_momentum_of_a_loose_network_changes_with_its_weight_alone(seed, method):
+    rng = np.random.default_rng(300 + seed)
+    source = random_network(rng, bed=False, held=False)
+    types = tuple(
+        BarType(kind.name, kind.mass_per_length, kind.axial_stiffness, 1e-9, viscosity=kind.viscosity, bending_stiffness=50.0)
+        for kind in source.bars.types
+    )
+    bars = Bars(source.bars.start, source.bars.end, source.bars.length, source.bars.kind, types)
+    loose = Network(
+        Nodes(source.nodes.position, np.zeros(len(source.nodes)), mass=source.nodes.mass), bars, Water(math.inf, 1000.0, 9.81),
+        None, source.strands,
+    )  # fmt: skip
+    begin = State(0.0, np.array(loose.nodes.position), rng.normal(0.0, 2.0, loose.nodes.position.shape))
+    duration = 0.5
+    history = simulate(loose, duration=duration, output_step=0.05, start=begin, method=method)
+    assert history.status == "converged"
+    mass = loose.node_mass
+    gain = mass @ (history.final.velocity - begin.velocity)
+    size = float(mass @ np.linalg.norm(begin.velocity, axis=1))
+    assert gain[:2] == pytest.approx(0.0, abs=1e-7 * size)
+    assert gain[2] == pytest.approx(-mass.sum() * 9.81 * duration, rel=1e-7)
+    turn = lambda state: np.sum(mass[:, None] * np.cross(state.position - mass @ state.position / mass.sum(), state.velocity), axis=0)  # noqa: E731
+    if method == "explicit":
+        centre = lambda s: mass @ s.velocity / mass.sum()  # noqa: E731
+        assert np.isfinite(centre(history.final)).all()
+        assert turn(history.final) == pytest.approx(turn(begin), rel=2e-3, abs=2e-3 * np.max(np.abs(turn(begin))))
+
+
+def test_a_blow_up_is_stopped_and_told():
+    network = rope(segments=10, span=(41.0, 0.0, 0.0))
+    limit = ExplicitRun(network, {"end": still()}, Flow(), State.at_rest(network), safety=1.0, load_steps=1).limit()[0]
+    begin = State.at_rest(network)
+    begin.velocity[5, 1] = 0.1
+    history = simulate(network, {"end": still()}, duration=10.0, output_step=0.05, start=begin, step=1.2 * limit)
+    assert history.status == "not_converged"
+    assert "stable below" in history.message and "t = " in history.message
+    assert len(history.time) < 201
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_stable_step_bounds_the_highest_frequency_closely_from_below(seed):
+    """Against the eigenvalues of the whole matrix, on lines and nets at random."""
+    from scipy.linalg import eigh
+
+    from moyai.flexible.modes import natural_modes
+
+    rng = np.random.default_rng(400 + seed)
+    network = random_network(rng, bed=False, bending=False, curve=False, held=False, tension_only=True)
+    stretched = Bars(
+        network.bars.start, network.bars.end, 0.9 * np.linalg.norm(
+            network.nodes.position[network.bars.end] - network.nodes.position[network.bars.start], axis=1
+        ), network.bars.kind,
+        tuple(BarType(k.name, k.mass_per_length, k.axial_stiffness, k.diameter, added_mass_normal=1.0) for k in network.bars.types),
+    )  # fmt: skip
+    network = Network(network.nodes, stretched, network.water, None, network.strands)
+    state = State.at_rest(network)
+    run = ExplicitRun(network, {}, Flow(), state, safety=1.0, load_steps=1)
+    modes = natural_modes(network, state, count=1000)
+    assert eigh  # the modes come from the dense eigenproblem
+    exact = 2.0 / modes.omega[-1]
+    assert 0.4 * exact < run.limit()[0] < 1.08 * exact
+
+
+def test_water_without_gravity_does_not_move_a_rope_at_rest():
+    network = rope(segments=6)
+    history = simulate(network, {"end": still()}, duration=1.0, output_step=0.1)
+    assert NO_GRAVITY.gravity < 1e-9
+    assert np.ptp(history.position, axis=0) == pytest.approx(0.0, abs=1e-9)
