@@ -119,6 +119,8 @@ def _limit_line(group: Group, speed: Array, height: Array, cell: float, rows: in
         if math.isfinite(value) and value <= height[-1]:
             y = _TOP + (rows - 1 - _place(height, float(value)) + 0.5) * _CELL
             points.append(f"{_LEFT + (i + 0.5) * cell:.1f},{y:.1f}")
+        if value <= 0.0:
+            break  # from here on the current alone is too much
     if len(points) < 2:
         return ""
     return f'<path d="M{" L".join(points)}" fill="none" stroke="#1b2430" stroke-width="2.2"/>'

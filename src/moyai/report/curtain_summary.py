@@ -36,7 +36,7 @@ def summary_blocks(result: Result, levels: tuple[CurtainLevel, ...]) -> tuple[Bl
     worst = governing_component(levels)
     notices = notice_blocks(result)
     many = sum(notice.severity != "information" for notice in result.notices) > MOST_NOTICES
-    sentence = _governing_sentence(worst, len(levels))
+    sentence = " ".join(filter(None, (_governing_sentence(worst, len(levels)), _beyond_current(levels))))
     blocks: list[Block] = [Paragraph(sentence)] if sentence else []
     blocks += () if many else notices
     items = [
@@ -72,6 +72,20 @@ def _governing_sentence(worst: tuple[CurtainLevel, Component] | None, count: int
         f"The {entry.name} governs{where}: {load}{how}, {format_percent(entry.utilisation, 3)} of its capacity"
         f"{factor}, {verdict}."
     )
+
+
+def _beyond_current(levels: tuple[CurtainLevel, ...]) -> str:
+    """Say where the current alone is more than the curtain holds: a required depth or reserve is no component."""
+    for level in levels:
+        group, own = level.part("limits"), level.part("statics").value("surface_speed")
+        limit = group.value("speed_limit")
+        if math.isfinite(own) and math.isfinite(limit) and own > limit:
+            what = str(group.attributes.get("speed_limit_governing", "")) or "a limit"
+            return (
+                f"At {level.name} the current of {format_quantity(own, 'm/s')} is beyond the "
+                f"{format_quantity(limit, 'm/s')} that it holds without waves ({what})."
+            )
+    return ""
 
 
 def _utilisation_figure(worst: tuple[CurtainLevel, Component] | None) -> list[KeyFigure]:

@@ -87,6 +87,16 @@ def test_first_page_names_the_governing_component(result: Result, document: Docu
     assert held.text.startswith(f"{float(np.interp(0.3, limits['speed'], limits['limit_height'])):.2f}")
 
 
+def test_current_beyond_a_limit_that_is_no_component(result: Result) -> None:
+    tree = result.tree.copy()
+    limits = tree["/LWL/limits"].to_dataset().assign(speed_limit=0.2)
+    limits.attrs["speed_limit_governing"] = "effective depth"
+    tree["/LWL/limits"] = xr.DataTree(limits)
+    first = compose(replace(result, tree=tree)).sections[0].blocks[0]
+    assert "At LWL the current of 0.300 m/s is beyond the 0.200 m/s" in first.text and "effective depth" in first.text
+    assert "beyond the 0" not in compose(result).sections[0].blocks[0].text
+
+
 def test_load_table_is_the_result(result: Result, document: Document) -> None:
     table = named(document, Table, "Loads of each component")[0]
     rows = list(csv.DictReader(io.StringIO(table_csv(table))))
