@@ -160,6 +160,28 @@ class ImpactLoad:
         )
 
 
+def snap_speed(impact: Impact, drag_coefficient: float, current: float, amplitude: float, period: float) -> float:
+    """Return the speed with which slack and taut cycles become taut at most, but for resonance [eq:curtain-snap-speed].
+
+    A curtain that a wave has slackened swings with the water: it comes back with twice the wave's speed at most, with
+    what the current has dragged it to meanwhile, and never faster than the water.
+
+    Parameters
+    ----------
+    impact : Impact
+        The span.
+    drag_coefficient : float
+        C_D [-].
+    current, amplitude : float
+        Of the water along the normal [m/s].
+    period : float
+        Of the waves [s].
+    """
+    drag = 0.5 * impact.water.density * drag_coefficient * impact.draught
+    drift = drag * current**2 * 0.5 * period / impact.deep_mass
+    return min(2.0 * amplitude + drift, current + amplitude)
+
+
 @dataclass(frozen=True)
 class SeaLoads:
     """What a significant height in a current adds to the steady loads, by all models that the case has data for.
@@ -188,7 +210,7 @@ class SeaLoads:
     impact : ImpactLoad or None
         An impact in the current and under the crest.
     snaps : ImpactLoad or None
-        Snaps of slack and taut cycles: only where the waves turn the water against the current.
+        Snaps of slack and taut cycles, at the speed of :func:`snap_speed`.
     """
 
     period: Callable[[float], float]
@@ -219,8 +241,18 @@ class SeaLoads:
             return AddedLoads()
         moving, current = self.water_speed(significant_height, speed, water), self.normal_ratio * speed
         found = increase(self.drag.at(moving), statics)
-        if self.snaps is not None and moving > 2.0 * current:
-            found = found.larger(self.snaps.at(moving))
+        if self.snaps is not None:
+            found = found.larger(
+                self.snaps.at(
+                    snap_speed(
+                        self.snaps.impact,
+                        statics.section.drag_coefficient,
+                        current,
+                        max(moving - current, 0.0),
+                        self.period(significant_height),
+                    )
+                )
+            )
         if self.energy is None:
             return found
         height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)

@@ -1,4 +1,5 @@
 """Curtain cases: faults with their place and remedy, all at once; from the file to the problem; derived numbers."""
+# ruff: noqa: E501  (one fault a line reads best)
 
 from __future__ import annotations
 
