@@ -637,7 +637,7 @@ def add_helmholtz_slopes(
             y_source = -1j * quarter * (b * du[n] - a * dv[n]) * weights[k]
             y_both = -1j * quarter * (direction * dv[n] - opposite * du[n]) * weights[k]
             if near:
-                i0, i0_slope, w, w_slope = _bessel_parts(y)
+                i0, i0_slope, _, w_slope = _bessel_parts(y)
                 i0_bend, w_bend = _bessel_bends(y)
                 # Weights of ln r and of its derivative along the target's normal, both with the element of the source
                 log, log_rate = log_single[i, n], single[i, n]

@@ -7,18 +7,24 @@ The plates are solved together with whatever hulls there are by :func:`moyai.pot
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.validity import IdentityCheck
 from moyai.potential.damping_tail import TailTheory
-from moyai.potential.edges import FloatArray
+from moyai.potential.drift import FarFieldDrift, NearFieldDrift, mean_drift_far_field, mean_drift_near_field
+from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.memory import MemoryFunctions, memory_functions
 from moyai.potential.memory_plan import recommend_frequencies
-from moyai.potential.modes import Modes, Rigid
+from moyai.potential.modes import Modes, Rigid, rigid_modes
+from moyai.potential.panels import PLATE
+from moyai.potential.plate_faces import plate_tips
 from moyai.potential.plates import PlateLine, check_plates
 from moyai.potential.sections import Section
+from moyai.potential.solution import RadiationDiffraction
 from moyai.potential.solver import solve
 from moyai.potential.thin_plate import Plate
 from moyai.sea.water import Water
@@ -44,6 +50,213 @@ def plate_section(*plates: Plate | PlateLine, name: str = "plates") -> Section:
     lines = tuple(plate if isinstance(plate, PlateLine) else PlateLine.of(plate) for plate in plates)
     check_plates((), lines)
     return Section((), draught=0.0, name=name, plates=lines)
+
+
+@dataclass(frozen=True, eq=False)
+class PlateJump:
+    """Jump of the potential over one plate: its value where the normal points minus that behind.
+
+    Parameters
+    ----------
+    points, normals : ndarray, shape (n, 2)
+        Places [m] and unit normals.
+    arc : ndarray, shape (n,)
+        Distance along the plate [m].
+    weight : ndarray, shape (n,)
+        Sums over it are integrals along the plate [m].
+    radiation : ndarray of complex, shape (omega, n, mode)
+        For unit velocity [m2/s per m/s]; the pressure difference is i omega rho times it.
+    diffraction : ndarray of complex, shape (omega, n)
+        Of the section held fixed, for unit wave amplitude [m2/s per m].
+    tip_places : ndarray, shape (tips, 2)
+        Free edges [m].
+    tip_radiation : ndarray of complex, shape (omega, tips, mode)
+        C of the jump C sqrt(distance) at the free edges, for unit velocity [eq:plate-suction].
+    tip_diffraction : ndarray of complex, shape (omega, tips)
+        The same for unit wave amplitude.
+    """
+
+    points: FloatArray
+    normals: FloatArray
+    arc: FloatArray
+    weight: FloatArray
+    radiation: ComplexArray
+    diffraction: ComplexArray
+    tip_places: FloatArray
+    tip_radiation: ComplexArray
+    tip_diffraction: ComplexArray
+
+
+def plate_jumps(solution: RadiationDiffraction, heading: float = 0.0) -> tuple[PlateJump, ...]:
+    """Return the jumps over all plates of a solved section, one entry for each connected line.
+
+    Parameters
+    ----------
+    solution : RadiationDiffraction
+        With thin plates.
+    heading : float
+        One of the headings of the solution [rad].
+    """
+    part = solution.at_heading(heading)
+    body = part.body
+    size = float(np.abs(body.points).max())
+    groups: list[list[int]] = []
+    last: complex | None = None
+    for number, piece in enumerate(body.pieces):
+        if piece.kind != PLATE:
+            last = None
+            continue
+        if last is None or abs(piece.start - last) > 1e-9 * size:
+            groups.append([])
+        groups[-1].append(number)
+        last = piece.start + piece.step
+    tips = plate_tips(body)
+    found = []
+    for group in groups:
+        here = (np.array(group)[:, None] * body.order + np.arange(body.order)).ravel()
+        owned = [tip for tip in tips if np.any(tip.strength[here])]
+        strength = np.array([tip.strength for tip in owned]).reshape(len(owned), len(body.u))
+        weight = body.weight.real[here]
+        found.append(
+            PlateJump(
+                points=body.points[here],
+                normals=body.normal[here],
+                arc=_distance(body.points[here], body.pieces[group[0]].start),
+                weight=weight,
+                radiation=part.radiation[:, here],
+                diffraction=part.scattered[:, here],
+                tip_places=np.array([tip.place for tip in owned]).reshape(len(owned), 2),
+                tip_radiation=np.einsum("tn,wnm->wtm", strength, part.radiation),
+                tip_diffraction=part.scattered @ strength.T,
+            )
+        )
+    return tuple(found)
+
+
+def _distance(points: FloatArray, start: complex) -> FloatArray:
+    """Distance along a line of points from its start; chords between neighbours, close enough for drawings."""
+    steps = np.diff(np.concatenate([[[start.real, start.imag]], points]), axis=0)
+    return np.asarray(np.cumsum(np.hypot(steps[:, 0], steps[:, 1])))
+
+
+@dataclass(frozen=True, eq=False)
+class PlateWaves:
+    """Thin plates in waves that travel along +x and along -x, per metre of structure.
+
+    Parameters
+    ----------
+    solution : RadiationDiffraction
+        Waves along +x, with the identities.
+    backward : RadiationDiffraction
+        Waves along -x: the mirrored plates in waves along +x.
+    """
+
+    solution: RadiationDiffraction
+    backward: RadiationDiffraction
+
+    @property
+    def omega(self) -> FloatArray:
+        """Frequencies [rad/s]."""
+        return self.solution.omega
+
+    @property
+    def added_mass(self) -> FloatArray:
+        """Added mass (omega, radiating, influenced)."""
+        return self.solution.added_mass
+
+    @property
+    def radiation_damping(self) -> FloatArray:
+        """Radiation damping (omega, radiating, influenced)."""
+        return self.solution.radiation_damping
+
+    @property
+    def radiated_wave(self) -> ComplexArray:
+        """Wave amplitude (omega, radiating, side) per unit velocity on the minus and the plus side."""
+        return self.solution.radiated_wave
+
+    @property
+    def excitation(self) -> ComplexArray:
+        """Excitation (omega, side, mode) per unit amplitude of waves that come from the minus and from the plus side.
+
+        From minus by pressure; from plus by the Haskind relation, which the checks hold for the other side.
+        """
+        part = self.solution.normal
+        flux = self.solution.water.density * self.solution.water.gravity * part.states.group_velocity
+        plus = -2.0 * flux[:, None] * part.radiated_wave[:, :, 1]
+        return np.stack([part.excitation_force, plus], axis=1)
+
+    @property
+    def reflection(self) -> ComplexArray:
+        """R (omega, side) of the plates held fixed, for waves from the minus and the plus side, phase at x = 0."""
+        return np.stack([self.solution.normal.reflection, self.backward.normal.reflection], axis=1)
+
+    @property
+    def transmission(self) -> ComplexArray:
+        """T (omega,) of the plates held fixed; the same from either side."""
+        return self.solution.normal.transmission
+
+    @property
+    def jumps(self) -> tuple[PlateJump, ...]:
+        """Jump of the potential over each plate."""
+        return plate_jumps(self.solution)
+
+    @property
+    def checks(self) -> tuple[IdentityCheck, ...]:
+        """Identities of the solve, and that waves of either side are transmitted alike."""
+        apart = float(np.abs(self.transmission - self.backward.normal.transmission).max())
+        tolerance = self.solution.checks[0].tolerance
+        return (
+            *self.solution.checks,
+            IdentityCheck("transmission from either side", apart, tolerance, "T is the same from both sides"),
+        )
+
+    def drift_by_momentum(self, motions: ComplexArray | None = None) -> FarFieldDrift:
+        """Return the mean force of waves along +x from the far field."""
+        return mean_drift_far_field(self.solution, motions)
+
+    def drift_by_pressure(self, motions: ComplexArray | None = None) -> NearFieldDrift:
+        """Return the mean force of waves along +x from pressure and edge suction; needs rigid modes."""
+        return mean_drift_near_field(self.solution, motions)
+
+
+def solve_plate_waves(
+    plates: Plate | PlateLine | tuple[Plate | PlateLine, ...],
+    water: Water,
+    omega: ArrayLike,
+    *,
+    modes: Modes | None = None,
+    accuracy: float = 1e-4,
+) -> PlateWaves:
+    """Solve radiation and diffraction by thin plates alone, waves of either side.
+
+    Parameters
+    ----------
+    plates : Plate, PlateLine or a tuple of them
+        Straight, circular or of several edges, in the frame of the site.
+    water : Water
+        Depth (may be infinite), density, gravity.
+    omega : array_like
+        [rad/s].
+    modes : Modes, optional
+        Rigid motions about the origin unless given; see :mod:`moyai.potential.skirt_modes` for those of a skirt.
+    accuracy : float
+        See :func:`moyai.potential.solver.solve`.
+
+    Raises
+    ------
+    InputError
+        For plates without length, that cross, or that are deeper than the water.
+    """
+    group = plates if isinstance(plates, tuple) else (plates,)
+    section = plate_section(*group)
+    motion = rigid_modes((0.0, 0.0)) if modes is None else modes
+    solution = solve(section, water, omega, modes=motion, accuracy=accuracy)
+    mirrored = [
+        PlateLine(line.points * np.array([-1.0, 1.0]), None if line.bulges is None else -line.bulges)
+        for line in section.plates
+    ]
+    backward = solve(plate_section(*mirrored), water, omega, modes=rigid_modes((0.0, 0.0)), accuracy=accuracy)
+    return PlateWaves(solution, backward)
 
 
 def plate_memory_functions(draught: float, water: Water, time: ArrayLike, *, accuracy: float = 1e-4) -> MemoryFunctions:
