@@ -190,7 +190,8 @@ def model_series(
             speed=math.copysign(impact.speed, current),
         )
         after = snap.motion.time >= snap.taut_time
-        found.append(ModelSeries("A with drag", snap.motion.time[after] - snap.taut_time, snap.motion.tension[after]))
+        time, tension = snap.motion.time[after] - snap.taut_time, snap.motion.tension[after]
+        found.append(ModelSeries("A with drag", np.append(0.0, time), np.append(0.0, tension)))
     return tuple(found)
 
 
