@@ -16,7 +16,7 @@ from moyai.core.errors import InputError
 from moyai.member.model import MemberProblem, MemberSea, Motion, RegularWaves, Settings
 from moyai.morison import sections
 from moyai.morison.circulation import CirculationLaw
-from moyai.morison.coefficients import CoefficientRule
+from moyai.morison.coefficients import CoefficientRule, KeuleganCarpenterTable
 from moyai.morison.members import StraightMember
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
@@ -115,15 +115,23 @@ def _section(entry: Any) -> sections.MemberSection:
     return sections.polygon(np.asarray(entry.points, dtype=float))
 
 
-def _drag(entry: Any) -> tuple[float, float] | str:
+def _table(entry: schema.OverKeuleganCarpenter) -> KeuleganCarpenterTable:
+    return KeuleganCarpenterTable(tuple((row[0], row[1], row[-1]) for row in entry.table))
+
+
+def _drag(entry: Any) -> tuple[float, float] | str | KeuleganCarpenterTable:
     if isinstance(entry, schema.DragTable):
         return entry.law
+    if isinstance(entry, schema.OverKeuleganCarpenter):
+        return _table(entry)
     return (entry, entry) if isinstance(entry, float) else (entry[0], entry[1])
 
 
-def _inertia(entry: Any) -> tuple[float, float] | str:
+def _inertia(entry: Any) -> tuple[float, float] | str | KeuleganCarpenterTable:
     if isinstance(entry, str):
         return entry
+    if isinstance(entry, schema.OverKeuleganCarpenter):
+        return _table(entry)
     return (entry, entry) if isinstance(entry, float) else (entry[0], entry[1])
 
 

@@ -33,6 +33,7 @@ from moyai.case.schema_types import (
     PositiveNumber,
     QuantityOf,
     Whole,
+    holds_key,
     once_each,
     refuse,
 )
@@ -108,13 +109,49 @@ class DragTable(Block):
     roughness: NonNegativeLength = Field(default=0.0, description="Height of the roughness k. Default: 0, smooth.")
 
 
+def _rising(rows: tuple[Any, ...]) -> tuple[Any, ...]:
+    values = [row[0] for row in rows]
+    if any(b <= a for a, b in itertools.pairwise(values)):
+        raise refuse("the first column does not rise", allowed="rows in rising order")
+    return rows
+
+
+KcRow = (
+    Annotated[tuple[NonNegativeNumber, NonNegativeNumber], Tag("<two>")]
+    | Annotated[tuple[NonNegativeNumber, NonNegativeNumber, NonNegativeNumber], Tag("<three>")]
+)
+
+
+class OverKeuleganCarpenter(Block):
+    """Coefficients of your own over the Keulegan-Carpenter number."""
+
+    table: Annotated[
+        tuple[
+            Annotated[
+                KcRow,
+                Discriminator(lambda row: "<three>" if isinstance(row, list | tuple) and len(row) == 3 else "<two>"),
+            ],
+            ...,
+        ],
+        Field(min_length=2, max_length=1000),
+        AfterValidator(_rising),
+    ] = Field(
+        description="Rows [KC, coefficient] or [KC, first axis, second axis], KC rising.",
+        examples=[[[0.5, 1.8], [4, 1.4]]],
+    )
+
+
 def _drag_form(value: Any) -> str:
+    if isinstance(value, OverKeuleganCarpenter) or (isinstance(value, dict) and holds_key(value, "table")):
+        return "<table>"
     if isinstance(value, (dict, DragTable)):
         return "<law>"
     return "<pair>" if isinstance(value, (list, tuple)) else "<number>"
 
 
 def _inertia_form(value: Any) -> str:
+    if isinstance(value, (dict, OverKeuleganCarpenter)):
+        return "<table>"
     if isinstance(value, str) and not value.strip()[:1].isdigit():
         return "<law>"
     return "<pair>" if isinstance(value, (list, tuple)) else "<number>"
@@ -122,23 +159,18 @@ def _inertia_form(value: Any) -> str:
 
 Drag = Annotated[
     Annotated[DragTable, Tag("<law>")]
+    | Annotated[OverKeuleganCarpenter, Tag("<table>")]
     | Annotated[tuple[NonNegativeNumber, NonNegativeNumber], Tag("<pair>")]
     | Annotated[NonNegativeNumber, Tag("<number>")],
     Discriminator(_drag_form),
 ]
 Inertia = Annotated[
     Annotated[Literal["ideal", "dnv_c205", "api", "stokes_wang"], Tag("<law>")]
+    | Annotated[OverKeuleganCarpenter, Tag("<table>")]
     | Annotated[tuple[NonNegativeNumber, NonNegativeNumber], Tag("<pair>")]
     | Annotated[NonNegativeNumber, Tag("<number>")],
     Discriminator(_inertia_form),
 ]
-
-
-def _rising(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
-    values = [row[0] for row in rows]
-    if any(b <= a for a, b in itertools.pairwise(values)):
-        raise refuse("the first column does not rise", allowed="rows in rising order")
-    return rows
 
 
 Rows = Annotated[tuple[tuple[PositiveNumber, NonNegativeNumber], ...], Field(max_length=1000), AfterValidator(_rising)]
@@ -198,9 +230,9 @@ class MemberStructure(Block):
     end: End = Field(description="The other end of the axis.")
     inertia: Inertia = Field(
         default="ideal",
-        description="C_M: ideal (from the section), a law, a number, or two along the axes of the section.",
+        description="C_M: ideal (from the section), a law, a number, two along the axes, or {table: rows}.",
     )
-    drag: Drag = Field(description="C_D: a number, two along the axes of the section, or {law: name}.")
+    drag: Drag = Field(description="C_D: a number, two along the axes of the section, {law: name} or {table: rows}.")
     drag_form: Literal["component", "vector"] = Field(
         default="component", description="Drag u|u| along each axis, or u|U| with the common speed."
     )

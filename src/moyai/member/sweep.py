@@ -10,12 +10,19 @@ import numpy as np
 from moyai.member.model import MemberProblem
 from moyai.member.variables import labelled
 from moyai.morison.circulation import LAMINAR_EDGE, STRENGTHS, settled_circulation
+from moyai.morison.planar import stokes_wang_inertia
+from moyai.morison.sections import MemberSection
 
 if TYPE_CHECKING:
     import xarray as xr
 
 LARGEST_KC = 4.0
 POINTS = 161
+
+
+def _planar(section: MemberSection, beta: float, ideal: np.ndarray) -> np.ndarray:
+    """Return C_M of planar flow at small KC: laminar theory for a circle, ideal fluid for other sections."""
+    return np.full(2, float(stokes_wang_inertia(beta))) if section.is_circle else ideal
 
 
 def sweep(problem: MemberProblem, frequency: float) -> xr.Dataset:
@@ -53,7 +60,7 @@ def sweep(problem: MemberProblem, frequency: float) -> xr.Dataset:
     axes = ("keulegan_carpenter", "axis")
     arrays = {
         "inertia_coefficient": (axes, ideal[None, :] - own[:, None] / (2.0 * math.pi * frequency * area)),
-        "planar_inertia_coefficient": (axes, np.broadcast_to(ideal, (number.size, 2)).copy()),
+        "planar_inertia_coefficient": (axes, np.tile(_planar(section, beta, ideal), (number.size, 1))),
         "laminar_inertia_coefficient": (axes, curve(LAMINAR_EDGE)),
         "circulation": (axes[0], own),
         "laminar_circulation": (axes[0], settled_circulation(LAMINAR_EDGE, speed, speed, period)),

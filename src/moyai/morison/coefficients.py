@@ -75,26 +75,71 @@ class StripCoefficients:
 
 
 @dataclass(frozen=True)
+class KeuleganCarpenterTable:
+    """Coefficients over KC, linear between the rows.
+
+    Parameters
+    ----------
+    rows : tuple of (float, float, float)
+        KC, coefficient along the first and along the second axis; KC rising.
+
+    Raises
+    ------
+    InputError
+        When there are fewer than two rows, KC does not rise, or a value is negative.
+    """
+
+    rows: tuple[tuple[float, float, float], ...]
+
+    def __post_init__(self) -> None:
+        values = np.asarray(self.rows, dtype=float)
+        if values.ndim != 2 or values.shape[1] != 3 or len(values) < 2:
+            raise InputError("a table over KC needs two rows or more of KC and coefficients", path="table")
+        if not np.isfinite(values).all() or (values < 0.0).any():
+            raise InputError("a table over KC holds a negative value", path="table", allowed="at least 0")
+        if not (np.diff(values[:, 0]) > 0.0).all():
+            raise InputError("KC does not rise in a table of coefficients", path="table", allowed="rising rows")
+
+    def at(self, keulegan_carpenter: float, name: str, notices: list[Notice]) -> Array:
+        """Return both coefficients at a KC; outside the table its end values, with a notice."""
+        values = np.asarray(self.rows, dtype=float)
+        low, high = float(values[0, 0]), float(values[-1, 0])
+        if not low <= keulegan_carpenter <= high:
+            notices.append(
+                Notice(
+                    "coefficients-outside-table",
+                    f"KC = {keulegan_carpenter:.3g} lies outside the table of {name}; its end value is kept",
+                    value=keulegan_carpenter,
+                    limit=low if keulegan_carpenter < low else high,
+                    remedy="extend the table",
+                )
+            )
+        return np.array([np.interp(keulegan_carpenter, values[:, 0], values[:, axis]) for axis in (1, 2)])
+
+
+@dataclass(frozen=True)
 class CoefficientRule:
     """Where the coefficients of a member come from.
 
     Parameters
     ----------
-    drag : tuple of float or str
-        C_D along both axes, or a law of ``DRAG_LAWS``.
-    inertia : tuple of float or str
-        C_M along both axes, or a law of ``INERTIA_LAWS``.
+    drag : tuple of float, str or KeuleganCarpenterTable
+        C_D along both axes, a law of ``DRAG_LAWS``, or a table of one's own.
+    inertia : tuple of float, str or KeuleganCarpenterTable
+        C_M along both axes, a law of ``INERTIA_LAWS``, or a table of one's own.
     """
 
-    drag: tuple[float, float] | str
-    inertia: tuple[float, float] | str = "ideal"
+    drag: tuple[float, float] | str | KeuleganCarpenterTable
+    inertia: tuple[float, float] | str | KeuleganCarpenterTable = "ideal"
 
     def __post_init__(self) -> None:
         for name, value, laws in (("drag", self.drag, DRAG_LAWS), ("inertia", self.inertia, INERTIA_LAWS)):
             if isinstance(value, str):
                 if value not in laws:
                     raise InputError(f"unknown {name} law '{value}'", path=name, allowed=", ".join(laws))
-            elif not all(math.isfinite(item) and item >= 0.0 for item in value):
+            elif not isinstance(value, KeuleganCarpenterTable) and not all(
+                math.isfinite(item) and item >= 0.0 for item in value
+            ):
                 raise InputError(f"{name} coefficients are {value}", path=name, allowed="at least 0")
 
     def at(self, section: MemberSection, flow: Conditions) -> StripCoefficients:
@@ -111,6 +156,8 @@ class CoefficientRule:
         return StripCoefficients(inertia, drag, tuple(notices))
 
     def _inertia(self, section: MemberSection, flow: Conditions, notices: list[Notice]) -> Array:
+        if isinstance(self.inertia, KeuleganCarpenterTable):
+            return np.diag(self.inertia.at(flow.keulegan_carpenter, "C_M", notices))
         if not isinstance(self.inertia, str):
             return np.diag(np.asarray(self.inertia, dtype=float))
         if self.inertia == "ideal":
@@ -127,6 +174,8 @@ class CoefficientRule:
         return np.eye(2) * (1.0 + dnv_added_mass(flow.keulegan_carpenter, flow.relative_roughness))
 
     def _drag(self, section: MemberSection, flow: Conditions, notices: list[Notice]) -> Array:
+        if isinstance(self.drag, KeuleganCarpenterTable):
+            return self.drag.at(flow.keulegan_carpenter, "C_D", notices)
         if not isinstance(self.drag, str):
             return np.asarray(self.drag, dtype=float)
         if self.drag == "steady":

@@ -59,6 +59,9 @@ SLIPS = {
     "height and heights": (("heights: [0.2 m", "height: 1 m\n    heights: [0.2 m"), "exclude each other"),
     "no waves": (("analyses: [sweep, forces, surface]", "analyses: [forces, statics]"), "statics"),
     "drag law": (("{law: dnv_c205, roughness: 1 mm}", "{law: dnv}"), "dnv"),
+    "table of one row": (("{law: dnv_c205, roughness: 1 mm}", "{table: [[1, 2]]}"), "drag.table"),
+    "table out of order": (("{law: dnv_c205, roughness: 1 mm}", "{table: [[2, 1], [1, 2]]}"), "does not rise"),
+    "row of four": (("{law: dnv_c205, roughness: 1 mm}", "{table: [[1, 1], [2, 2, 2, 2]]}"), "drag.table"),
     "negative drag": (("{law: dnv_c205, roughness: 1 mm}", "-1"), "out of range"),
     "motion without period": (("# motion: {x: 0.1 m, phase_x_deg: 90}", "motion: {x: 0.1 m}"), "no period of its own"),
     "water level": ((SETTINGS, "settings: {water_levels: [HWL]}"), "no water level 'HWL'"),
@@ -98,6 +101,19 @@ def test_examples_are_sound_and_have_derived_numbers(file):
     numbers = derived_numbers(load_case(file))
     labels = {number.label for number in numbers}
     assert {"length", "inertia coefficient, first axis", "largest KC, about"} <= labels
+
+
+def test_tables_over_kc_are_read_for_one_or_both_axes():
+    from moyai.case.builder import build
+
+    found = build(
+        case(
+            ("{law: dnv_c205, roughness: 1 mm}", "{table: [[1, 2], [3, 1, 4]]}"),
+            ("ideal  ", "{table: [[0, 2], [9, 1]]} "),
+        )
+    )
+    assert found.rule.drag.rows == ((1.0, 2.0, 2.0), (3.0, 1.0, 4.0))
+    assert found.rule.inertia.rows[1] == (9.0, 1.0, 1.0)
 
 
 def test_derived_numbers_of_a_turned_rectangle_show_the_principal_axes():

@@ -7,7 +7,14 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.morison import sections
-from moyai.morison.coefficients import CoefficientRule, Conditions, dnv_added_mass, dnv_drag, dnv_steady_drag
+from moyai.morison.coefficients import (
+    CoefficientRule,
+    Conditions,
+    KeuleganCarpenterTable,
+    dnv_added_mass,
+    dnv_drag,
+    dnv_steady_drag,
+)
 from moyai.morison.flow import LinearFlow, NonlinearFlow
 from moyai.morison.forces import strip_forces
 from moyai.morison.members import StraightMember
@@ -196,6 +203,21 @@ def test_unknown_laws_and_negative_numbers_are_refused():
         CoefficientRule("dnv")
     with pytest.raises(InputError, match="at least 0"):
         CoefficientRule((1.0, -1.0))
+
+
+def test_own_tables_over_kc():
+    table = KeuleganCarpenterTable(((1.0, 2.0, 1.0), (3.0, 1.0, 0.5)))
+    rule = CoefficientRule(table, table)
+    found = rule.at(sections.rectangle(1, 2), Conditions(2.0, 1e5, 1e4))
+    assert found.drag == pytest.approx([1.5, 0.75])
+    assert found.inertia == pytest.approx(np.diag([1.5, 0.75]))
+    assert found.notices == ()
+    outside = rule.at(sections.circle(1.0), Conditions(9.0, 1e5, 1e4))
+    assert outside.drag == pytest.approx([1.0, 0.5])
+    assert {notice.code for notice in outside.notices} == {"coefficients-outside-table"}
+    for rows in (((1.0, 2.0, 1.0),), ((3.0, 1, 1), (1.0, 1, 1)), ((1.0, -1, 1), (2.0, 1, 1))):
+        with pytest.raises(InputError, match="KC"):
+            KeuleganCarpenterTable(rows)
 
 
 def test_notices_name_number_and_limit():
