@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.floating.decay import Decay, fit_decay
+from moyai.measure.detrend import slow_part
 from moyai.measure.record import FloatArray
 from moyai.measure.spectra import CrossSpectra, WelchOptions, cross_spectra
 
@@ -89,8 +90,12 @@ def fit_decay_record(
         raise InputError("the decay has gaps", path="values", remedy="choose 'start' and 'end' inside a sound stretch")
     if t.size > 1 and np.ptp(np.diff(t)) > 0.01 * float(np.median(np.diff(t))):
         raise InputError("the decay is not evenly stepped", path="time")
-    found = fit_decay(t, v, mean=level, smallest=smallest, quadratic=quadratic)
     notices = []
+    v, smoothed = _without_ripple(t, v, level)
+    if smoothed:
+        message = f"ripple between the swings was smoothed over {smoothed:.3g} s before extremes were read"
+        notices.append(Notice("decay-ripple", message, smoothed, severity="information"))
+    found = fit_decay(t, v, mean=level, smallest=smallest, quadratic=quadratic)
     if found.damping_ratio < 0.0:
         message = (
             f"the linear damping ratio comes out as {found.damping_ratio:.3g}: the extremes do not decay like this"
@@ -101,6 +106,26 @@ def fit_decay_record(
         notices.append(Notice("few-cycles", message, float(found.ratios.size), 6.0))
     errors = _jackknife(found, quadratic)
     return DecayFit(found, level, float(t[0]), float(found.extreme_times[-1]), *errors, tuple(notices))
+
+
+def _without_ripple(t: FloatArray, v: FloatArray, level: float) -> tuple[FloatArray, float]:
+    """Return the record, smoothed over an eighth of a swing where it has more extremes than swings, and that length."""
+    above = v - level
+    band = 0.02 * float(np.max(np.abs(above)))
+    side = np.sign(np.where(np.abs(above) > band, above, 0.0))
+    side = side[side != 0.0]
+    swings = int(np.count_nonzero(np.diff(side)))
+    large = np.abs(above[1:-1]) > band
+    slope = np.diff(v)
+    turns = int(np.count_nonzero((slope[1:] * slope[:-1] <= 0.0) & large))  # steps of a coarse resolution count too
+    if swings < 2 or turns <= swings + 2:
+        return v, 0.0
+    crossings = np.flatnonzero(above[1:] * above[:-1] < 0.0)
+    length = 2.0 * float(t[crossings[-1]] - t[crossings[0]]) / max(swings - 1, 1) / 8.0
+    step = float(np.median(np.diff(t)))
+    if length < 5.0 * step:
+        return v, 0.0
+    return slow_part(t, v, length), length
 
 
 def _jackknife(decay: Decay, quadratic: bool) -> tuple[float, float, float]:
