@@ -91,6 +91,8 @@ def scale(
                 )
             from moyai.cli.files import write_text
 
+            for name, content in answered.files:
+                write_text(output.parent / name, content, replace=force)
             write_text(output, answered.text, replace=force)
         if as_json:
             print_json({**answered.record(), "file": None if output is None else str(output)})

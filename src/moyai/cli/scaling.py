@@ -64,6 +64,7 @@ class Answer:
     notices: tuple[Notice, ...]
     text: str | None
     waters: tuple[str, str]
+    files: tuple[tuple[str, str], ...] = ()
 
     def record(self) -> dict[str, Any]:
         """Return the answer as plain data."""
@@ -133,9 +134,8 @@ def _of_case(request: Request, path: Path, length: float, gravity: float, from_m
         scale, motions, float(prototype.model.site.density), float(prototype.model.site.gravity)
     )
     told = tuple(Notice("case", fault.message, remedy=fault.remedy) for fault in scaled.case.warnings)
-    return Answer(
-        scale, scaled.rows, _needs(request, scaled.rows, scale), numbers, (*notices, *told), scaled.text, waters
-    )
+    needs = _needs(request, scaled.rows, scale)
+    return Answer(scale, scaled.rows, needs, numbers, (*notices, *told), scaled.text, waters, scaled.files)
 
 
 def _of_figures(request: Request, length: float, gravity: float, from_model: bool) -> Answer:

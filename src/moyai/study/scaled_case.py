@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import tempfile
 import types
 import typing
 from collections.abc import Iterator
@@ -20,6 +21,7 @@ from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.core.quantities import Kind, parse_quantity
 from moyai.design.similarity import Scale, ScaledQuantity
+from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_materials import Figures, equivalents
 from moyai.study.scaled_text import Edits, number_text, without_remarks, written_in
 
@@ -43,6 +45,8 @@ class ScaledCase:
         Whether the file given was that of the model.
     scale : Scale
         Ratios of prototype to model.
+    files : tuple of (str, str)
+        Name and text of the files that stand beside the new case.
     """
 
     text: str
@@ -50,6 +54,7 @@ class ScaledCase:
     case: Case
     from_model: bool
     scale: Scale
+    files: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -83,13 +88,13 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
     Raises
     ------
     InputError
-        A file is named whose figures would not follow, or one figure is shared between quantities.
+        A file or a make is named whose figures would not follow, or one figure is shared between quantities.
     CaseError
         The new figures are out of the range of the schema.
     """
     if not 3 <= digits <= 17:
         raise InputError(f"{digits} significant digits", path="digits", allowed="3 to 17")
-    _refuse_files(case)
+    files = scaled_files(case, scale, from_model)
     given = without_remarks(case.text)
     root = yaml.compose(given, Loader=yaml.SafeLoader)
     edits = Edits(given)
@@ -123,19 +128,33 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
                 entries.append(f"name: {block.catalogue}")
             edits.replace_entry(node, key, entries, f"figures of {make} scaled, which no thinner one has")
             rows += own
+    for path, (name, _) in files.items():
+        edits.replace(_node_at(root, path), name, f"scaled from {_value_at(case.document.data, path)}")
+        block = _node_at(root, path[:-1])
+        for key, column in (("frequency_column", "0"), ("density_column", "1"), ("place", "0")):
+            node = _child(block, key)
+            if node is not None:
+                edits.replace(node, column, "", quote=False)
     _rename(edits, root, case.title, scale, from_model)
     text = _header(case, scale, from_model) + edits.text()
-    name = f"{case.path.name} scaled"
-    return ScaledCase(text, tuple(rows), _read_again(text, name, case.path.parent), from_model, scale)
+    companions = tuple(files.values())
+    return ScaledCase(text, tuple(rows), _read_again(text, case.path, companions), from_model, scale, companions)
 
 
 def _inside(path: KeyPath, keys: set[KeyPath]) -> bool:
     return any(path[:length] in keys for length in range(1, len(path) + 1))
 
 
-def _read_again(text: str, name: str, folder: Path) -> Case:
+def _read_again(text: str, given: Path, files: tuple[tuple[str, str], ...]) -> Case:
+    """Read the new file, with those beside it where it needs any."""
+    name = f"{given.name} scaled"
     try:
-        return case_of(parse_yaml(text, name), folder / name)
+        if not files:
+            return case_of(parse_yaml(text, name), given.parent / name)
+        with tempfile.TemporaryDirectory(prefix="moyai-scale-") as folder:
+            for other, content in files:
+                (Path(folder) / other).write_text(content, encoding="utf-8")
+            return case_of(parse_yaml(text, name), Path(folder) / name)
     except CaseError as error:
         first = error.faults[0]
         raise InputError(
@@ -146,26 +165,17 @@ def _read_again(text: str, name: str, folder: Path) -> Case:
         ) from None
 
 
-def _refuse_files(case: Case) -> None:
-    """Stop at files whose figures belong to the size given."""
-    found = list(_named_files(case.document.data, ()))
-    if not found:
-        return
-    path, name = found[0]
-    raise InputError(
-        f"'{name}' holds figures of the size given; they do not follow the scale of the case",
-        path=dotted(path),
-        remedy="scale without this block, and add a file of the new size afterwards",
-    )
+def _node_at(node: Any, path: KeyPath) -> Any:
+    """Return the node at a path; of a sea state without its list the number is not written."""
+    for key in path:
+        node = node.value[key] if isinstance(key, int) else _child(node, key)
+    return node
 
 
-def _named_files(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
-    entries: Any = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
-    for key, value in entries:
-        if key in ("file", "path") and isinstance(value, str):
-            yield (*path, key), value
-        else:
-            yield from _named_files(value, (*path, key))
+def _value_at(data: Any, path: KeyPath) -> Any:
+    for key in path:
+        data = data[key]
+    return data
 
 
 def _child(node: Any, key: str) -> Any:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -17,6 +19,7 @@ from moyai.design.model_numbers import Motion, check_numbers, model_numbers
 from moyai.design.similarity import Scale, scale_quantities, scale_water
 from moyai.sea.water import Water
 from moyai.study.scaled_case import scale_case
+from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_motion import motions_of
 from moyai.study.scaled_text import written_in
 from moyai.tables.waters import water_of_density, water_properties
@@ -178,11 +181,44 @@ def test_infinite_depth_stays(tmp_path):
     assert scaled.case.model.site.water_depth == np.inf
 
 
-def test_files_of_figures_are_refused(tmp_path):
-    (tmp_path / "points.csv").write_text("period [s], transmission_coefficient\n4, 0.5\n")
-    with pytest.raises(InputError, match=r"points\.csv") as caught:
-        scale_case(read(SHORT + "measured: {file: points.csv}\n", tmp_path), Scale(26.0, 1.0, 1.0))
-    assert caught.value.fault.path == "measured.file"
+def test_measured_points_and_spectra_are_scaled(tmp_path):
+    """Columns by the unit of their heading; a spectrum keeps its significant height and peak over the scale."""
+    points = "# flume\nperiod [s];transmission_coefficient;sway [mm]\n4;0.5;120\n5;;80\n"
+    (tmp_path / "points.csv").write_text(points, encoding="utf-8")
+    rng = np.random.default_rng(17)
+    frequency = np.linspace(0.05, 0.6, 60)
+    density = 2.0 * np.exp(-(((frequency - 0.2) / 0.04) ** 2)) + 0.01 * rng.random(60)
+    rows = "\n".join(f"{d} {f}" for f, d in zip(frequency, density, strict=True))
+    (tmp_path / "sea.txt").write_text(f"S f\n{rows}\n", encoding="utf-8")
+    columns = "frequency_column: f, density_column: S"
+    extra = f"  - {{name: own, kind: spectrum_file, file: sea.txt, {columns}, heading_deg: 0}}\n\nwind:"
+    text = SHORT.replace("\nwind:", extra, 1) + "measured: {file: points.csv}\n"
+    case = read(text, tmp_path)
+    scale = Scale(25.0, 1.0, 1.0)
+    scaled = scale_case(case, scale, digits=17)
+    files = dict(scaled.files)
+    assert set(files) == {"model_points.csv", "model_sea.csv"}
+    assert files["model_points.csv"].splitlines() == [
+        "# flume", "period [s];transmission_coefficient;sway [mm]", "0.8;0.5;4.8", "1.0;;3.2",
+    ]  # fmt: skip
+    table = np.array([[float(v) for v in row.split(",")] for row in files["model_sea.csv"].splitlines()[2:]])
+    assert table[:, 0] == pytest.approx(5.0 * frequency)
+    assert np.trapezoid(table[:, 1], table[:, 0]) * 625.0 == pytest.approx(np.trapezoid(density, frequency), rel=1e-12)
+    own = scaled.case.model.waves[2]
+    assert (own.file, own.frequency_column, own.density_column) == ("model_sea.csv", 0, 1)
+    for name, content in scaled.files:
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    back = scale_case(read(scaled.text, tmp_path, "m.yaml"), scale, from_model=True, digits=17)
+    assert dict(back.files)["prototype_model_points.csv"].splitlines()[2] == "4.0;0.5;120.0"
+
+
+def test_files_of_other_programs_are_refused(tmp_path):
+    case = read(SHORT, tmp_path)
+    data = {**case.document.data, "structure": {"coefficients_file": {"path": "box.nc"}}}
+    other = replace(case, document=replace(case.document, data=data))
+    with pytest.raises(InputError, match=r"box\.nc") as caught:
+        scaled_files(other, Scale(26.0, 1.0, 1.0), False)
+    assert caught.value.fault.path == "structure.coefficients_file.path"
 
 
 def test_one_figure_for_two_kinds_is_refused(tmp_path):
