@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -38,6 +39,7 @@ LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
 OPERATOR_FREQUENCIES = 60
 SECTOR = math.radians(75.0)  # headings to either side of the normal that meet the side of the unit
 MOST_REFINEMENTS = 6
+MOST_SOLVED = 4  # solutions of the normal heading that are kept in memory
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
 OBLIQUE_FREQUENCIES = 32
@@ -118,7 +120,9 @@ def spectrum_band(sea: IrregularSea, count: int = 200) -> Array:
     """Return frequencies [rad/s] over all but 1e-3 of the energy of a spectrum, half of them crowded by energy."""
     low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-5, 1.0 - ENERGY_LEFT_OUT])))
     by_energy = sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2))
-    grid = np.unique(np.concatenate([np.linspace(low, high, count // 2), np.asarray(by_energy, dtype=float)]))
+    grid = np.concatenate([np.linspace(low, high, count // 2), np.asarray(by_energy, dtype=float)])
+    # Seas that differ in height alone have the same frequencies to the last digit, and share their coefficients
+    grid = np.unique([float(f"{frequency:.11g}") for frequency in grid])
     # Points closer than a thousandth of the band to the last one kept carry no information and spoil splines
     kept = [grid[0]]
     for frequency in grid[1:]:
@@ -297,10 +301,20 @@ def damping_start(unit: FloatingUnit) -> Start:
     return "even" if math.isfinite(unit.water.depth) else "zero"
 
 
+_SOLVED: OrderedDict[str, RadiationDiffraction] = OrderedDict()
+
+
 def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> RadiationDiffraction:
-    """Solve the normal heading, adding frequencies where the damping turns sharply (water between twin hulls)."""
+    """Solve the normal heading, adding frequencies where the damping turns sharply (water between twin hulls).
+
+    The last few solutions are kept: the cases of a study often differ in what does not touch them.
+    """
     modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
     grid = distinct(omega)
+    key = _key(unit, grid, np.zeros(1))
+    if key in _SOLVED:
+        _SOLVED.move_to_end(key)
+        return _SOLVED[key]
     for _ in range(MOST_REFINEMENTS):
         found = solve(unit.section, unit.water, grid, modes=modes, lid=lid, progress=progress)
         if found.status == "interrupted":
@@ -310,6 +324,9 @@ def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> Radiati
         if not len(more) or len(grid) > MOST_FREQUENCIES:
             break
         grid = distinct(np.concatenate([grid, more]))
+    _SOLVED[key] = found
+    while len(_SOLVED) > MOST_SOLVED:
+        _SOLVED.popitem(last=False)
     return found
 
 
