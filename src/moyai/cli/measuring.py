@@ -6,6 +6,7 @@ import typer
 
 from moyai.cli.measuring_forces import forces
 from moyai.cli.measuring_records import records
+from moyai.cli.measuring_streaks import streaks
 
 measure = typer.Typer(
     name="measure",
@@ -15,3 +16,4 @@ measure = typer.Typer(
 )
 measure.command()(forces)
 measure.command()(records)
+measure.command()(streaks)

@@ -21,7 +21,9 @@ FloatArray = NDArray[np.float64]
 class Calibration(Protocol):
     """What takes pixels to the light sheet and back."""
 
-    residual: float
+    @property
+    def residual(self) -> float:
+        """Root mean square distance of the targets in pixels."""
 
     def to_world(self, pixels: ArrayLike) -> FloatArray:
         """Return x, z [m] of pixels, shape (n, 2)."""
@@ -168,7 +170,11 @@ def fit_homography(pixels: ArrayLike, world: ArrayLike) -> Homography:
             remedy="spread the targets over the field of view",
         )
     start = right[-1].reshape(3, 3)
-    solved = least_squares(lambda h: (_project(h.reshape(3, 3), w) - p).ravel(), start.ravel(), xtol=1e-15, ftol=1e-15)
+
+    def misses(values: FloatArray) -> FloatArray:
+        return np.asarray((_project(values.reshape(3, 3), w) - p).ravel())
+
+    solved = least_squares(misses, start.ravel(), xtol=1e-15, ftol=1e-15)
     matrix = np.linalg.inv(to_unit_picture) @ solved.x.reshape(3, 3) @ to_unit_sheet
     matrix = matrix / np.linalg.norm(matrix)
     misfit = _project(matrix, sheet) - picture
@@ -304,9 +310,10 @@ def fit_ray_camera(
     def camera(x: FloatArray) -> RayCamera:
         return RayCamera(middle + spread * x[:2], x[2:5], focal * math.exp(x[5]), centre, medium)
 
-    solved = least_squares(
-        lambda x: (camera(x).to_pixels(sheet) - picture).ravel(), np.zeros(6), xtol=1e-14, ftol=1e-14, gtol=1e-14
-    )
+    def misses(x: FloatArray) -> FloatArray:
+        return np.asarray((camera(x).to_pixels(sheet) - picture).ravel())
+
+    solved = least_squares(misses, np.zeros(6), xtol=1e-14, ftol=1e-14, gtol=1e-14)
     found = camera(solved.x)
     residual = math.sqrt(float((solved.fun**2).sum()) / len(picture))
     return RayCamera(found.foot, found.rotation, found.focal_length, centre, refraction, residual)

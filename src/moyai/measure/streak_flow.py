@@ -274,7 +274,8 @@ def track_particles(
         np.zeros(0) if section is None else section.series[:_SHORT],
     )
     if section is not None:
-        path = section.to_plane(path)
+        with np.errstate(invalid="ignore"):
+            path = section.to_plane(path)
     return np.stack([path.real, path.imag], axis=-1)
 
 

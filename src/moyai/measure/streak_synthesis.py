@@ -135,8 +135,7 @@ def synthesise(
     fastest = 3.0 * max(flow.amplitude_x, flow.amplitude_z)
     samples = [max(math.ceil(fastest * item / (0.4 * pixel)), 4) for item in train.duration]
     instants = np.concatenate([np.linspace(a, b, n) for a, b, n in zip(train.start, train.end, samples)]) + begin
-    path = track_particles(flow, start, np.concatenate([[0.0], instants]) if instants[0] > 0.0 else instants)
-    path = path[:, -len(instants) :]
+    path = track_particles(flow, start, instants)
     count = len(start)
     depth = random.uniform(-1.2, 1.2, count) * optics.sheet_thickness
     wander = random.normal(0.0, optics.out_of_plane_speed, count)

@@ -1,0 +1,275 @@
+"""From a file of ``moyai measure streaks`` to :class:`moyai.measure.streak_campaign.Campaign`."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.case.findings import Findings, duplicates
+from moyai.case.measured import read_points
+from moyai.case.reader import read_block
+from moyai.case.schema_streaks import (
+    CalibrationBlock,
+    RecordingBlock,
+    StreakCircle,
+    StreakRectangle,
+    StreaksFile,
+    TimingFrames,
+)
+from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.core.errors import CaseError, InputError
+from moyai.measure.streak_timing import PulseTrain, regular_pulses, require_time_order
+
+if TYPE_CHECKING:
+    from moyai.measure.camera_calibration import Calibration
+    from moyai.measure.streak_campaign import Campaign
+    from moyai.measure.streak_run import Recording
+
+FloatArray = NDArray[np.float64]
+
+
+def load_streaks(path: str | os.PathLike[str]) -> tuple[Campaign, Document]:
+    """Read a file of ``moyai measure streaks`` and build what it describes.
+
+    Raises
+    ------
+    CaseError
+        With every fault at once, each with line and column: keys, times, targets, absent pictures.
+    """
+    document = read_yaml(path)
+    model: StreaksFile = read_block(document, StreaksFile)
+    findings = Findings(document)
+    folder = Path(path).parent
+    campaign = _build(model, findings, folder)
+    if findings.faults or campaign is None:
+        raise CaseError(sorted(findings.faults, key=lambda fault: (fault.line, fault.column)))
+    return campaign, document
+
+
+def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | None:
+    from moyai.measure.streak_campaign import Campaign, StreakRun
+    from moyai.measure.streak_detection import DetectionSettings
+    from moyai.measure.streak_linking import LinkingSettings
+    from moyai.measure.streak_run import BackgroundDrift, RunSettings
+
+    outline, area, words = _section(model, findings)
+    names = [run.name for run in model.runs]
+    for index in duplicates(names):
+        findings.fault(("runs", index, "name"), f"a run '{names[index]}' stands above already")
+    runs: list[StreakRun] = []
+    breadth = float(np.ptp(outline[:, 0])) if len(outline) else math.nan
+    for index, block in enumerate(model.runs):
+        recordings = _recordings(block.recordings, block.period, model, findings, ("runs", index, "recordings"), folder)
+        calm: tuple[Recording, ...] = ()
+        if block.no_model:
+            calm = _recordings(block.no_model, block.period, model, findings, ("runs", index, "no_model"), folder)
+        speed = block.velocity_amplitude
+        if speed is None:
+            speed = (block.keulegan_carpenter or math.nan) * breadth / block.period
+        reduction = math.nan if block.measured_reduction is None else block.measured_reduction
+        runs.append(
+            StreakRun(block.name, block.period, speed, speed * block.vertical_ratio, recordings, reduction, calm)
+        )
+    no_model: tuple[Recording, ...] = ()
+    if model.no_model is not None:
+        given_calm = model.no_model
+        no_model = _recordings(
+            given_calm.recordings, given_calm.period, model, findings, ("no_model", "recordings"), folder
+        )
+    shape = _picture_shape([*runs[0].recordings] if runs else [])
+    calibration = _calibration(model.calibration, findings, folder, shape)
+    contours = model.circulation
+    if sum(ratio >= contours.least_ratio for ratio in contours.size_ratios) < 2:
+        findings.fault(
+            ("circulation", "size_ratios"),
+            f"fewer than two contours are of size {contours.least_ratio:g} and more, which the fit needs",
+            remedy="add larger contours",
+        )
+    if model.detection.edge_threshold > model.detection.threshold:
+        findings.fault(("detection", "edge_threshold"), "the edge's threshold is above the threshold")
+    if findings.faults or calibration is None:
+        return None
+    background = None
+    if model.background is not None:
+        given = model.background
+        background = BackgroundDrift(
+            np.array([given.mass_transport, -given.settling]), np.array([given.mass_transport_gradient, 0.0])
+        )
+    detection = model.detection
+    settings = RunSettings(
+        DetectionSettings(
+            threshold=detection.threshold,
+            edge_threshold=detection.edge_threshold,
+            least_length=detection.least_length,
+            background_block=detection.background_block,
+            most_overlap=detection.most_overlap,
+        ),
+        LinkingSettings(model.linking.relative, model.linking.absolute, model.linking.missing),
+        model.linking.closing,
+        most_residual=model.linking.most_residual,
+    )
+    return Campaign(
+        title=model.title,
+        section=words,
+        outline=outline,
+        area=area,
+        centre=np.array([model.centre.x, model.centre.z]),
+        sense=1 if model.waves_towards == "+x" else -1,
+        calibration=calibration,
+        runs=tuple(runs),
+        settings=settings,
+        mask_margin=detection.mask_margin,
+        no_model=no_model,
+        background=background,
+        size_ratio=tuple(sorted(set(contours.size_ratios))),
+        least_ratio=contours.least_ratio,
+        method=contours.interpolation,
+        resamples=contours.resamples,
+        confidence=contours.confidence,
+        seed=contours.seed,
+    )
+
+
+def _section(model: StreaksFile, findings: Findings) -> tuple[FloatArray, float, str]:
+    from moyai.measure.streak_flow import circle_map
+
+    section = model.section
+    if isinstance(section, StreakCircle):
+        return circle_map(section.diameter).outline, 0.25 * math.pi * section.diameter**2, (
+            f"circle of {1e3 * section.diameter:g} mm"
+        )  # fmt: skip
+    if isinstance(section, StreakRectangle):
+        b, h = 0.5 * section.breadth, 0.5 * section.height
+        corners = np.array([[b, -h], [b, h], [-b, h], [-b, -h], [b, -h]])
+        return corners, section.breadth * section.height, (
+            f"rectangle of {1e3 * section.breadth:g} by {1e3 * section.height:g} mm"
+        )  # fmt: skip
+    corners = np.array([*section.corners, section.corners[0]], dtype=float)
+    doubled = float((corners[:-1, 0] * corners[1:, 1] - corners[1:, 0] * corners[:-1, 1]).sum())
+    if abs(doubled) < 1e-9 * float(np.ptp(corners, axis=0).max()) ** 2:
+        findings.fault(("section", "corners"), "the corners enclose no area")
+    return corners, 0.5 * abs(doubled), f"polygon of {len(corners) - 1} corners"
+
+
+def _train(model: StreaksFile, count: int) -> PulseTrain:
+    timing = model.timing
+    if isinstance(timing, TimingFrames):
+        return regular_pulses(timing.interval, timing.on_time, 1.0, count)
+    return regular_pulses(timing.interval, timing.on_time, timing.power, timing.count)
+
+
+def _recordings(
+    blocks: Sequence[RecordingBlock],
+    period: float,
+    model: StreaksFile,
+    findings: Findings,
+    path: KeyPath,
+    folder: Path,
+) -> tuple[Recording, ...]:
+    from moyai.measure.streak_run import Recording
+
+    frames = isinstance(model.timing, TimingFrames)
+    found = []
+    for index, item in enumerate(blocks):
+        here: KeyPath = (*path, index) if (*path, 0) in findings.document.values else path
+        pictures = _pictures(item, findings, here, folder)
+        if not pictures:
+            continue
+        groups = [pictures] if frames else [(picture,) for picture in pictures]
+        for group in groups:
+            try:
+                train = _train(model, len(group))
+                # A chain may start late and lack its last streak and still cover the period
+                needed = math.ceil(0.95 * period / model.timing.interval)
+                if frames and len(group) < needed + 1:
+                    raise InputError(
+                        f"{len(group)} pictures {model.timing.interval:.3g} s apart do not cover the period of "
+                        f"{period:.3g} s",
+                        path="pictures",
+                        allowed=f"at least {needed + 1}, better {needed + 3}",
+                    )
+                if not frames:
+                    require_time_order(train, needed + 1)
+                found.append(Recording(tuple(group), train, frames, period))
+            except InputError as error:
+                fault = error.fault
+                place: KeyPath = ("timing",) if fault.path in ("pulses", "timing", "timing.count") else here
+                if not any(item.message == fault.message for item in findings.faults):
+                    findings.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+                break
+    return tuple(found)
+
+
+def _pictures(item: RecordingBlock, findings: Findings, path: KeyPath, folder: Path) -> tuple[Path, ...]:
+    files: list[Path] = []
+    for index, name in enumerate(item.pictures):
+        here: KeyPath = (*path, "pictures", index)
+        if any(mark in name for mark in "*?"):
+            target = folder / name
+            matches = sorted(target.parent.glob(target.name))
+            if not matches:
+                findings.fault(here, f"no picture matches '{name}'")
+            files.extend(matches)
+        elif not (folder / name).is_file():
+            findings.fault(here, f"no such picture: '{name}'", remedy="names are relative to the folder of this file")
+        else:
+            files.append(folder / name)
+    return tuple(files)
+
+
+def _picture_shape(recordings: Sequence[Recording]) -> tuple[int, int] | None:
+    from moyai.measure.streak_detection import read_picture
+
+    for recording in recordings:
+        try:
+            rows, columns = read_picture(recording.pictures[0]).shape
+        except InputError:
+            # Told when the picture's turn comes, with its name
+            return None
+        return rows, columns
+    return None
+
+
+def _calibration(
+    block: CalibrationBlock, findings: Findings, folder: Path, shape: tuple[int, int] | None
+) -> Calibration | None:
+    from moyai.measure.camera_calibration import Refraction, dry_to_wet, fit_homography, fit_ray_camera
+
+    path: KeyPath = ("calibration",)
+    if block.refraction is None and (block.model == "rays" or block.dry):
+        why = "the ray model needs them" if block.model == "rays" else "targets in the empty tank look smaller"
+        findings.fault(path, f"'refraction' is missing: {why}", remedy="give the distances and the wall")
+        return None
+    if not (folder / block.targets).is_file():
+        findings.fault((*path, "targets"), f"no such file: '{block.targets}'")
+        return None
+    try:
+        names = {name: name for name in ("column", "row", "x", "z")}
+        table = read_points(folder / block.targets, names, "calibration.targets")
+        pixels = np.column_stack([table["column"], table["row"]])
+        world = np.column_stack([table["x"], table["z"]])
+        refraction = None
+        if block.refraction is not None:
+            given = block.refraction
+            refraction = Refraction(
+                given.camera_to_wall, given.wall_thickness, given.wall_index, given.sheet_distance, given.water_index
+            )
+        if block.model == "rays" and refraction is not None:
+            if shape is None:
+                return None if findings.faults else fit_homography(pixels, world)
+            return fit_ray_camera(pixels, world, refraction=refraction, shape=shape, dry=block.dry)
+        plane = fit_homography(pixels, world)
+        if block.dry and refraction is not None:
+            middle = plane.to_world([[0.5 * (shape[1] - 1), 0.5 * (shape[0] - 1)]])[0] if shape else world.mean(axis=0)
+            return dry_to_wet(plane, refraction, middle)
+        return plane
+    except (InputError, CaseError) as error:
+        fault = error.fault if isinstance(error, InputError) else error.faults[0]
+        findings.fault((*path, "targets"), fault.message, allowed=fault.allowed, remedy=fault.remedy)
+        return None
