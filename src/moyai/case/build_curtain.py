@@ -6,8 +6,11 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from moyai.case import schema_curtain as schema
 from moyai.case.build_sea import environment_of
+from moyai.case.measured import read_points
 from moyai.core.errors import InputError
 from moyai.curtain.drag import DragLaw, closure_drag, constant_drag, gap_speed_drag
 from moyai.curtain.limits import Strength
@@ -19,6 +22,8 @@ from moyai.curtain.model import (
     CurtainProblem,
     ImpactSettings,
     LimitSettings,
+    RecordedCable,
+    RecordedSnap,
     Settings,
     Strengths,
     WaveSettings,
@@ -60,8 +65,59 @@ def build_problem(
         curtain=curtain_of(model, water),
         environment=environment,
         settings=settings_of(model, environment),
+        record=None if model.record is None else recorded_snap(model.record, folder),
         case_text=case_text,
         case_hash=case_hash,
+    )
+
+
+def recorded_snap(entry: schema.Record, folder: Path) -> RecordedSnap:
+    """Return what a flume record says.
+
+    Parameters
+    ----------
+    entry : Record
+    folder : Path
+        Folder that its file refers to.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read or holds no snap.
+    """
+    from moyai.measure.snap_record import read_snap, sampling_loss
+
+    columns = {entry.time: "time", entry.upper: "upper"}
+    names = ["upper"]
+    if entry.lower is not None:
+        columns[entry.lower] = "lower"
+        names.append("lower")
+    table = read_points(folder / entry.file, columns, "record.file")
+    try:
+        found = read_snap(
+            np.array(table["time"]),
+            np.array([table[name] for name in names]),
+            unloaded=entry.unloaded,
+            names=names,
+            release_time=entry.release_time,
+            window=entry.window,
+        )
+    except InputError as error:
+        key = error.fault.path.split(".")[0].split("[")[0]
+        raise _at(error, f"record.{key if key in ('unloaded', 'window', 'release_time') else 'file'}") from None
+    cables = [RecordedCable(cable.name, cable.peak, cable.plateau, cable.noise) for cable in (*found.cables, found.sum)]
+    return RecordedSnap(
+        entry.file,
+        found.release_time,
+        found.taut_time,
+        found.peak_time,
+        found.plateau_start,
+        tuple(cables[:-1]),
+        cables[-1],
+        sampling_loss(found.samples_in_rise)[1],
+        found.time,
+        found.tension,
+        found.notices,
     )
 
 

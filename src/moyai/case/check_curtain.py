@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from moyai.case.check_sea import check_surroundings, check_waves
+from moyai.case.check_sea import check_file, check_surroundings, check_waves
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
 from moyai.case.schema_environment import PeriodRange
@@ -36,6 +36,7 @@ def check(model: CurtainCase, findings: Findings, folder: Path) -> None:
     _check_slack(model, findings)
     _check_directions(model, findings)
     _check_class(model, findings)
+    _check_record(model, findings, folder)
     _check_by_building(model, findings, folder)
 
 
@@ -260,6 +261,20 @@ def _check_class(model: CurtainCase, findings: Findings) -> None:
         except InputError as error:
             fault = error.fault
             findings.fault(("structure", "curtain_class"), fault.message, allowed=fault.allowed, remedy=fault.remedy)
+
+
+def _check_record(model: CurtainCase, findings: Findings, folder: Path) -> None:
+    if model.record is None:
+        return
+    if "impact" not in model.analyses:
+        findings.warn(("record",), "the record is held against the analysis 'impact', which is not asked for")
+    if check_file(("record", "file"), model.record.file, folder, findings):
+        from moyai.case.build_curtain import recorded_snap
+
+        try:
+            recorded_snap(model.record, folder)
+        except InputError as error:
+            findings.raised(error, ("record", "file"))
 
 
 def _heading_check(normal_deg: float) -> Any:

@@ -15,6 +15,7 @@ from moyai.case.schema_types import (
     AxialStiffness,
     Block,
     Duration,
+    FileName,
     Heading,
     KeyGroups,
     Length,
@@ -58,6 +59,7 @@ LowFactor = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=1.0)]
 HighFactor = Annotated[float, QuantityOf(quantities.NUMBER, least=1.0)]
 Contraction = Annotated[float, QuantityOf(quantities.NUMBER, above=0.5, most=1.0)]
 Blockage = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, below=1.0)]
+Instant = Annotated[float, QuantityOf(quantities.TIME)]
 PositiveSpeed = Annotated[float, QuantityOf(quantities.SPEED, above=0.0)]
 
 
@@ -411,6 +413,29 @@ class CurtainSettings(Block):
     ] = Field(default="all", description="Water levels to run: all, or a list of names.")
 
 
+class Record(Block):
+    """A flume record of a snap to hold the impact models against."""
+
+    file: FileName = Field(description="CSV, names and units in its header: 'time [s], upper [N], lower [N]'.")
+    time: Annotated[str, Field(min_length=1)] = Field(default="time", description="Column of the time.")
+    upper: Annotated[str, Field(min_length=1)] = Field(
+        default="upper", description="Column of the tension of the upper cable, or of both together."
+    )
+    lower: Annotated[str, Field(min_length=1)] | None = Field(
+        default=None, description="Column of the tension of the lower cable."
+    )
+    unloaded: Annotated[tuple[tuple[Instant, Instant], ...], Field(min_length=1, max_length=100)] = Field(
+        description="Intervals [from, to] in which the cables carry nothing; two or more take off a drift as well.",
+        examples=[[["0 s", "1.9 s"], ["22 s", "23 s"]]],
+    )
+    window: tuple[Instant, Instant] | None = Field(
+        default=None, description="Interval in which the snap is sought; the whole record when absent."
+    )
+    release_time: Instant | None = Field(
+        default=None, description="When the curtain was let go, from a trigger; found in the record when absent."
+    )
+
+
 class CurtainCase(Block):
     """A silt curtain from its site to its analyses."""
 
@@ -425,4 +450,5 @@ class CurtainCase(Block):
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "impact", "waves", "anchor_loads", "limits"]]
     )
+    record: Record | None = Field(default=None, description="A flume record to hold the impact models against.")
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")

@@ -10,9 +10,11 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.curtain.analysis_anchor import anchor_checks, anchor_dataset, anchor_notices
-from moyai.curtain.analysis_impact import ImpactAnswer, impact_checks, impact_groups, impact_notices, solve_impact
+from moyai.curtain.analysis_impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
+from moyai.curtain.analysis_impact_groups import impact_groups
 from moyai.curtain.analysis_limits import fastest_water, limits_dataset
 from moyai.curtain.analysis_loads import loads_dataset
+from moyai.curtain.analysis_record import record_dataset, record_ratios
 from moyai.curtain.analysis_statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.curtain.analysis_waves import wave_answer
 from moyai.curtain.assembly import LevelCurtain, assemble
@@ -68,6 +70,9 @@ def _steps(problem: CurtainProblem, collected: _Collected, progress: Progress) -
     levels = problem.environment.water_levels
     # every level is assembled before any long work starts, so that an impossible one is told at once
     units = [assemble(problem, name, level) for name, level in levels]
+    if problem.record is not None:
+        collected.groups["/record"] = record_dataset(problem.record)
+        collected.notices.extend(problem.record.notices)
     for index, unit in enumerate(units):
         progress("water levels", index, len(units))
         yield from _level_steps(problem, unit, collected, progress)
@@ -93,6 +98,10 @@ def _level_steps(
         progress(f"impact, {unit.name}", 0, 1)
         answer = solve_impact(unit, settings.impact)
         groups = impact_groups(unit, settings.impact, answer)
+        if problem.record is not None:
+            ratios, told = record_ratios(problem.record, answer)
+            groups["impact"] = groups["impact"].merge(ratios)
+            collected.notices.extend(told)
         collected.groups.update({f"{root}/{name}": data for name, data in groups.items()})
         collected.checks.extend(impact_checks(unit, answer))
         collected.notices.extend(impact_notices(unit, settings.impact, answer))

@@ -10,7 +10,11 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from moyai.core.errors import InputError
+from moyai.core.validity import Notice
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.drag import DragLaw
 from moyai.curtain.limits import Strength
@@ -297,6 +301,61 @@ class Settings:
 
 
 @dataclass(frozen=True)
+class RecordedCable:
+    """Peak, plateau and noise [N] of one cable of a record, or of their sum, above the unloaded level."""
+
+    name: str
+    peak: float
+    plateau: float
+    noise: float
+
+    @property
+    def impact(self) -> float:
+        """Peak above the plateau [N]."""
+        return self.peak - self.plateau
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedSnap:
+    """A flume record and what was found in it.
+
+    Parameters
+    ----------
+    file : str
+        Where it came from.
+    release_time, taut_time, peak_time, plateau_start : float
+        [s]; the release may be NaN.
+    cables : tuple of RecordedCable
+        Each cable.
+    total : RecordedCable
+        Their sum.
+    peak_missed : float
+        Largest share of the peak that the sampling may have missed [-].
+    time, tension : ndarray
+        Record without offset and drift: (n,) [s], (cables, n) [N].
+    notices : tuple of Notice
+        What makes the numbers doubtful.
+    """
+
+    file: str
+    release_time: float
+    taut_time: float
+    peak_time: float
+    plateau_start: float
+    cables: tuple[RecordedCable, ...]
+    total: RecordedCable
+    peak_missed: float
+    time: NDArray[np.float64]
+    tension: NDArray[np.float64]
+    notices: tuple[Notice, ...]
+
+    @property
+    def rise_time(self) -> float:
+        """From taut to peak [s]."""
+        return self.peak_time - self.taut_time
+
+
+@dataclass(frozen=True)
 class CurtainProblem:
     """The whole problem as the case file states it."""
 
@@ -304,5 +363,6 @@ class CurtainProblem:
     curtain: Curtain
     environment: Environment
     settings: Settings = field(default_factory=Settings)
+    record: RecordedSnap | None = None
     case_text: str = ""
     case_hash: str = ""

@@ -381,6 +381,48 @@ def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):
     assert float(faster.tree["SWL/statics"]["toe_gap"].sel(drag_case="given")) > 0.0
 
 
+def test_record_of_a_flume_lies_beside_the_models(flume, tmp_path):
+    """A made record: its impact is found above the plateau, per cable and summed, each model is held against it."""
+    from moyai.curtain.impact import Impact
+    from moyai.curtain.impact_release import snap_in_current
+    from moyai.sea.water import Water
+
+    impact = Impact(0.70, 0.80, 0.15, 75.0, 75.0, 0.3, Water(0.4, 1000.0, 9.81))
+    snap = snap_in_current(impact, drag_coefficient=1.2, current=0.3, position=0.0, speed=0.0, duration=14.0)
+    time = np.arange(0.0, 15.0, 0.005)
+    total = np.interp(time - 2.0, snap.motion.time, snap.motion.tension, left=0.0, right=0.0)
+    total = np.where(time < 14.0, total, 0.0)
+    noise = np.random.default_rng(5).normal(0.0, 0.01, (2, time.size))
+    rows = [
+        f"{t:.4f},{0.47 * v + a:.5f},{0.53 * v + b:.5f}"
+        for t, v, a, b in zip(time, total, noise[0], noise[1], strict=True)
+    ]
+    (tmp_path / "record.csv").write_text("time [s],up [N],down [N]\n" + "\n".join(rows), encoding="utf-8")
+    text = flume.replace("[statics, impact, waves]", "[impact]").replace("start: current", "start: slack_phase")
+    text += """record:
+  file: record.csv
+  upper: up
+  lower: down
+  unloaded: [[0 s, 1.9 s]]
+  window: [0 s, 13.5 s]
+"""
+    result = run(problem_of(tmp_path, text))
+    record = result.tree["record"]
+    assert float(record["taut_time"]) == pytest.approx(2.0 + snap.taut_time, abs=0.05)
+    assert float(record["sum_impact_tension"]) == pytest.approx(snap.impact_tension, rel=0.03)
+    assert float(record["cable_impact_tension"].sel(cable="upper")) == pytest.approx(
+        0.47 * snap.impact_tension, rel=0.05
+    )
+    table = result.tree["SWL/impact"].to_dataset()
+    expected = table["impact_tension"].values / float(record["sum_impact_tension"])
+    assert table["record_ratio"].values == pytest.approx(expected, rel=1e-12)
+    assert "impact" in result.tree["SWL"] and float(table["record_upper_ratio"]) > 0.0
+    with pytest.raises(Exception, match="no column 'sideways'"):
+        problem_of(tmp_path, text.replace("upper: up", "upper: sideways"))
+    with pytest.raises(Exception, match="there is no file"):
+        problem_of(tmp_path, text.replace("file: record.csv", "file: recrod.csv"))
+
+
 def test_interrupt_hands_back_what_is_there(small):
     problem, _ = small
 
