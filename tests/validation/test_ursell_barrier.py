@@ -1,0 +1,40 @@
+"""F. Ursell (1947), The effect of a fixed vertical barrier on surface waves in deep water, Proc. Camb. Phil. Soc. 43.
+
+|R| and |T| of a barrier from the still water down to the depth a, in closed form with modified Bessel functions.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.special import iv, kv
+
+from moyai.potential.thin_plate import Plate
+from moyai.potential.thin_plate_waves import solve_plate_waves
+from moyai.sea.water import Water
+
+
+def ursell(ka):
+    common = math.pi * iv(1, ka) + 1j * kv(1, ka)
+    return math.pi * iv(1, ka) / common, 1j * kv(1, ka) / common
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_reflection_and_transmission(seed):
+    rng = np.random.default_rng(seed)
+    draught, x = 10.0 ** rng.uniform(-1, 1.5), rng.uniform(-20, 20)
+    ka = np.sort(10.0 ** rng.uniform(-1.5, 0.7, 5))
+    found = solve_plate_waves(
+        Plate((x, 0.0), (x, -draught)), Water(math.inf, 1025.0, 9.81), np.sqrt(9.81 * ka / draught), accuracy=1e-5
+    )
+    reflected, transmitted = ursell(ka)
+    turn = np.exp(2j * ka / draught * x)
+    assert np.abs(found.reflection[:, 0] - reflected * turn).max() < 1e-5
+    assert np.abs(found.reflection[:, 1] - reflected / turn).max() < 1e-5
+    assert np.abs(found.transmission - transmitted).max() < 1e-5
+
+
+def test_a_barrier_in_water_of_many_draughts_is_in_deep_water():
+    ka = np.array([0.3, 1.0, 3.0])
+    found = solve_plate_waves(Plate((0, 0), (0, -1)), Water(40.0, 1025.0, 9.81), np.sqrt(9.81 * ka), accuracy=1e-5)
+    assert np.abs(found.reflection[:, 0] - ursell(ka)[0]).max() < 1e-3
