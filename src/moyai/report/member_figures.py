@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.report.decimate import envelope_indices
+from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Column, Figure, Mark, Panel, Series, Table
 from moyai.report.encoding import slug
 from moyai.report.reading import Group, common_scale
@@ -109,6 +109,16 @@ def force_over_time(level: Group, sea: Group, run: Group) -> Figure | None:
     factor, unit = common_scale("N", force)
     largest = float(np.abs(force).max())
     used = [k for k in range(3) if float(np.abs(force[:, k]).max()) > 1e-6 * largest] or [0]
+    period = float(run.attributes.get("period", 0.0) or 0.0)
+    peak = float(time[int(np.argmax(np.linalg.norm(force, axis=1)))])
+    whole = period <= 0.0 or time[-1] - time[0] <= 1.5 * WINDOW_PERIODS * period
+    shown = (0, time.size) if whole else window_around(time, peak, WINDOW_PERIODS * period)
+
+    def kept(values: Array) -> NDArray[np.int64]:
+        if values.size <= POINTS_OF_A_CURVE:
+            return np.arange(values.size)
+        return np.asarray(focus_indices(values, shown, POINTS_OF_A_CURVE // 4))
+
     panels = [Panel(f"force along {COMPONENTS[k]}", unit) for k in used]
     series = []
     for panel, k in enumerate(used):
@@ -116,21 +126,19 @@ def force_over_time(level: Group, sea: Group, run: Group) -> Figure | None:
             if values is None or not np.abs(values[:, k]).max() > 1e-9 * largest:
                 continue
             curve = values[:, k] * factor
-            keep = _kept(curve)
+            keep = kept(curve)
             series.append(Series(label, {"time": time[keep]}, curve[keep], panel, tone, faint=tone > 0))
-    for name, words, unit_of in (("surface_elevation", "surface", "m"), ("circulation", "circulation", "m2/s")):
-        values = run.real(name, "time")
-        if values is not None and np.abs(values).max() > 0.0:
-            keep = _kept(values)
-            series.append(Series(words, {"time": time[keep]}, values[keep], len(panels), 7))
-            panels.append(Panel(words, unit_of))
-    period = float(run.attributes.get("period", 0.0) or 0.0)
-    peak = float(time[int(np.argmax(np.linalg.norm(force, axis=1)))])
-    window = None
-    if period > 0.0 and time[-1] - time[0] > 1.5 * WINDOW_PERIODS * period:
-        half = 0.5 * WINDOW_PERIODS * period
-        middle = min(max(peak, time[0] + half), time[-1] - half)
-        window = (middle - half, middle + half)
+    for name, words in (("surface_elevation", "surface"), ("circulation", "circulation")):
+        found = run.real(name, "time")
+        if found is None or not np.abs(found).max() > 0.0:
+            continue
+        scale, unit_of = (
+            (1e4, "cm2/s") if name == "circulation" and np.abs(found).max() < 0.1 else (1.0, run.unit(name))
+        )
+        keep = kept(found)
+        series.append(Series(words, {"time": time[keep]}, scale * found[keep], len(panels), 7))
+        panels.append(Panel(words, unit_of))
+    window = None if whole else (float(time[shown[0]]), float(time[shown[1] - 1]))
     return Figure(
         slug(level.name, sea.name, run.name, "force"),
         f"Force on the member: {run.attributes.get('wave', run.name)}",
@@ -142,12 +150,6 @@ def force_over_time(level: Group, sea: Group, run: Group) -> Figure | None:
         slider=window is not None,
         height=140 + 150 * len(panels),
     )
-
-
-def _kept(values: Array) -> NDArray[np.int64]:
-    if values.size <= POINTS_OF_A_CURVE:
-        return np.arange(values.size)
-    return np.asarray(envelope_indices(values, POINTS_OF_A_CURVE // 2))
 
 
 def along_member(level: Group, sea: Group) -> Figure | None:
@@ -184,37 +186,59 @@ def along_member(level: Group, sea: Group) -> Figure | None:
     )
 
 
-def coefficient_table(level: Group, sea: Group) -> Table | None:
-    """Return coefficients and forces of every wave."""
-    waves = sea.labels("wave")
-    if not waves:
-        return None
-
-    def column(label: str, name: str, unit: str = "", **choice: str) -> Column | None:
+def _columns(sea: Group, entries: tuple[tuple[str, str, str, dict[str, str]], ...]) -> list[Column]:
+    """Return columns over the waves of a sea: label, variable, unit, choice of labels."""
+    found = []
+    for label, name, unit, choice in entries:
         values = sea.real(name, "wave", **choice)
-        return None if values is None else Column(label, [float(value) for value in values], unit)
+        if values is not None:
+            found.append(Column(label, [float(value) for value in values], unit))
+    return found
 
-    wanted = [
-        Column("Wave", list(waves)),
-        column("H", "wave_height", "m"),
-        column("T", "period", "s"),
-        column("KC", "keulegan_carpenter"),
-        column("Re", "reynolds"),
-        column("β", "beta"),
-        *(column(f"C_M, {axis}", "inertia_coefficient", axis=axis) for axis in AXES),
-        *(column(f"C_M with Γ, {axis}", "effective_inertia_coefficient", axis=axis) for axis in AXES),
-        *(column(f"C_D, {axis}", "drag_coefficient", axis=axis) for axis in AXES),
-        column("Γ counted", "circulation", "m2/s"),
-        column("Γ by the law", "settled_circulation", "m2/s"),
-        *(column(f"largest F_{name}", "maximum_force", "N", component=name) for name in COMPONENTS),
-        column("largest force", "maximum_total_force", "N"),
-        *(column(f"largest end force, {end}", "maximum_end_force", "N", end=end) for end in ("start", "end")),
-    ]
+
+_WAVE = (("H", "wave_height", "m", {}), ("T", "period", "s", {}), ("KC", "keulegan_carpenter", "", {}))
+
+
+def coefficient_table(level: Group, sea: Group) -> Table | None:
+    """Return the coefficients of every wave."""
+    if not sea.labels("wave"):
+        return None
+    entries = (
+        *_WAVE,
+        ("Re", "reynolds", "", {}),
+        ("β", "beta", "", {}),
+        *((f"C_M, {axis}", "inertia_coefficient", "", {"axis": axis}) for axis in AXES),
+        *((f"with Γ, {axis}", "effective_inertia_coefficient", "", {"axis": axis}) for axis in AXES),
+        *((f"C_D, {axis}", "drag_coefficient", "", {"axis": axis}) for axis in AXES),
+        ("Γ counted", "circulation", "m2/s", {}),
+        ("Γ by the law", "settled_circulation", "m2/s", {}),
+    )
     return Table(
         slug(level.name, sea.name, "coefficients"),
-        f"Coefficients and forces: {sea.name}",
-        tuple(item for item in wanted if item is not None),
-        note="Coefficients at the strip of the largest KC; forces on the whole member.",
+        f"Coefficients: {sea.name}",
+        tuple(_columns(sea, entries)),
+        note="At the strip of the largest KC; of irregular seas significant height and peak period.",
+    )
+
+
+def force_table(level: Group, sea: Group) -> Table | None:
+    """Return the forces of every wave."""
+    values = sea.real("maximum_total_force", "wave")
+    if values is None:
+        return None
+    entries = (
+        *_WAVE,
+        *((f"largest F_{name}", "maximum_force", "N", {"component": name}) for name in COMPONENTS),
+        ("largest force", "maximum_total_force", "N", {}),
+        *((f"mean F_{name}", "mean_force", "N", {"component": name}) for name in COMPONENTS),
+        *((f"largest at the {end}", "maximum_end_force", "N", {"end": end}) for end in ("start", "end")),
+    )
+    return Table(
+        slug(level.name, sea.name, "forces"),
+        f"Forces on the member: {sea.name}",
+        tuple(_columns(sea, entries)),
+        note="Whole member; the loads at its ends are those of a simply supported one.",
+        emphasised=(int(values.argmax()),) if values.size > 1 else (),
     )
 
 
@@ -276,7 +300,8 @@ def member_table(level: Group) -> Table | None:
     rows = [(label, value * unit.factor, unit.name) for label, value, unit in zip(labels, values, shown)]
     for i, first in enumerate(AXES):
         for j, second in enumerate(AXES[i:], i):
-            rows.append((f"ideal C_M, {first} axis by {second}", float(tensor[i, j]), ""))
+            value = float(tensor[i, j])
+            rows.append((f"ideal C_M, {first} axis by {second}", value if abs(value) > 1e-9 else 0.0, ""))
     rows.append(("estimated relative error of C_M", group.value("inertia_error"), ""))
     return Table(
         slug(level.name, "member"),

@@ -130,19 +130,26 @@ def _input(level: Group) -> list[Block | None]:
 def _seas(level: Group) -> list[Block | None]:
     blocks: list[Block | None] = []
     for sea in level.child("waves").children():
-        blocks += [figures.coefficient_table(level, sea), figures.along_member(level, sea)]
+        blocks += [
+            figures.force_table(level, sea),
+            figures.coefficient_table(level, sea),
+            figures.along_member(level, sea),
+        ]
     return blocks
 
 
 def _time(level: Group) -> list[Block | None]:
-    options = []
+    options, largest = [], []
     for sea in level.child("time").children():
         runs = sea.children()
         step = max(1, math.ceil(len(runs) / MOST_RUNS))
-        for run in runs[::step]:
+        # counted from the end, so that the last and highest wave is among them
+        for run in runs[::-1][::step][::-1]:
             figure = figures.force_over_time(level, sea, run)
-            if figure is not None:
+            force = run.real("force", "time", "component")
+            if figure is not None and force is not None:
                 options.append(Option(f"{sea.name}: {run.attributes.get('wave', run.name)}", (figure,)))
+                largest.append(float((force**2).sum(axis=1).max()))
     if not options:
         return []
-    return [Choice(f"run-{level.name}", "Wave", tuple(options), print_all=False)]
+    return [Choice(f"run-{level.name}", "Wave", tuple(options), largest.index(max(largest)), print_all=False)]
