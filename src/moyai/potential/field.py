@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.potential.edges import ComplexArray, FloatArray
-from moyai.potential.panels import GAP, Panels, gauss_rule, make_panels
+from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule, make_panels
 from moyai.potential.quadrature import add_helmholtz, add_rankine
 from moyai.potential.solution import RadiationDiffraction
 from moyai.potential.waves import depth_profile, incident_wave
@@ -86,6 +86,8 @@ def potential_at(
         part.body.points, part.body.normal, part.body.body.astype(np.intp)
     )
     flux = speed @ displacement - unit * np.einsum("nc,nc->n", gradient[0], part.body.normal)
+    # A plate is no source: the flux is the same on both faces, and its potential is the jump over it
+    flux = np.where(part.body.kind == PLATE, 0.0, flux)
     on_body = part.radiation[index] @ speed + amplitude * part.scattered[index]
     on_surface = part.radiation_surface[index] @ speed + amplitude * part.scattered_surface[index]
 

@@ -7,6 +7,7 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.potential.drift import mean_drift_far_field, mean_drift_near_field
+from moyai.potential.field import potential_at, surface_elevation
 from moyai.potential.modes import Modes, Rigid, rigid_modes
 from moyai.potential.plates import PlateLine
 from moyai.potential.shapes import pi_type, polygon, rectangle, twin_pontoon
@@ -235,6 +236,36 @@ def test_jump_tends_to_the_inverse_hyperbolic_secant():
     assert np.abs(-(towards * jump.radiation[0, :, 0]).real - exact)[low].max() < 1e-3
     # Near the edge the jump is C sqrt(distance), C = (4/pi) sqrt(2)
     assert abs(jump.tip_radiation[0, 0, 0].real) == pytest.approx(4.0 / math.pi * math.sqrt(2.0), rel=1e-3)
+
+
+def test_field_on_both_sides_of_a_plate():
+    """The jump of the field is that of the solution, its normal velocity that of the plate; far off it is the wave."""
+    water, omega = Water(4.0, 1025.0, G), np.array([1.3, 2.4])
+    section = BOX.with_plates(PlateLine([(1.0, 0.0), (1.4, -1.2)])).immersed(1.5)
+    found = solve(section, water, omega, modes=rigid_modes((0.0, 0.0)), accuracy=1e-6)
+    (jump,) = plate_jumps(found)
+    motions = np.array([0.3 - 0.2j, 0.1j, 0.2])
+    speed = -1j * omega[1] * motions
+    chosen = slice(2, None, 5)
+    points, normals = jump.points[chosen], jump.normals[chosen]
+
+    def field(offset):
+        return potential_at(found, points + offset * normals, 1, motions=motions)
+
+    near = 1e-4
+    expected = (jump.diffraction[1] + jump.radiation[1] @ speed)[chosen]
+    assert np.abs(field(near) - field(-near) - expected).max() < 2e-3 * np.abs(expected).max()
+    displacement = np.stack([motions[0] + motions[2] * points[:, 1], motions[1] - motions[2] * points[:, 0]], axis=1)
+    through = -1j * omega[1] * (displacement * normals).sum(axis=1)
+    inner = slice(1, -1)
+    for side in (1.0, -1.0):
+        slope = (field(side * 0.02) - field(side * 0.01)) / (side * 0.01)
+        steeper = (field(side * 0.03) - field(side * 0.02)) / (side * 0.01)
+        assert np.abs(2.0 * slope - steeper - through)[inner].max() < 0.05 * np.abs(through).max() + 0.02
+    x = np.array([40.0, 45.0])
+    transmitted = found.normal.transmission[1] + speed @ found.radiated_wave[1, :, 1]
+    wave = transmitted * np.exp(1j * found.normal.states.wave_number[1] * x)
+    assert np.abs(surface_elevation(found, x, 1, motions=motions) - wave).max() < 1e-5
 
 
 def test_plates_move_with_what_they_hang_on():
