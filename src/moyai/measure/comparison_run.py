@@ -245,9 +245,11 @@ def _values(
         raise InputError(f"'{name}' has no coordinate along {dimension}", path="coordinate")
     stored = np.asarray(node[order[0]].values)
     dated = stored.dtype.kind == "M"
-    coordinate = stored.astype("datetime64[ns]").astype(np.int64) * 1e-9 if dated else stored.astype(float)
+    coordinate = np.asarray(
+        stored.astype("datetime64[ns]").astype(np.int64) * 1e-9 if dated else stored, dtype=np.float64
+    )
     values = np.asarray(array.values)
-    values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
+    values = np.asarray(np.abs(values) if np.iscomplexobj(values) else values, dtype=np.float64)
     if coordinate.size > 1 and coordinate[0] > coordinate[-1]:
         coordinate, values = coordinate[::-1], values[::-1]
     label = str(node[order[0]].attrs.get("long_name", order[0]))
