@@ -69,6 +69,7 @@ class ExplicitRun:
         self.packed = pack(self.arrays)
         self.driving = driving_tables(network, motions)
         self.time, self.step = start.time, 0.0
+        self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
         # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step behind
         self.ledger = np.zeros(6)
         self.place[:], self.speed[:] = start.position.T, start.velocity.T
@@ -131,13 +132,36 @@ class ExplicitRun:
             inverse[row, dry] = (self.arrays.node(name) / self.arrays.node("mass"))[dry]
         return step_limit(self.arrays, self.place, inverse)
 
+    def _load_rate(self) -> float:
+        """Return the fastest rate at which drag damps or floats bob, thrice weighted, anywhere [1/s]."""
+        rate = float(self.packed.bar_row(kernel.RATE).max(initial=0.0))
+        # also at the speed of what drives the network, which the bars may not have yet
+        lively = 2.0 * self.arrays.bar("drag_normal") * self.arrays.bar("per_mass")
+        rate = max(rate, self.fastest_drive * float(lively.max(initial=0.0)))
+        arrays = self.arrays
+        rows = {name: arrays.node(name) for name in ("drag", "mass", "added_mass", "volume", "height")}
+        speed = np.linalg.norm(self.water[:3] - self.speed, axis=0)
+        rate = max(rate, float(np.max(2.0 * rows["drag"] * speed / (rows["mass"] + rows["added_mass"]), initial=0.0)))
+        lift = self.network.water.density * self.network.water.gravity
+        with np.errstate(divide="ignore", invalid="ignore"):
+            stiff = np.where(rows["height"] > 0.0, 1.5 * lift * rows["volume"] / rows["height"], 0.0)
+        rate = max(rate, 3.0 * math.sqrt(float(np.max(stiff / rows["mass"], initial=0.0))))
+        if self._near_surface():
+            bob = arrays.bar("buoyancy") / arrays.bar("radius") * arrays.bar("per_mass")
+            near = np.maximum(self.place[2, arrays.start], self.place[2, arrays.end]) > float(np.min(self.water[6])) - 1.0
+            # a bar that crosses the surface steeply bobs over its height, a floating one over its diameter
+            tall = np.abs(self.place[2, arrays.start] - self.place[2, arrays.end])
+            flat = arrays.bar("radius") / (arrays.bar("radius") + 0.5 * tall)
+            rate = max(rate, 3.0 * math.sqrt(float(np.max(bob * flat * near, initial=0.0))))
+        return rate
+
     def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
         """Return step, steps per load interval and load intervals per row that fill ``row_interval``."""
-        largest = self.safety * self.limit()[0] if wanted is None else wanted
+        fastest = self._load_rate()
+        largest = min(self.safety * self.limit()[0], DRAG_SHARE / max(fastest, 1e-300)) if wanted is None else wanted
         least = max(1, math.ceil(row_interval / largest * (1.0 - 1e-12)))
         most = min(self.load_steps, least)
-        drag = float(self.packed.bar_row(kernel.RATE).max(initial=0.0))
-        while most > 1 and most * row_interval / least * drag > DRAG_SHARE:
+        while most > 1 and most * row_interval / least * fastest > DRAG_SHARE:
             most -= 1
         # the cheapest way to fill the row: the loads cost about as much as two steps
         choices = [(math.ceil(least / n), n) for n in range(1, most + 1)]

@@ -549,7 +549,8 @@ def _stage(
             for axis in range(3):
                 step = right[3 * rank[i] + axis] * nodes[9 + axis, i]
                 guess[i, axis] += step
-                change[i, axis] = gain * gain * step
+                # a short step must not hide an error of the velocity behind its own square
+                change[i, axis] = gain * max(gain, 0.02) * step
         size = _measure(change, place, start, end, spring, limits[0], limits[1])
         if not size < 1e12:
             return 1

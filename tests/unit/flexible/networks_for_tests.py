@@ -13,7 +13,7 @@ NO_GRAVITY = Water(math.inf, 1000.0, 1e-12)
 DEEP = -500.0
 
 
-def random_network(rng, *, bed=True, bending=True, curve=True, held=True, tension_only=True, nodes=9):
+def random_network(rng, *, bed=True, bending=True, curve=True, held=True, tension_only=True, buoyant=True, nodes=9):
     """Nodes at random places, joined by a path and random further bars of random types."""
     water = Water(30.0, rng.uniform(900, 1100), 9.81)
     types = tuple(
@@ -21,7 +21,7 @@ def random_network(rng, *, bed=True, bending=True, curve=True, held=True, tensio
             f"type {i}",
             rng.uniform(0.5, 20.0),
             10.0 ** rng.uniform(3, 6),
-            rng.uniform(0.01, 0.2),
+            rng.uniform(0.01, 0.2 if buoyant else 0.02),
             viscosity=10.0 ** rng.uniform(0, 3),
             drag_normal=rng.uniform(0.5, 2.0),
             drag_tangential=rng.uniform(0.0, 0.5),
@@ -47,7 +47,7 @@ def random_network(rng, *, bed=True, bending=True, curve=True, held=True, tensio
         kind,
         holds,
         mass=rng.uniform(0.0, 30.0, nodes) * (rng.random(nodes) < 0.5),
-        volume=rng.uniform(0.0, 0.05, nodes) * (rng.random(nodes) < 0.5),
+        volume=rng.uniform(0.0, 0.05, nodes) * (rng.random(nodes) < 0.5) * buoyant,
         drag_area=rng.uniform(0.0, 1.0, nodes) * (rng.random(nodes) < 0.5),
         added_mass=rng.uniform(0.0, 30.0, nodes) * (rng.random(nodes) < 0.5),
         height=rng.uniform(0.1, 1.0, nodes),
