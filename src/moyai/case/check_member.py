@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +40,8 @@ def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
     if findings.sound("structure"):
         _check_waves(model, problem, findings)
         _check_law(model, problem, findings)
+    if findings.sound("waves", "structure"):
+        _check_existence(model, problem, findings)
 
 
 def _check_settings(model: schema.MemberCase, findings: Findings) -> None:
@@ -135,6 +138,28 @@ def _check_waves(model: schema.MemberCase, problem: MemberProblem, findings: Fin
                     record(wave_path(findings, index, key), f"{notice.message}{where}", remedy=notice.remedy)
 
 
+def _check_existence(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
+    """Try to make every wave: a current may block it, and a theory may have no solution."""
+    from moyai.member.waves import waves_of
+    from moyai.sea.states import IrregularSea
+
+    for index, sea in enumerate(problem.seas):
+        # a short piece of an irregular sea has the same band of frequencies
+        short = (
+            replace(sea, duration=min(sea.duration, 20.0 * sea.spectrum.peak_period))
+            if isinstance(sea, IrregularSea)
+            else sea
+        )
+        for _, level in problem.environment.water_levels:
+            try:
+                waves_of(problem, short, problem.environment.water_at(level))
+            except (InputError, ConvergenceError) as error:
+                fault = error.fault
+                path: KeyPath = ("current",) if "current" in fault.path else wave_path(findings, index)
+                findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+                break
+
+
 def _check_law(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
     """Warn where waves take the member beyond the circulation law, and where a current leaves it without data."""
     law = problem.circulation
@@ -172,7 +197,7 @@ def largest_numbers(problem: MemberProblem) -> list[float]:
             pairs = sea.waves()
         else:
             # amplitude of the harmonic motion of equal variance
-            pairs = ((float(sea.spectrum.significant_height) / math.sqrt(2.0), float(sea.spectrum.peak_period)),)
+            pairs = ((float(sea.spectrum.significant_height) / math.sqrt(2.0), float(sea.spectrum.mean_period)),)
         height, period = np.array([h for h, _ in pairs]), np.array([t for _, t in pairs])
         number = np.array([wave_number(2.0 * math.pi / t, water.depth, water.gravity) for t in period])
         horizontal = depth_functions(number, water.depth, top)[0]

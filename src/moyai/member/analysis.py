@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
@@ -118,6 +119,7 @@ def _sea_steps(
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, water)
     runs: list[tuple[Wave, WaveForces]] = []
+    told: list[Notice] = []
     for number, wave in enumerate(waves):
         progress(f"forces, {sea.name}", number, len(waves))
         found = march(problem, member, wave)
@@ -125,14 +127,30 @@ def _sea_steps(
         label = f"wave {number + 1}" if wave.regular else "sea"
         collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(wave, found)
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
-        for notice in wave_notices(problem, member, wave, found):
-            collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
+        told.extend(wave_notices(problem, member, wave, found))
         if isinstance(sea, IrregularSea):
             collected.checks.append(_variance(sea.name, sea, found))
         else:
             collected.checks.append(_periodicity(sea.name, wave, found))
         yield
+    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in _gravest(told))
     progress(f"forces, {sea.name}", len(waves), len(waves))
+
+
+def _gravest(notices: list[Notice]) -> list[Notice]:
+    """Keep of each kind the notice farthest beyond its limit: one message a sea, not one a wave."""
+    kept: dict[str, Notice] = {}
+    for notice in notices:
+        known = kept.get(notice.code)
+        if known is None or _excess(notice) > _excess(known):
+            kept[notice.code] = notice
+    return list(kept.values())
+
+
+def _excess(notice: Notice) -> float:
+    if not (notice.value > 0.0 and notice.limit > 0.0):
+        return 0.0
+    return abs(math.log(notice.value / notice.limit))
 
 
 def _periodicity(name: str, wave: Wave, found: WaveForces) -> IdentityCheck:

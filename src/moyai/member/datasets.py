@@ -95,7 +95,7 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
         "settled_circulation": ("wave", governing("settled_circulation")),
         "laminar_circulation": ("wave", LAMINAR_EDGE * speeds.prod(axis=1) * period),
         "maximum_force": (("wave", "component"), np.array([np.abs(item).max(axis=0) for item in force])),
-        "mean_force": (("wave", "component"), np.array([item.mean(axis=0) for item in force])),
+        "mean_force": (("wave", "component"), np.array([_mean(item) for item in force])),
         "force_deviation": (("wave", "component"), np.array([item.std(axis=0) for item in force])),
         "maximum_total_force": ("wave", np.array([np.linalg.norm(item, axis=1).max() for item in force])),
         "maximum_moment": (("wave", "component"), np.array([np.abs(item).max(axis=0) for item in moment])),
@@ -121,6 +121,12 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
     )
     out["strip_keulegan_carpenter"].attrs = {"units": "1", "long_name": "Keulegan-Carpenter number along the member"}
     return out
+
+
+def _mean(force: np.ndarray) -> np.ndarray:
+    """Return the mean without what is only rounding of the largest force."""
+    mean = force.mean(axis=0)
+    return np.where(np.abs(mean) < 1e-12 * np.abs(force).max(), 0.0, mean)
 
 
 def _tail(wave: Wave, values: np.ndarray) -> np.ndarray:
