@@ -66,7 +66,16 @@ def random_network(rng, *, bed=True, bending=True, curve=True, held=True, tensio
 
 
 def rope(
-    *, segments, span=(40.0, 0.0, 0.0), length=40.0, stiffness=1e6, mass=2.0, diameter=1e-9, water=NO_GRAVITY, top=None, **more
+    *,
+    segments,
+    span=(40.0, 0.0, 0.0),
+    length=40.0,
+    stiffness=1e6,
+    mass=2.0,
+    diameter=1e-9,
+    water=NO_GRAVITY,
+    top=None,
+    **more,
 ):
     """A single line from a fixed point to a driven one, deep under the surface."""
     builder = NetworkBuilder(water)

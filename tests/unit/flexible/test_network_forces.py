@@ -128,7 +128,14 @@ def test_momentum_of_a_loose_network_changes_with_its_weight_alone(seed, method)
     rng = np.random.default_rng(300 + seed)
     source = random_network(rng, bed=False, held=False)
     types = tuple(
-        BarType(kind.name, kind.mass_per_length, kind.axial_stiffness, 1e-9, viscosity=kind.viscosity, bending_stiffness=50.0)
+        BarType(
+            kind.name,
+            kind.mass_per_length,
+            kind.axial_stiffness,
+            1e-9,
+            viscosity=kind.viscosity,
+            bending_stiffness=50.0,
+        )
         for kind in source.bars.types
     )
     bars = Bars(source.bars.start, source.bars.end, source.bars.length, source.bars.kind, types)
@@ -145,7 +152,9 @@ def test_momentum_of_a_loose_network_changes_with_its_weight_alone(seed, method)
     size = float(mass @ np.linalg.norm(begin.velocity, axis=1))
     assert gain[:2] == pytest.approx(0.0, abs=1e-7 * size)
     assert gain[2] == pytest.approx(-mass.sum() * 9.81 * duration, rel=1e-7)
-    turn = lambda state: np.sum(mass[:, None] * np.cross(state.position - mass @ state.position / mass.sum(), state.velocity), axis=0)  # noqa: E731
+    turn = lambda state: np.sum(
+        mass[:, None] * np.cross(state.position - mass @ state.position / mass.sum(), state.velocity), axis=0
+    )  # noqa: E731
     if method == "explicit":
         centre = lambda s: mass @ s.velocity / mass.sum()  # noqa: E731
         assert np.isfinite(centre(history.final)).all()

@@ -48,7 +48,11 @@ def test_energy_of_smooth_motion_is_kept_for_a_hundred_periods():
     period = 4.0 * math.sqrt(2.0 / 9.81) * ellipk(math.sin(0.5) ** 2)
     start = solve_equilibrium(network).state.position
     stretched = np.linalg.norm(start[1] - start[0])
-    begin = State(0.0, np.array([[0, 0, DEEP], [stretched * math.sin(1.0), 0.0, DEEP - stretched * math.cos(1.0)]]), np.zeros((2, 3)))
+    begin = State(
+        0.0,
+        np.array([[0, 0, DEEP], [stretched * math.sin(1.0), 0.0, DEEP - stretched * math.cos(1.0)]]),
+        np.zeros((2, 3)),
+    )
     history = simulate(network, duration=100.0 * period, output_step=period / 40.0, start=begin)
     swing = 3.0 * 9.81 * 2.0 * (1.0 - math.cos(1.0))
     assert np.max(np.abs(history.energy_balance)) < 1e-3 * swing
@@ -86,7 +90,9 @@ def test_string_swings_with_its_first_mode():
     begin = State.at_rest(network)
     begin.velocity[:, 2] = 1e-3 * np.sin(math.pi * network.nodes.position[:, 0] / 40.2)
     begin.velocity[-1] = 0.0
-    history = simulate(network, {"end": still()}, duration=12 * math.pi / omega, output_step=0.01 * math.pi / omega, start=begin)
+    history = simulate(
+        network, {"end": still()}, duration=12 * math.pi / omega, output_step=0.01 * math.pi / omega, start=begin
+    )
     z = history.position[:, 15, 2] - DEEP
     rises = np.flatnonzero((z[:-1] < 0.0) & (z[1:] >= 0.0))
     when = history.time[rises] - z[rises] / (z[rises + 1] - z[rises]) * (history.time[1] - history.time[0])
@@ -114,7 +120,10 @@ def test_coefficients_meet_their_order_conditions():
         # stiffly accurate with an explicit first stage: stable at infinity when the last weights solve the stages
         s = len(tableau.embedded)
         inner = tableau.stages[1:, 1:]
-        assert abs(tableau.stages[-1, 0] - tableau.stages[-1, 1:] @ np.linalg.solve(inner, tableau.stages[1:, 0])) < 1e-12 or s == 3
+        assert (
+            abs(tableau.stages[-1, 0] - tableau.stages[-1, 1:] @ np.linalg.solve(inner, tableau.stages[1:, 0])) < 1e-12
+            or s == 3
+        )
 
 
 @pytest.mark.parametrize(("method", "order"), [("explicit", 2), ("tr_bdf2", 2), ("esdirk4", 4)])
@@ -124,11 +133,15 @@ def test_order_of_accuracy(method, order):
     builder.fixed("pivot", (0.0, 0.0, DEEP))
     builder.free("bob", (0.6, 0.0, DEEP - 2.1), mass=3.0)
     viscosity = 0.0 if method == "explicit" else 5.0
-    builder.line("band", "pivot", "bob", BarType("band", 1e-9, 300.0, 1e-9, viscosity=viscosity), length=2.0, segments=1)
+    builder.line(
+        "band", "pivot", "bob", BarType("band", 1e-9, 300.0, 1e-9, viscosity=viscosity), length=2.0, segments=1
+    )
     network = builder.build()
 
     def end(step):
-        history = simulate(network, duration=1.6, output_step=0.1, step=step, method=method, load_steps=1, tolerance=1e-11)
+        history = simulate(
+            network, duration=1.6, output_step=0.1, step=step, method=method, load_steps=1, tolerance=1e-11
+        )
         # a slack band would make a kink
         assert history.tension.min() > 1.0
         return history.final.position[1]
@@ -141,7 +154,14 @@ def test_order_of_accuracy(method, order):
 
 
 def test_schemes_agree_on_a_rope_that_snaps():
-    kind = {"stiffness": 1e6, "mass": 3.0, "viscosity": 2e3, "drag_normal": 1.2, "added_mass_normal": 1.0, "diameter": 0.04}
+    kind = {
+        "stiffness": 1e6,
+        "mass": 3.0,
+        "viscosity": 2e3,
+        "drag_normal": 1.2,
+        "added_mass_normal": 1.0,
+        "diameter": 0.04,
+    }
     network = rope(segments=12, span=(39.5, 0.0, 0.0), water=Water(math.inf, 1025.0, 9.81), **kind)
     motion = {"end": Motion.harmonic((1.0, 0.0, 0.0), 3.0, duration=10.0, ramp=1.5)}
     begin = solve_equilibrium(network).state

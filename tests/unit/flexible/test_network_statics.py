@@ -97,7 +97,9 @@ def test_net_in_a_current_comes_to_rest():
     builder = NetworkBuilder(WATER)
     grid = np.zeros((6, 6, 3))
     grid[..., 1], grid[..., 2] = np.arange(6)[None, :], -5.0 - np.arange(6)[:, None]
-    twine = BarType("twine", 0.36, 2e5, 0.02, viscosity=100.0, drag_normal=1.2, drag_tangential=0.03, added_mass_normal=1.0)
+    twine = BarType(
+        "twine", 0.36, 2e5, 0.02, viscosity=100.0, drag_normal=1.2, drag_tangential=0.03, added_mass_normal=1.0
+    )
     builder.net("net", grid, twine, lengths=(1.0, 1.0), top="fixed")
     rest = solve_equilibrium(builder.build(), flow=Flow((0.8, 0.0, 0.0)))
     assert rest.residual < 1e-8
@@ -109,7 +111,9 @@ def test_net_in_a_current_comes_to_rest():
 def test_float_settles_at_its_draught():
     builder = NetworkBuilder(WATER)
     builder.fixed("anchor", (0.0, 0.0, -20.0))
-    builder.float_sphere("buoy", (0.5, 0.0, 0.2), diameter=1.0, mass=200.0, drag_coefficient=0.5, added_mass_coefficient=0.5)
+    builder.float_sphere(
+        "buoy", (0.5, 0.0, 0.2), diameter=1.0, mass=200.0, drag_coefficient=0.5, added_mass_coefficient=0.5
+    )
     builder.line("tether", "anchor", "buoy", BarType("rope", 1e-3, 1e4, 1e-3), length=25.0, segments=1)
     rest = solve_equilibrium(builder.build())
     depth = 0.5 - rest.state.position[1, 2]
