@@ -266,16 +266,20 @@ def flume_record(root: Group) -> Figure | None:
     if time is None or tension is None:
         return None
     factor, unit = common_scale("N", tension)
-    series, marks = [], []
+    series = []
     for tone, name in enumerate(group.labels("cable")):
-        if name == "sum" or not np.isfinite(tension[tone]).any():
-            continue
-        keep = _thinned(tension[tone])
-        series.append(Series(name, {"time": time[keep]}, tension[tone, keep] * factor, tone=tone))
-    for name, words in (("release_time", "release"), ("taut_time", "taut"), ("plateau_start", "plateau")):
-        values = group.real(name, "cable")
-        if values is not None and np.isfinite(values).any():
-            marks.append(Mark(words, x=float(values[np.isfinite(values)][0])))
+        if np.isfinite(tension[tone]).any():
+            keep = _thinned(tension[tone])
+            series.append(Series(name, {"time": time[keep]}, tension[tone, keep] * factor, tone=tone))
+    total = tension.sum(axis=0)
+    if tension.shape[0] > 1 and np.isfinite(total).any():
+        keep = _thinned(total)
+        series.append(Series("sum", {"time": time[keep]}, total[keep] * factor, tone=6))
+    marks = [
+        Mark(words, x=group.value(name))
+        for name, words in (("release_time", "release"), ("taut_time", "taut"), ("plateau_start", "plateau"))
+    ]
+    marks.append(Mark("plateau of the sum", y=group.value("sum_plateau_tension") * factor))
     if not series:
         return None
     return Figure(
@@ -284,8 +288,8 @@ def flume_record(root: Group) -> Figure | None:
         (Abscissa("time", "time", "s"),),
         (Panel("tension", unit, from_zero=largest_magnitude(tension) > 0.0),),
         tuple(series),
-        "Impact is the peak less the plateau.",
-        tuple(marks),
+        "Offset and drift removed. Impact is the peak less the plateau.",
+        tuple(mark for mark in marks if mark.known),
         slider=True,
         height=330,
     )

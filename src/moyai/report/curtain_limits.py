@@ -62,8 +62,22 @@ def operating_map(level: CurtainLevel) -> Drawing | None:
         svg,
         with_colours(svg),
         "Largest utilisation of all components over current and wave height, with the component that governs; "
-        "1 is the limit, orange and red are beyond it. Line: height at the limit.",
+        f"1 is the limit, orange and red are beyond it. Line: height at the limit.{_considered(group)}",
     )
+
+
+def _considered(group: Group) -> str:
+    """Say which loads the map takes besides the steady ones."""
+    words = {
+        "with_impact": "impact",
+        "with_snaps": "snaps in waves",
+        "with_energy_model": "energy model of the anchors",
+    }
+    known = [name for name in words if name in group.attributes]
+    if not known:
+        return ""
+    taken = [words[name] for name in known if float(group.attributes[name]) > 0.0]
+    return f" Beside the steady load: {', '.join(taken) if taken else 'nothing'}."
 
 
 def _map(group: Group, speed: Array, height: Array, used: Array, names: NDArray[np.str_] | None) -> str:

@@ -50,7 +50,7 @@ def compose(result: Result) -> Document:
             return ()
         return (Choice(LEVEL_GROUP, "Water level", tuple(options), default),)
 
-    record = [figures.flume_record(root), tables.record_table(root)]
+    record = [figures.flume_record(root), *tables.record_tables(root)]
     sections = [
         Section(
             "summary",

@@ -62,19 +62,21 @@ def regular_tension(level: CurtainLevel, sea: Group) -> Figure | None:
 
 def exceedance(level: CurtainLevel, sea: Group) -> Figure | None:
     """Return the snaps of an irregular sea by their probability of exceedance, with the fitted law."""
-    load, share = sea.real("contact_tension_sorted", "contact"), sea.real("exceedance", "contact")
+    load, share = sea.real("contact_tension_sorted", "snap"), sea.real("exceedance", "snap")
     if load is None or share is None or load.size < 2:
         return None
     factor, unit = common_scale("N", load)
     series = [Series("snaps", {"share": share}, load * factor, tone=0, style="points")]
-    fitted = sea.real("fitted_exceedance", "contact")
+    fitted = sea.real("fitted_exceedance", "snap")
     if fitted is not None:
         known = np.isfinite(fitted) & (fitted > 0.2 / load.size)
         if known.sum() > 1:
             order = np.argsort(fitted[known])
             series.append(Series("fit", {"share": fitted[known][order]}, (load[known] * factor)[order], tone=1))
     shape, scale, threshold = (sea.value(f"weibull_{name}") for name in ("shape", "scale", "threshold"))
-    caption = f"{load.size} contacts."
+    caption = f"{load.size} snaps."
+    probable = sea.value("most_probable_maximum")
+    marks = (Mark(f"most probable maximum {format_quantity(probable, 'N')}", y=probable * factor),)
     if math.isfinite(shape):
         caption += (
             f" Fit: three-parameter Weibull law, shape {shape:.3g}, scale {format_quantity(scale, 'N')}, "
@@ -87,6 +89,7 @@ def exceedance(level: CurtainLevel, sea: Group) -> Figure | None:
         (Panel("tension of both cables", unit, from_zero=True),),
         tuple(series),
         caption,
+        tuple(mark for mark in marks if mark.known),
         height=330,
     )
 
@@ -206,23 +209,31 @@ def anchor_against_direction(level: CurtainLevel) -> Figure | None:
 
 
 def anchor_against_velocity(level: CurtainLevel) -> Figure | None:
-    """Return the rope tension of all sea states and direction rules over the squared velocity."""
+    """Return the rope tension over the squared velocity: along the height of each sea state, and as they are."""
     group = level.part("anchor_loads")
-    load = group.real("rule_tension", "sea", "direction_rule")
-    square = group.real("rule_squared_velocity", "sea", "direction_rule")
-    if load is None or square is None or load.size < 2:
+    load, square = (
+        group.real("height_tension", "sea", "height_step"),
+        group.real("height_squared_velocity", "sea", "height_step"),
+    )
+    own, at = group.real("rope_tension_pretensioned", "sea"), group.real("squared_velocity", "sea")
+    if (load is None or square is None) and (own is None or at is None or own.size < 2):
         return None
-    factor, unit = common_scale("N", load)
-    series = [
-        Series(name, {"square": square[row]}, load[row] * factor, tone=row, style="points")
-        for row, name in enumerate(group.labels("sea"))
-    ]
+    factor, unit = common_scale("N", load, own)
+    series = []
+    if load is not None and square is not None:
+        series = [
+            Series(name, {"square": square[row]}, load[row] * factor, tone=row)
+            for row, name in enumerate(group.labels("sea"))
+            if np.isfinite(square[row] + load[row]).any()
+        ]
+    if own is not None and at is not None and np.isfinite(own).any():
+        series.append(Series("the sea states", {"square": at}, own * factor, tone=6, style="points"))
     return Figure(
         key(level, "anchor-velocity"),
         "Rope tension against squared velocity",
         (Abscissa("square", "squared velocity over the curtain's depth, at the crest", "m2/s2"),),
         (Panel("rise above the pretension", unit, from_zero=True),),
         tuple(series),
-        "One point a direction rule: height times cos², height times cos, no reduction.",
+        "Energy model; period and direction of each sea state kept, its height varied.",
         height=310,
     )

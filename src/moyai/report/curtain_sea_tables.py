@@ -6,7 +6,7 @@ import numpy as np
 
 from moyai.report.curtain_reading import CurtainLevel, key
 from moyai.report.document import Column, Table
-from moyai.report.formatting import format_number, format_quantity
+from moyai.report.formatting import display_unit, format_number, format_quantity, pretty_unit
 from moyai.report.reading import Group
 
 MOST_CONTACTS = 12
@@ -22,9 +22,10 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         ("excursion", "Excursion", "m"),
         ("threshold_excursion", "Excursion that pulls taut", "m"),
         ("maximum_tension", "Largest tension", "N"),
+        ("mean_tension", "Mean tension", "N"),
         ("first_contact_tension", "First contacts", "N"),
         ("later_contact_tension", "Later contacts", "N"),
-        ("contact_speed", "Speed when taut", "m/s"),
+        ("largest_contact_speed", "Speed when taut", "m/s"),
         ("contact_count", "Contacts", ""),
         ("first_contact_count", "First of them", ""),
         ("closed_form_tension", "Closed form", "N"),
@@ -52,9 +53,17 @@ def irregular_table(level: CurtainLevel, sea: Group) -> Table | None:
     rows = (
         ("significant_height", "significant wave height", "m"),
         ("maximum_tension", "largest tension of both cables", "N"),
+        ("most_probable_maximum", "most probable maximum", "N"),
+        ("most_probable_maximum_low", "its range, from", "N"),
+        ("most_probable_maximum_high", "to", "N"),
+        ("later_contact_tension", "largest of later contacts", "N"),
+        ("mean_tension", "mean tension", "N"),
+        ("taut_share", "share of the time that it is taut", ""),
+        ("analysed_hours", "hours analysed", ""),
         ("contact_count", "contacts", ""),
         ("first_contact_count", "first contacts of a side", ""),
         ("contacts_per_hour", "contacts per hour", ""),
+        ("snaps_per_hour", "snaps per hour", ""),
         ("weibull_shape", "shape of the fitted Weibull law", ""),
         ("weibull_scale", "its scale", "N"),
         ("weibull_threshold", "its threshold", "N"),
@@ -62,12 +71,14 @@ def irregular_table(level: CurtainLevel, sea: Group) -> Table | None:
     known = [(label, sea.value(name), unit) for name, label, unit in rows if sea.variable(name) is not None]
     if not known or sea.real("period", "period") is not None:
         return None
+    shown = [display_unit(unit, value) for _, value, unit in known]
     return Table(
         key(level, sea.name, "irregular"),
         "Snaps of the sea state",
         (
             Column("Quantity", [label for label, _, _ in known]),
-            Column("Value", [format_quantity(v, unit) if unit else format_number(v) for _, v, unit in known]),
+            Column("Value", [v * unit.factor for (_, v, _), unit in zip(known, shown, strict=True)], uniform=False),
+            Column("Unit", [pretty_unit(unit.name) for unit in shown]),
         ),
     )
 

@@ -13,6 +13,7 @@ from moyai.report.curtain_reading import (
     components,
     governing_component,
 )
+from moyai.report.curtain_tables import counted_spread
 from moyai.report.document import Block, Column, KeyFigure, KeyFigures, Paragraph, Table
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent, format_quantity
 from moyai.report.general_page import notice_blocks
@@ -118,8 +119,11 @@ def _limit_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
         what = str(level.part("limits").attributes.get("speed_limit_governing", "")) or "limit"
         own = level.part("statics").value("surface_speed")
         beyond = math.isfinite(own) and own > value
+        open_ended = math.isinf(value) or what == "not reached"
         text = "not reached" if math.isinf(value) else format_quantity(value, "m/s")
-        detail = f"{what} governs: {level.name}, no waves"
+        detail = (
+            f"no limit up to there: {level.name}, no waves" if open_ended else f"{what} governs: {level.name}, no waves"
+        )
         if math.isfinite(own):
             detail += f"; current of the case {format_quantity(own, 'm/s')}"
         items.append(KeyFigure("Holds up to a current of", text, detail, judgement="bad" if beyond else ""))
@@ -216,7 +220,7 @@ def _impact_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
     group = level.part("impact")
     model = str(group.attributes.get("design_model", ""))
     parts = [f"model {model}" if model else "", f"taut at {format_quantity(group.value('start_speed'), 'm/s')}"]
-    spread = group.value("spread")
+    spread = counted_spread(level)
     if math.isfinite(spread):
         parts.append(f"models spread by a factor of {format_number(spread)}")
     words = ", ".join(part for part in parts if part)

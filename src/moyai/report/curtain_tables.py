@@ -69,7 +69,7 @@ _IMPACT = (
     ("relative_step", "ω dt of the marching", ""),
     ("time_step", "time step", "s"),
     ("plateau_tension", "plateau by drag", "N"),
-    ("spread", "largest over smallest of the models that count", ""),
+    ("spread", "largest over smallest of all but model B literal", ""),
     ("design_tension", "tension taken for design", "N"),
 )
 _PAPER = (
@@ -270,6 +270,20 @@ def planning_table(level: CurtainLevel) -> Table | None:
     )
 
 
+def counted_spread(level: CurtainLevel) -> float:
+    """Return the largest over the smallest tension of the impact models that count, NaN where there are not two."""
+    group = level.part("impact")
+    tension, counts = group.real("impact_tension", "impact_model"), group.real("counts", "impact_model")
+    if tension is None:
+        return math.nan
+    known = tension[
+        np.isfinite(tension)
+        & (tension > 0.0)
+        & (np.ones(tension.size) if counts is None else counts > 0.0).astype(bool)
+    ]
+    return float(known.max() / known.min()) if known.size > 1 else math.nan
+
+
 def impact_tables(level: CurtainLevel) -> list[Table]:
     """Return all impact models in one table, and the numbers that they rest on."""
     group = level.part("impact")
@@ -283,7 +297,7 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
 
     counts = group.real("counts", "impact_model")
     design = str(group.attributes.get("design_model", ""))
-    spread = group.value("spread")
+    spread = counted_spread(level)
     note = "Sum of both cables, above the drag. "
     if math.isfinite(spread):
         note += f"The largest of the models that count is {format_number(spread)} times the smallest."
@@ -297,6 +311,9 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
         Column("Taut to peak", column("impact_time"), "s"),
         Column("Assumption", words(group, "assumption", "impact_model", len(names))),
     ]
+    for name, label in (("record_ratio", "Over the record"), ("record_time_ratio", "Its time over the record's")):
+        if group.real(name, "impact_model") is not None:
+            columns.insert(-1, Column(label, column(name)))
     if counts is not None:
         columns.insert(1, Column("Counts", ["yes" if value > 0.0 else "no" for value in counts]))
     tables = [
@@ -316,25 +333,51 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
     return tables
 
 
-def record_table(root: Group) -> Table | None:
-    """Return the readings of a flume record per cable and summed."""
+def record_tables(root: Group) -> list[Table]:
+    """Return the instants of a flume record, and peak, plateau and impact of each cable and of their sum."""
     group = root.child("record")
     names = group.labels("cable")
-    rows = (
-        ("release_time", "Release", "s"),
-        ("taut_time", "Taut", "s"),
-        ("peak_time", "Peak", "s"),
-        ("plateau_start", "Plateau from", "s"),
-        ("rise_time", "Rise time", "s"),
-        ("peak_tension", "Peak", "N"),
-        ("plateau_tension", "Plateau", "N"),
-        ("impact_tension", "Impact", "N"),
-    )
+    if not names:
+        return []
+    rows = (("peak", "Peak"), ("plateau", "Plateau"), ("impact", "Impact"))
     columns = [
-        Column(label, [float(value) for value in values], unit)
-        for name, label, unit in rows
-        if (values := group.real(name, "cable")) is not None
+        Column(label, [*(float(value) for value in values), group.value(f"sum_{name}_tension")], "N")
+        for name, label in rows
+        if (values := group.real(f"cable_{name}_tension", "cable")) is not None
     ]
-    if not names or not columns:
-        return None
-    return Table("flume-readings", "Readings of the flume record", (Column("Cable", list(names)), *columns))
+    noise = group.real("cable_noise", "cable")
+    if noise is not None and columns:
+        columns.append(Column("Noise", [*(float(value) for value in noise), math.nan], "N"))
+    tables = []
+    if columns:
+        cables = Column("Cable", [*names, "sum"])
+        tables.append(
+            Table(
+                "flume-readings", "Readings of the flume record", (cables, *columns), note="Impact: peak less plateau."
+            )
+        )
+    instants = [
+        (words, group.value(name))
+        for name, words in (
+            ("release_time", "release"),
+            ("taut_time", "taut"),
+            ("peak_time", "peak"),
+            ("plateau_start", "plateau from"),
+            ("rise_time", "rise, taut to peak"),
+            ("peak_missed", "share of the peak that the sampling may miss"),
+        )
+        if group.variable(name) is not None
+    ]
+    if instants:
+        tables.append(
+            Table(
+                "flume-instants",
+                "Instants of the flume record",
+                (
+                    Column("What", [words for words, _ in instants]),
+                    Column("Value", [value for _, value in instants], uniform=False),
+                    Column("Unit", ["" if words.startswith("share") else "s" for words, _ in instants]),
+                ),
+            )
+        )
+    return tables

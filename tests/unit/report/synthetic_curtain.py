@@ -199,7 +199,7 @@ def waves(factor: float) -> dict[str, xr.Dataset]:
             "threshold_excursion": v("period", 10.2 + 0 * period, "m"), "maximum_tension": v("period", peak, "N"),
             "first_contact_tension": v("period", 0.98 * peak, "N"),
             "later_contact_tension": v("period", 0.4 * peak, "N"),
-            "contact_speed": v("period", 0.1 * period, "m/s"), "contact_count": v("period", [0, 30, 25, 19]),
+            "largest_contact_speed": v("period", 0.1 * period, "m/s"), "contact_count": v("period", [0, 30, 25, 19]),
             "first_contact_count": v("period", [0, 10, 10, 10]), "closed_form_tension": v("period", 1.05 * peak, "N"),
         },
         {"period": v("period", period, "s")},
@@ -216,10 +216,12 @@ def waves(factor: float) -> dict[str, xr.Dataset]:
         {
             "significant_height": v((), 1.2, "m"), "maximum_tension": v((), tension.max(), "N"),
             "contact_count": v((), 60), "first_contact_count": v((), 41), "contacts_per_hour": v((), 360.0, "1/h"),
-            "weibull_shape": v((), 1.6), "weibull_scale": v((), 8e3 * factor, "N"),
+            "most_probable_maximum": v((), 26e3 * factor, "N"), "taut_share": v((), 0.1),
+            "snaps_per_hour": v((), 360.0, "1/h"), "weibull_shape": v((), 1.6),
+            "weibull_scale": v((), 8e3 * factor, "N"),
             "weibull_threshold": v((), 2e3, "N"),
-            "contact_tension_sorted": v("contact", load, "N"), "exceedance": v("contact", exceedance),
-            "fitted_exceedance": v("contact", np.exp(-(((load - 2e3) / (8e3 * factor)) ** 1.6))),
+            "contact_tension_sorted": v("snap", load, "N"), "exceedance": v("snap", exceedance),
+            "fitted_exceedance": v("snap", np.exp(-(((load - 2e3) / (8e3 * factor)) ** 1.6))),
         }
     )  # fmt: skip
     run = xr.Dataset(
@@ -263,6 +265,7 @@ def anchor_loads() -> xr.Dataset:
             ),
             "height_tension": v(("sea", "height_step"), [8e3 * height, 10e3 * height], "N"),
             "height": v(("sea", "height_step"), [height, height], "m"),
+            "height_squared_velocity": v(("sea", "height_step"), [0.5 * height**2, 0.7 * height**2], "m2/s2"),
             "energy_factor": v((), 0.2), "float_mass": v((), 518.0, "kg"), "rope_stiffness": v((), 890e3, "N/m"),
             "mass_product": v((), 103.6, "kg"), "pretension": v((), 5e3, "N"), "response_time": v((), 0.068, "s"),
         },
@@ -293,7 +296,7 @@ def limits(factor: float) -> xr.Dataset:
             "drowning_speed": v((), 0.62, "m/s"),
         },
         {"speed": v("speed", speed, "m/s"), "height": v("height", height, "m"), "component": COMPONENTS},
-        attrs={"speed_limit_governing": "float"},
+        attrs={"speed_limit_governing": "float", "with_impact": 1, "with_snaps": 0, "with_energy_model": 1},
     )
 
 

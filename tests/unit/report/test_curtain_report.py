@@ -232,6 +232,9 @@ def test_figures_hold_the_result(result: Result, document: Document) -> None:
     drawn = np.nansum(np.nan_to_num([item.y for item in models.series]), axis=0)
     assert drawn * 1e3 == pytest.approx(result.tree["/HWL/impact"]["impact_tension"].values)
     assert len(models.series) == 2, "the model that does not count is told apart"
+    counted = result.tree["/HWL/impact"]["impact_tension"].values[result.tree["/HWL/impact"]["counts"].values > 0]
+    note = named(document, Table, "Impact models")[0].note
+    assert f"{counted.max() / counted.min():.2f} times the smallest" in note
     assert len(named(document, Figure, "Record about the largest snap")) == 2  # one a water level
 
 
@@ -268,17 +271,21 @@ def test_flume_record_is_shown(result: Result) -> None:
     tree["/record"] = xr.DataTree(
         xr.Dataset(
             {
-                "record_tension": (("cable", "time"), np.stack([spike, 1.1 * spike, 2.1 * spike]), {"units": "N"}),
-                "taut_time": ("cable", [3.8, 3.8, 3.8], {"units": "s"}),
-                "peak_tension": ("cable", [9.5, 10.4, 19.9], {"units": "N"}),
-                "plateau_tension": ("cable", [3.0, 3.3, 6.3], {"units": "N"}),
-                "impact_tension": ("cable", [6.5, 7.1, 13.6], {"units": "N"}),
+                "record_tension": (("cable", "time"), np.stack([spike, 1.1 * spike]), {"units": "N"}),
+                "taut_time": ((), 3.8, {"units": "s"}),
+                "cable_peak_tension": ("cable", [9.5, 10.4], {"units": "N"}),
+                "cable_plateau_tension": ("cable", [3.0, 3.3], {"units": "N"}),
+                "cable_impact_tension": ("cable", [6.5, 7.1], {"units": "N"}),
+                "sum_peak_tension": ((), 19.9, {"units": "N"}),
+                "sum_plateau_tension": ((), 6.3, {"units": "N"}),
+                "sum_impact_tension": ((), 13.6, {"units": "N"}),
             },
-            {"cable": ["upper", "lower", "sum"], "time": ("time", time, {"units": "s"})},
+            {"cable": ["upper", "lower"], "time": ("time", time, {"units": "s"})},
         )
     )
     document = compose(replace(result, tree=tree))
     figure = named(document, Figure, "Record of the flume")[0]
-    assert [item.label for item in figure.series] == ["upper", "lower"]
+    assert [item.label for item in figure.series] == ["upper", "lower", "sum"]
     table = named(document, Table, "Readings of the flume record")[0]
     assert list(table.columns[0].values) == ["upper", "lower", "sum"]
+    assert list(table.columns[3].values) == [6.5, 7.1, 13.6]
