@@ -251,7 +251,7 @@ def _values(
     values = np.asarray(array.values)
     values = np.asarray(np.abs(values) if np.iscomplexobj(values) else values, dtype=np.float64)
     if coordinate.size > 1 and coordinate[0] > coordinate[-1]:
-        coordinate, values = coordinate[::-1], values[::-1]
+        coordinate, values = coordinate[::-1].copy(), values[::-1].copy()
     label = str(node[order[0]].attrs.get("long_name", order[0]))
     return values, coordinate, str(variable.attrs.get("units", "")), label
 

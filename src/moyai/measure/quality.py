@@ -417,7 +417,10 @@ def find_drift(moments: Sequence[BlockMoments], channel: str) -> Drift | None:
     upper = np.triu_indices(t.size, 1)
     rate = float(np.median((m[upper[1]] - m[upper[0]]) / (t[upper[1]] - t[upper[0]])))
     rest = mean - rate * (time - time.mean())
-    rest -= rest.mean()
+    rest -= np.median(rest)
+    # Blocks in a wrong unit must not hide a drift of the others
+    reach = 4.0 * 1.4826 * float(np.median(np.abs(rest)))
+    rest = np.clip(rest, -reach, reach)
     variance = float(np.mean(rest**2))
     lag = float(np.mean(rest[1:] * rest[:-1]) / variance) if variance > 0.0 else 0.0
     lag = min(max(lag, 0.0), 0.99)
