@@ -29,6 +29,7 @@ from moyai.cli.console import (
     say,
     tell,
 )
+from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.scale import scale
 from moyai.cli.study import study
@@ -47,6 +48,7 @@ app = typer.Typer(
     help="How moored floating and flexible coastal structures answer waves and currents.",
 )
 app.command()(study)
+app.command()(fit)
 app.add_typer(measure)
 app.command()(compare)
 app.command()(scale)

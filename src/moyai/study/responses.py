@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -67,6 +68,64 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
     return found
 
 
+def read_response(tree: xr.DataTree, name: str, sign: int = 1) -> float:
+    """Return one number of a result.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+    name : str
+        Group and name, perhaps with labels: ``SWL/frequency/waves/motion_ratio[dof=roll]``.
+    sign : int
+        1 for the largest entry of what is left, -1 for the smallest.
+
+    Raises
+    ------
+    InputError
+        When there is no such variable, dimension or label, or it is NaN.
+    """
+    found = re.fullmatch(r"(?P<name>[^\[\]]+?)\s*(?:\[(?P<labels>[^\[\]]*)\])?", name.strip())
+    if found is None:
+        raise InputError(f"'{name}' is no response", path="response", allowed="group/name or group/name[line=seaward]")
+    group, _, last = found["name"].rpartition("/")
+    variable = _variable(tree, group, last)
+    for pair in filter(None, (part.strip() for part in (found["labels"] or "").split(","))):
+        dim, _, label = (part.strip() for part in pair.partition("="))
+        if dim not in variable.dims:
+            raise InputError(
+                f"'{found['name']}' has no '{dim}'", path="response", allowed=", ".join(map(str, variable.dims))
+            )
+        labels = [str(item) for item in variable.coords[dim].values] if dim in variable.coords else []
+        if label not in labels:
+            raise InputError(
+                f"'{found['name']}' has no {dim} '{label}'", path="response", allowed=", ".join(labels[:12])
+            )
+        variable = variable.isel({dim: labels.index(label)})
+    values = np.asarray(variable.values)
+    values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
+    if np.isnan(values).all():
+        raise InputError(f"the response '{name}' is not known in this case (NaN)", path="response")
+    return float(np.nanmax(values) if sign > 0 else np.nanmin(values))
+
+
+def _variable(tree: xr.DataTree, group: str, name: str) -> xr.DataArray:
+    """Return a variable, or say which there are."""
+    try:
+        node: Any = tree[group] if group else tree
+    except KeyError:
+        node = None
+    if node is None or name not in getattr(node, "data_vars", {}):
+        near = sorted(_key(other.path, str(one)) for other in tree.subtree for one in other.data_vars)
+        same = [entry for entry in near if entry.rsplit("/", 1)[-1] == name][:6]
+        raise InputError(
+            f"the result has no variable '{_key(group, name)}'",
+            path="responses",
+            allowed=", ".join(same) if same else f"one of {len(near)} variables, such as {', '.join(near[:4])}",
+        )
+    found: xr.DataArray = node[name]
+    return found
+
+
 def _key(path: str, name: str) -> str:
     group = path.strip("/")
     return f"{group}/{name}" if group else name
@@ -96,19 +155,7 @@ def _record(variable: xr.DataArray) -> dict[str, Any]:
 
 def _reduced(tree: xr.DataTree, item: Wanted) -> dict[str, Any]:
     group, _, name = item.variable.rpartition("/")
-    try:
-        node: Any = tree[group] if group else tree
-    except KeyError:
-        node = None
-    if node is None or name not in getattr(node, "data_vars", {}):
-        near = sorted(_key(other.path, str(one)) for other in tree.subtree for one in other.data_vars)
-        same = [entry for entry in near if entry.rsplit("/", 1)[-1] == name][:6]
-        raise InputError(
-            f"the result has no variable '{item.variable}'",
-            path="responses",
-            allowed=", ".join(same) if same else f"one of {len(near)} variables, such as {', '.join(near[:4])}",
-        )
-    variable = node[name]
+    variable = _variable(tree, group, name)
     if np.iscomplexobj(variable.values):
         variable = abs(variable).assign_attrs(variable.attrs)
     if item.reduce == "all":

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,8 +19,11 @@ from moyai.core.progress import Progress
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result
 from moyai.study.plan import RunCase, varied
-from moyai.study.responses import kept
+from moyai.study.responses import read_response
 from moyai.study.variations import Combination, common_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,8 @@ class Limit:
     Parameters
     ----------
     response : str
-        Group and name of a kept response; its largest entry counts.
+        Group and name in the result, perhaps with labels: ``SWL/time/storm/tension[line=seaward]``; its largest entry
+        counts.
     value : float
         The limit.
     sign : int
@@ -41,7 +45,7 @@ class Limit:
     value: float
     sign: int
 
-    def excess(self, values: dict[str, Any]) -> float:
+    def excess(self, tree: xr.DataTree) -> float:
         """Return how far the limit is exceeded, relative to it; zero or less holds.
 
         Raises
@@ -49,26 +53,9 @@ class Limit:
         InputError
             When the result has no such response.
         """
-        found = response_value(values, self.response, self.sign)
+        found = read_response(tree, self.response, self.sign)
         scale = abs(self.value) if self.value != 0.0 else 1.0
         return self.sign * (found - self.value) / scale
-
-
-def response_value(values: dict[str, Any], name: str, sign: int = 1) -> float:
-    """Return the largest entry of a response (the smallest for ``sign = -1``)."""
-    if name not in values:
-        last = name.rsplit("/", 1)[-1]
-        same = [one for one in values if one.rsplit("/", 1)[-1] == last][:5]
-        raise InputError(
-            f"the result has no response '{name}'",
-            path="response",
-            allowed=", ".join(same) or ", ".join(list(values)[:5]) + ", ...",
-            remedy="list it under 'responses' if it is a series",
-        )
-    data = np.asarray(values[name]["values"], dtype=float)
-    if np.isnan(data).all():
-        raise InputError(f"the response '{name}' is not known in this case (NaN)", path="response")
-    return float(np.nanmax(data) if sign > 0 else np.nanmin(data))
 
 
 @dataclass(frozen=True)
@@ -193,9 +180,9 @@ class OptimiseRun:
                 change = {path: _written(low + at * (high - low), unit)
                           for (path, low, high, unit), at in zip(ranges, key)}  # fmt: skip
                 try:
-                    values = _values(self.run, case, change, progress)
-                    excess = max((one.excess(values) for one in limits), default=-1.0)
-                    seen[key] = (response_value(values, self.minimise), excess)
+                    tree = _tree(self.run, case, change, progress)
+                    excess = max((one.excess(tree) for one in limits), default=-1.0)
+                    seen[key] = (read_response(tree, self.minimise), excess)
                 except CaseError:
                     # A refused combination (a line that cannot reach) lies outside; the search turns back from it
                     seen[key] = (math.inf, math.inf)
@@ -263,19 +250,19 @@ class OptimiseRun:
 def _excess(
     run: RunCase, case: Case, limits: tuple[Limit, ...], change: dict[str, Any], progress: Progress
 ) -> tuple[float, str]:
-    values = _values(run, case, change, progress)
-    worst = max((one.excess(values), one.response) for one in limits)
-    return worst
+    tree = _tree(run, case, change, progress)
+    return max((one.excess(tree), one.response) for one in limits)
 
 
-def _values(run: RunCase, case: Case, change: dict[str, Any], progress: Progress) -> dict[str, Any]:
+def _tree(run: RunCase, case: Case, change: dict[str, Any], progress: Progress) -> xr.DataTree:
     document = varied(case.document, Combination(0, (), tuple(change.items())))
     result = run(case_of(document, case.path), progress)
     if result.status in ("not_converged", "failed", "interrupted"):
         if result.status == "interrupted":
             raise KeyboardInterrupt
         raise InputError(f"the case did not converge at {change}: {result.message}", path="study")
-    return kept(result.tree)
+    tree: xr.DataTree = result.tree
+    return tree
 
 
 def _written(value: float, unit: str) -> Any:

@@ -1,0 +1,350 @@
+"""Fit values of a case file to observations through the model itself, and write the case that was found."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.case.reader import case_of, read_block
+from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.core.errors import CaseError, Fault, InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.quantities import parse_quantity
+from moyai.core.results import Result, make_provenance
+from moyai.measure.calibration import Calibration, Parameter, calibrate
+from moyai.study import fit_schema
+from moyai.study.paths import resolve, value_of
+from moyai.study.plan import RunCase, varied
+from moyai.study.responses import read_response
+from moyai.study.variations import Combination, common_unit, read_rows
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One observation.
+
+    Parameters
+    ----------
+    changes : tuple of (str, object)
+        What it sets in the case.
+    observed, error : float
+        Observation and its standard error (NaN where not given).
+    group : str
+        Storm or test.
+    """
+
+    changes: tuple[tuple[str, Any], ...]
+    observed: float
+    error: float
+    group: str
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A fit that was read and found sound.
+
+    Parameters
+    ----------
+    title : str
+    base : Document
+        With the changes that all rows share.
+    base_path : Path
+    parameters : tuple of (Parameter, str)
+        By path, each with the unit in which it is written.
+    rows : tuple of Row
+    response : str
+    bootstrap, seed : int
+    step : float
+    source : str
+        Name and hash of the file of observations.
+    """
+
+    title: str
+    base: Document
+    base_path: Path
+    parameters: tuple[tuple[Parameter, str], ...]
+    rows: tuple[Row, ...]
+    response: str
+    bootstrap: int
+    seed: int
+    step: float
+    source: str
+
+
+def load_fit(path: str | os.PathLike[str]) -> Fit:
+    """Read a fit file and check that its cases can be built.
+
+    Raises
+    ------
+    CaseError
+        With every fault at once.
+    """
+    document = read_yaml(path)
+    block: fit_schema.FitBlock = read_block(document, fit_schema.FitFile).fit
+    folder = Path(path).parent
+    base_path = folder / block.base
+    if not base_path.exists():
+        raise CaseError([document.fault(("fit", "base"), f"no such file: {base_path}")])
+    faults: list[Fault] = []
+
+    def tell(error: InputError, *place: str) -> None:
+        fault = error.fault
+        faults.append(document.fault(("fit", *place), fault.message, allowed=fault.allowed, remedy=fault.remedy))
+
+    base = read_yaml(base_path)
+    case_of(base, base_path)
+    try:
+        base = varied(base, Combination(-1, (), tuple(block.set.items())))
+    except InputError as error:
+        tell(error, "set")
+    parameters = []
+    for name, unknown in block.parameters.items():
+        try:
+            parameters.append(_parameter(base.data, name, unknown))
+        except InputError as error:
+            tell(error, "parameters", name)
+    rows: tuple[Row, ...] = ()
+    try:
+        rows = _rows(block.observations, base.data, folder, set(block.parameters))
+    except InputError as error:
+        tell(error, "observations")
+    if faults:
+        raise CaseError(faults)
+    file = folder / block.observations.file
+    digest = hashlib.sha256(file.read_bytes()).hexdigest()[:12]
+    fit = Fit(
+        block.title, base, base_path, tuple(parameters), rows, block.observations.response, block.bootstrap,
+        block.seed, block.step, f"{file.name} (sha256 {digest})",
+    )  # fmt: skip
+    for row in fit.rows[:: max(1, len(fit.rows) // 20)]:
+        case_of(_document(fit, np.array([item.start for item, _ in fit.parameters]), row), fit.base_path)
+    return fit
+
+
+def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result, Calibration]:
+    """Fit and gather what was found.
+
+    Parameters
+    ----------
+    fit : Fit
+    run : callable
+        ``run(case, progress)``.
+    progress : Progress
+
+    Returns
+    -------
+    Result, Calibration
+        The result's group ``/fit`` holds parameters, covariance, observations and predictions.
+
+    Raises
+    ------
+    InputError
+        When a case fails inside the bounds.
+    ConvergenceError
+        When the fit does not settle.
+    """
+    known: dict[tuple[float, ...], Array] = {}
+
+    def model(values: Array) -> Array:
+        key = tuple(map(float, values))
+        if key not in known:
+            out = []
+            for number, row in enumerate(fit.rows):
+                progress(f"fit, trial {len(known) + 1}", number, len(fit.rows))
+                out.append(_predict(fit, run, values, row))
+            known[key] = np.array(out)
+        return known[key]
+
+    errors = np.array([row.error for row in fit.rows])
+    groups = [row.group for row in fit.rows]
+    found = calibrate(
+        model,
+        [row.observed for row in fit.rows],
+        [item for item, _ in fit.parameters],
+        error=errors if np.isfinite(errors).all() else None,
+        groups=groups if len(set(groups)) > 1 else None,
+        bootstrap=fit.bootstrap,
+        seed=fit.seed,
+        step=fit.step,
+        progress=progress,
+    )
+    return _result(fit, found), found
+
+
+def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> float:
+    try:
+        result = run(case_of(_document(fit, values, row), fit.base_path), silent)
+    except CaseError as error:
+        told = ", ".join(
+            f"{item.name} = {value:g} {item.unit}".strip() for (item, _), value in zip(fit.parameters, values)
+        )
+        raise InputError(
+            f"the case is refused at {told}: {error.faults[0].message}", path="fit", remedy="narrow the bounds"
+        ) from None
+    if result.status == "interrupted":
+        raise KeyboardInterrupt
+    return read_response(result.tree, fit.response)
+
+
+def _document(fit: Fit, values: Array, row: Row) -> Document:
+    changes = [(item.name, _written(float(value), unit)) for (item, unit), value in zip(fit.parameters, values)]
+    return varied(fit.base, Combination(0, (), (*changes, *row.changes)))
+
+
+def _written(value: float, unit: str) -> Any:
+    return f"{value!r} {unit}" if unit else value
+
+
+def _parameter(data: Any, name: str, unknown: fit_schema.Unknown) -> tuple[Parameter, str]:
+    low, high, unit = common_unit(unknown.first, unknown.last, name)
+    if not low < high:
+        raise InputError(f"the range at '{name}' is empty", remedy="give the smaller value first")
+    start = unknown.start if unknown.start is not None else value_of(data, resolve(data, name)[0])
+    if start is None:
+        guess = 0.5 * (low + high)
+    elif isinstance(start, (int, float)) and not isinstance(start, bool):
+        # A plain number in the case is in SI
+        guess = parse_quantity(f"1 {unit}").unit.from_si(float(start)) if unit and unit != "deg" else float(start)
+    else:
+        _, guess, _ = common_unit(unknown.first, start, name)
+    if not low <= guess <= high:
+        raise InputError(
+            f"the first guess {guess:g} {unit}".strip() + " is outside of the range",
+            allowed=f"{low:g} to {high:g} {unit}".strip(),
+        )
+    return Parameter(name, guess, low, high, unit), unit
+
+
+def _rows(given: fit_schema.Observations, data: Any, folder: Path, unknown: set[str]) -> tuple[Row, ...]:
+    from moyai.case.yaml_reader import core_scalar
+
+    file = folder / given.file
+    table = read_rows(file)
+    needed = [*given.columns, given.observed, *(word for word in (given.error, given.group) if word)]
+    for column in needed:
+        if column not in table[0]:
+            raise InputError(f"{file.name} has no column '{column}'", allowed=", ".join(table[0]))
+    for path in given.columns.values():
+        resolve(data, path)
+        if path in unknown:
+            raise InputError(f"'{path}' is both fitted and set by the observations", remedy="leave one out")
+    rows = []
+    for number, row in enumerate(table, start=2):
+        changes = []
+        for column, path in given.columns.items():
+            text = (row[column] or "").strip()
+            if not text:
+                raise InputError(f"{file.name}, row {number}: column '{column}' is empty")
+            changes.append((path, f"{text} {given.units[column]}" if column in given.units else core_scalar(text)))
+        observed = _number(row[given.observed], file, number, given.observed)
+        error = _number(row[given.error], file, number, given.error) if given.error else math.nan
+        if given.error and not error > 0.0:
+            raise InputError(f"{file.name}, row {number}: the error {error:g} is not above zero")
+        rows.append(Row(tuple(changes), observed, error, (row[given.group] or "").strip() if given.group else ""))
+    return tuple(rows)
+
+
+def _number(text: str | None, file: Path, row: int, column: str) -> float:
+    try:
+        value = float((text or "").strip())
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError(f"{file.name}, row {row}, column '{column}': '{text}' is no number")
+    return value
+
+
+def _result(fit: Fit, found: Calibration) -> Result:
+    import xarray as xr
+
+    names = [item.name for item, _ in fit.parameters]
+    units = ", ".join(f"{item.name} [{unit or '1'}]" for item, unit in fit.parameters)
+    data: dict[str, Any] = {
+        "value": (("parameter",), found.values, {"units": units, "long_name": "value found"}),
+        "standard_error": (("parameter",), found.errors, {"units": units, "long_name": "standard error"}),
+        "lower": (("parameter",), found.interval[:, 0], {"units": units, "long_name": "lower end of 95 %"}),
+        "upper": (("parameter",), found.interval[:, 1], {"units": units, "long_name": "upper end of 95 %"}),
+        "observed": (("row",), [row.observed for row in fit.rows], {"units": "1", "long_name": "observed"}),
+        "predicted": (("row",), found.prediction, {"units": "1", "long_name": f"predicted {fit.response}"}),
+        "bias": ((), found.bias, {"units": "1", "long_name": "mean of prediction less observation"}),
+        "rms": ((), found.rms, {"units": "1", "long_name": "root mean square of prediction less observation"}),
+        "evaluations": ((), float(found.evaluations), {"units": "1", "long_name": "calls of the model"}),
+    }
+    coords: dict[str, Any] = {"parameter": names, "row": np.arange(1, len(fit.rows) + 1)}
+    tree = {"/": xr.Dataset(), "/fit": xr.Dataset(data, coords=coords)}
+    if found.left_out:
+        left = found.left_out
+        tree["/left out"] = xr.Dataset(
+            {
+                "value_without": (("group", "parameter"), [one.values for one in left], {"units": units}),
+                "bias_of_group": (("group",), [one.bias for one in left], {"units": "1"}),
+                "rms_of_group": (("group",), [one.rms for one in left], {"units": "1"}),
+            },
+            coords={"group": [one.group for one in left], "parameter": names},
+        )
+    out = xr.DataTree.from_dict(tree)
+    out.attrs.update({"structure": "fit", "title": fit.title, "case_text": fit.base.text})
+    message = f"{len(names)} parameters from {len(fit.rows)} observations"
+    provenance = make_provenance(title=fit.title, base=fit.base_path.name, observations=fit.source)
+    return Result(out, message=message, provenance=provenance).with_notices(*found.notices)
+
+
+def fitted_text(fit: Fit, found: Calibration) -> str:
+    """Return the text of the case with the values that were found, comments and layout kept.
+
+    Every value stands with as many digits as its standard error is worth; the heading tells where they come from.
+    """
+    from moyai import __version__
+
+    original = read_yaml(fit.base_path)
+    text = original.text
+    lines = text.splitlines()
+    heading = [f"# Fitted by moyai {__version__} to {fit.source}, response {fit.response}:"]
+    for number, (item, unit) in enumerate(fit.parameters):
+        value, error = float(found.values[number]), float(found.errors[number])
+        shown = _rounded(value, error)
+        heading.append(f"#   {item.name} = {shown} {unit}".rstrip() + f", standard error {error:.2g}")
+        for place in resolve(original.data, item.name):
+            lines = _replace(lines, original, place, f"{shown} {unit}".strip())
+    return "\n".join([*heading, *lines]) + "\n"
+
+
+def _rounded(value: float, error: float) -> str:
+    """Return the value with two digits beyond the first of its error."""
+    if not (math.isfinite(error) and error > 0.0) or value == 0.0:
+        return f"{value:.10g}"
+    digits = max(2, math.ceil(math.log10(abs(value) / error)) + 3)
+    return f"{value:.{min(digits, 15)}g}"
+
+
+def _replace(lines: list[str], document: Document, place: KeyPath, new: str) -> list[str]:
+    """Return the lines with the scalar at a place replaced; a key that is not there is set in a block of its parent."""
+    if place not in document.values:
+        raise InputError(
+            f"'{place[-1]}' does not stand in the case file, so its value cannot be written there",
+            path=str(place[-1]),
+            remedy="write it into the case with any value first",
+        )
+    at = document.values[place]
+    line = lines[at.line - 1]
+    head, tail = line[: at.column - 1], line[at.column - 1 :]
+    found = re.match(r"""'(?:[^']|'')*'|"(?:[^"\\]|\\.)*"|[^,}\]#]+?(?=\s*(?:[,}\]]|\s#|$))""", tail)
+    if found is None:
+        raise InputError(f"line {at.line} of the case cannot be rewritten", path=str(place[-1]))
+    return [*lines[: at.line - 1], head + new + tail[found.end() :], *lines[at.line :]]
+
+
+def names_of(parameters: Sequence[tuple[Parameter, str]]) -> tuple[str, ...]:
+    """Return the paths of the parameters."""
+    return tuple(item.name for item, _ in parameters)

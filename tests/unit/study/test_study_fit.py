@@ -1,0 +1,92 @@
+"""Values of a case found from observations that the model itself made, with planted values and noise."""
+
+import numpy as np
+import pytest
+import study_cases
+
+from moyai.case.reader import load_case
+from moyai.core.errors import CaseError
+from moyai.study.fitting import fitted_text, load_fit, run_fit
+
+TEXT = """\
+moyai: 1
+fit:
+  title: length of the chain
+  base: base.yaml
+  parameters:
+    lines[*].segments[0].length: {{from: 54 m, to: 57 m}}
+  observations:
+    file: observed.csv
+    columns: {{Hs: 'waves[storm].significant_height', Tp: 'waves[storm].peak_period'}}
+    units: {{Hs: m, Tp: s}}
+    observed: tension
+    response: SWL/tension
+    group: storm
+"""
+
+
+def write(tmp_path, text=TEXT, noise=0.0, planted=55.6, rows=24):
+    study_cases.write_base(tmp_path)
+    rng = np.random.default_rng(3)
+    lines = ["Hs,Tp,tension,storm"]
+    for number in range(rows):
+        height, period = rng.uniform(0.3, 1.2), rng.uniform(4.0, 6.0)
+        tension = 1000.0 * height**2 * period / 5.0 * (55.0 / planted) ** 4 * (1.0 + noise * rng.standard_normal())
+        lines.append(f"{height!r},{period!r},{tension!r},storm {number % 4}")
+    (tmp_path / "observed.csv").write_text("\n".join(lines), encoding="utf-8")
+    path = tmp_path / "fit.yaml"
+    path.write_text(text.format(), encoding="utf-8")
+    return path
+
+
+def test_a_planted_value_is_found_to_rounding_and_written_into_the_case(tmp_path):
+    fit = load_fit(write(tmp_path))
+    result, found = run_fit(fit, study_cases.linear_case)
+    assert found.values[0] == pytest.approx(55.6, abs=1e-6)
+    assert result.tree["fit"]["rms"].item() < 1e-5
+    text = fitted_text(fit, found)
+    assert text.startswith("# Fitted by moyai") and "sha256" in text and "observed.csv" in text
+    (tmp_path / "found.yaml").write_text(text, encoding="utf-8")
+    case = load_case(tmp_path / "found.yaml")
+    assert [line.segments[0].length for line in case.model.lines] == pytest.approx([55.6, 55.6], abs=1e-6)
+    base = (tmp_path / "base.yaml").read_text(encoding="utf-8")
+    # Everything else stands as it was
+    assert len(text.splitlines()) == len(base.splitlines()) + 2
+    assert sum(a != b for a, b in zip(text.splitlines()[2:], base.splitlines())) == 2
+
+
+def test_noise_is_told_by_the_interval_and_by_the_storms_left_out(tmp_path):
+    fit = load_fit(write(tmp_path, noise=0.03))
+    result, found = run_fit(fit, study_cases.linear_case)
+    assert abs(found.values[0] - 55.6) < 4.0 * found.errors[0] and 0.0 < found.errors[0] < 0.3
+    assert [one.group for one in found.left_out] == ["storm 0", "storm 1", "storm 2", "storm 3"]
+    assert result.tree["left out"]["rms_of_group"].shape == (4,)
+
+
+@pytest.mark.parametrize(
+    ("change", "word"),
+    [
+        (("lines[*]", "lines[east]"), "no entry 'east'"),
+        (("to: 57 m", "to: 53 m"), "empty"),
+        (("to: 57 m", "to: 57 s"), "one kind"),
+        (("from: 54 m", "from: 56 m"), "outside of the range"),
+        (("observed: tension", "observed: force"), "no column 'force'"),
+        (("observed.csv", "none.csv"), "no such file"),
+        (("base.yaml", "none.yaml"), "no such file"),
+        (("group: storm", "grup: storm"), "did you mean 'group'"),
+    ],
+)
+def test_slips_of_a_fit_file_are_told(tmp_path, change, word):
+    with pytest.raises(CaseError) as caught:
+        load_fit(write(tmp_path, TEXT.replace(*change)))
+    assert word in "\n".join(str(fault) for fault in caught.value.faults)
+
+
+def test_a_value_that_is_no_number_is_told_by_row(tmp_path):
+    path = write(tmp_path)
+    file = tmp_path / "observed.csv"
+    rows = file.read_text(encoding="utf-8").splitlines()
+    rows[3] = "0.5,5,many,storm 1"
+    file.write_text("\n".join(rows), encoding="utf-8")
+    with pytest.raises(CaseError, match="row 4, column 'tension': 'many'"):
+        load_fit(path)
