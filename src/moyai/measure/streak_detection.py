@@ -230,9 +230,16 @@ def background_level(grey: FloatArray, block: int, hidden: NDArray[np.bool_]) ->
         medians[:] = float(np.median(grey))
     weight = np.isfinite(medians).astype(float)
     filled = gaussian_filter(np.nan_to_num(medians), 1.0) / np.maximum(gaussian_filter(weight, 1.0), 1e-9)
-    filled = np.where(weight > 0.0, 0.5 * (np.nan_to_num(medians) + filled), filled)
-    i = (np.arange(rows) + 0.5) * down / rows - 0.5
-    j = (np.arange(columns) + 0.5) * right / columns - 0.5
+    filled = np.where(weight > 0.0, np.nan_to_num(medians), filled)
+    # A row and column more on every side, by the slope of the last two, reach to the edges of the picture
+    for axis, size in ((0, down), (1, right)):
+        width = [(1, 1) if side == axis else (0, 0) for side in (0, 1)]
+        if size > 1:
+            filled = np.pad(filled, width, mode="reflect", reflect_type="odd")
+        else:
+            filled = np.pad(filled, width, mode="edge")
+    i = (np.arange(rows) + 0.5) * down / rows + 0.5
+    j = (np.arange(columns) + 0.5) * right / columns + 0.5
     return np.asarray(map_coordinates(filled, np.meshgrid(i, j, indexing="ij"), order=1, mode="nearest"))
 
 
