@@ -218,8 +218,8 @@ def snap_record(level: CurtainLevel) -> Figure | None:
     factor, unit = common_scale("N", tension)
     x = {"time": time[keep]}
     panels, series = (
-        [Panel("tension of both cables", unit, from_zero=True)],
-        [Series("tension of both cables", x, tension[keep] * factor, tone=1)],
+        [Panel("tension", unit, from_zero=True)],
+        [Series("tension", x, tension[keep] * factor, tone=1)],
     )
     for values, words, shown, tone in ((position, "mid-span", "m", 0), (speed, "speed", "m/s", 2)):
         if values is not None:
@@ -257,6 +257,59 @@ def _about(time: Array, peak: float, taut: float) -> tuple[float, float]:
     first, last = float(time[0]), float(time[-1])
     after = max(0.35 * (taut - first), 8.0 * (peak - taut))
     return max(first, taut - 0.35 * (taut - first)), min(last, peak + after)
+
+
+def record_over_models(level: CurtainLevel, root: Group) -> Figure | None:
+    """Return the flume record about its taut instant with every model laid over it."""
+    group, record = level.part("impact"), root.child("record")
+    time, tension = record.real("time", "time"), record.real("record_tension", "cable", "time")
+    taut, peak_time = record.value("taut_time"), record.value("peak_time")
+    names, peaks, rises = (
+        group.labels("impact_model"),
+        group.real("impact_tension", "impact_model"),
+        group.real("impact_time", "impact_model"),
+    )
+    if time is None or tension is None or peaks is None or not math.isfinite(taut):
+        return None
+    total = tension.sum(axis=0)
+    rise = peak_time - taut if peak_time > taut else 0.02 * float(np.ptp(time))
+    shown = (time > taut - 0.6 * rise) & (time < taut + 6.0 * rise)
+    counts = group.real("counts", "impact_model")
+    factor, unit = common_scale("N", total[shown], peaks if counts is None else peaks[counts > 0.0])
+    keep = np.flatnonzero(shown)[_thinned(total[shown])]
+    series = [Series("record, both cables", {"time": 1e3 * (time[keep] - taut)}, total[keep] * factor, tone=6)]
+    labels = {"A": "model A, marched", "A2": "model A2, sum", "memory": "with the memory of waves"}
+    for tone, name in enumerate(labels):
+        run = group.child(name)
+        x, y = run.real("time", "time"), run.real("tension", "time")
+        if x is not None and y is not None:
+            thin = _thinned(y)
+            series.append(Series(labels[name], {"time": 1e3 * x[thin]}, y[thin] * factor, tone=tone))
+    snap = group.child("snap")
+    x, y, start = snap.real("time", "time"), snap.real("tension", "time"), attribute(snap, "taut_time")
+    if x is not None and y is not None and math.isfinite(start):
+        part = (x >= start) & (x < start + 6.0 * rise)
+        if part.sum() > 2:
+            series.append(Series("with drag", {"time": 1e3 * (x[part] - start)}, y[part] * factor, tone=3, dash="dash"))
+    if rises is not None:
+        for number, name in enumerate(names):
+            known = np.isfinite(rises[number]) and (counts is None or counts[number] > 0.0)
+            if known and name not in ("A", "A marched", "A2"):
+                at = np.array([rises[number]])
+                series.append(
+                    Series(f"peak of {name}", {"time": 1e3 * at}, peaks[[number]] * factor, tone=number, style="points")
+                )
+    return Figure(
+        key(level, "record-models"),
+        "Models over the flume record",
+        (Abscissa("time", "time from the taut instant", "ms"),),
+        (Panel("tension of both cables", unit, from_zero=True),),
+        tuple(series),
+        "Models start at the taut instant of the record and know no drag, except where it is named; nothing is fitted. "
+        "Models that do not count are left out.",
+        (Mark("plateau of the record", y=record.value("sum_plateau_tension") * factor),),
+        height=360,
+    )
 
 
 def flume_record(root: Group) -> Figure | None:

@@ -67,7 +67,7 @@ def compose(result: Result) -> Document:
         Section(
             "impact",
             "Impact when it snaps taut",
-            (*at_each_level(_impact), *(block for block in record if block is not None)),
+            (*at_each_level(lambda level: _impact(level, root)), *(block for block in record if block is not None)),
         ),
         Section("waves", "Waves: slack and taut", at_each_level(_waves)),
         Section("anchors", "Anchor loads", at_each_level(_anchors)),
@@ -121,10 +121,11 @@ def _at_rest(level: CurtainLevel) -> Sequence[Block | None]:
     )
 
 
-def _impact(level: CurtainLevel) -> Sequence[Block | None]:
+def _impact(level: CurtainLevel, root: Group) -> Sequence[Block | None]:
     return (
         snap_animation(level),
         *tables.impact_tables(level),
+        figures.record_over_models(level, root),
         figures.impact_bars(level),
         figures.snap_record(level),
         figures.impact_series(level),

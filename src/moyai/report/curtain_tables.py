@@ -303,17 +303,17 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
         note += f"The largest of the models that count is {format_number(spread)} times the smallest."
     columns = [
         Column("Model", list(names)),
-        Column("Tension", [float(value) for value in tension], "N"),
-        Column("Over model A", column("impact_ratio")),
-        Column("Upper cable", column("impact_upper_tension"), "N"),
-        Column("Lower cable", column("impact_lower_tension"), "N"),
-        Column("Skirt", column("impact_skirt_tension"), "N/m"),
-        Column("Taut to peak", column("impact_time"), "s"),
+        Column("Tension", [float(value) for value in tension], "N", uniform=False),
+        Column("Over model A", column("impact_ratio"), uniform=False),
+        Column("Upper cable", column("impact_upper_tension"), "N", uniform=False),
+        Column("Lower cable", column("impact_lower_tension"), "N", uniform=False),
+        Column("Skirt", column("impact_skirt_tension"), "N/m", uniform=False),
+        Column("Taut to peak", column("impact_time"), "s", uniform=False),
         Column("Assumption", words(group, "assumption", "impact_model", len(names))),
     ]
     for name, label in (("record_ratio", "Over the record"), ("record_time_ratio", "Its time over the record's")):
         if group.real(name, "impact_model") is not None:
-            columns.insert(-1, Column(label, column(name)))
+            columns.insert(-1, Column(label, column(name), uniform=False))
     if counts is not None:
         columns.insert(1, Column("Counts", ["yes" if value > 0.0 else "no" for value in counts]))
     tables = [

@@ -273,6 +273,7 @@ def test_flume_record_is_shown(result: Result) -> None:
             {
                 "record_tension": (("cable", "time"), np.stack([spike, 1.1 * spike]), {"units": "N"}),
                 "taut_time": ((), 3.8, {"units": "s"}),
+                "peak_time": ((), 4.0, {"units": "s"}),
                 "cable_peak_tension": ("cable", [9.5, 10.4], {"units": "N"}),
                 "cable_plateau_tension": ("cable", [3.0, 3.3], {"units": "N"}),
                 "cable_impact_tension": ("cable", [6.5, 7.1], {"units": "N"}),
@@ -289,3 +290,16 @@ def test_flume_record_is_shown(result: Result) -> None:
     table = named(document, Table, "Readings of the flume record")[0]
     assert list(table.columns[0].values) == ["upper", "lower", "sum"]
     assert list(table.columns[3].values) == [6.5, 7.1, 13.6]
+    over = named(document, Figure, "Models over the flume record")[0]
+    labels = [item.label for item in over.series]
+    assert labels[:5] == [
+        "record, both cables",
+        "model A, marched",
+        "model A2, sum",
+        "with the memory of waves",
+        "with drag",
+    ]
+    assert "peak of AB" in labels and "peak of B literal" not in labels
+    found = over.series[0]
+    expected = np.interp(found.x["time"] / 1e3 + 3.8, time, 2.1 * spike)
+    assert found.y * (1e3 if over.panels[0].unit == "kN" else 1.0) == pytest.approx(expected, rel=1e-9)
