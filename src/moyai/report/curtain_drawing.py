@@ -112,6 +112,7 @@ def _section_dimensions(sketch: Sketch, level: CurtainLevel, toe: tuple[float, f
     toe_x, toe_z = toe
     effective, gap = level.given("effective_depth"), level.given("toe_gap")
     at = toe_x + 0.25 * (right - toe_x)
+    roomy = gap * sketch.scale > 90.0
     if math.isfinite(effective) and effective > 0.0:
         low, high = level.spread("effective_depth")
         words = f"effective depth {metres(effective)}"
@@ -125,9 +126,13 @@ def _section_dimensions(sketch: Sketch, level: CurtainLevel, toe: tuple[float, f
         y = sketch.pz(-level.depth + 0.5 * gap)
         x = sketch.px(toe_x)
         sketch.arrow((x - 28.0, y), (x + 28.0, y), "flow")
-        sketch._label(x, y + 18.0, f"{format_quantity(speed, 'm/s')} under the toe", "middle")
+        words = f"{format_quantity(speed, 'm/s')} under the toe"
+        if roomy:
+            sketch._label(x, y + 18.0, words, "middle")
+        else:
+            sketch._label(x - 34.0, y + 4.0, words, "end")
     if abs(toe_x) > 0.05 * level.depth:
-        sketch.dimension(0.0, toe_z, toe_x, toe_z, f"flare {metres(abs(toe_x))}", offset=34.0 if toe_x else 0.0)
+        sketch.dimension(0.0, toe_z, toe_x, toe_z, f"flare {metres(abs(toe_x))}", offset=34.0 if roomy else -22.0)
     left = sketch.x0 + 0.05 * (right - sketch.x0)
     sketch.dimension(left, 0.0, left, -level.depth, f"h = {metres(level.depth)}", offset=0.001)
 

@@ -77,16 +77,18 @@ def _governing_sentence(worst: tuple[CurtainLevel, Component] | None, count: int
 
 def _beyond_current(levels: tuple[CurtainLevel, ...]) -> str:
     """Say where the current alone is more than the curtain holds: a required depth or reserve is no component."""
-    for level in levels:
-        group, own = level.part("limits"), level.part("statics").value("surface_speed")
-        limit = group.value("speed_limit")
-        if math.isfinite(own) and math.isfinite(limit) and own > limit:
-            what = str(group.attributes.get("speed_limit_governing", "")) or "a limit"
-            return (
-                f"At {level.name} the current of {format_quantity(own, 'm/s')} is beyond the "
-                f"{format_quantity(limit, 'm/s')} that it holds without waves ({what})."
-            )
-    return ""
+    found = _least(levels, "limits", "speed_limit")
+    if found is None:
+        return ""
+    limit, level = found
+    own = level.part("statics").value("surface_speed")
+    if not (math.isfinite(own) and own > limit):
+        return ""
+    what = str(level.part("limits").attributes.get("speed_limit_governing", "")) or "a limit"
+    return (
+        f"At {level.name} the current of {format_quantity(own, 'm/s')} is beyond the {format_quantity(limit, 'm/s')} "
+        f"that it holds without waves ({what})."
+    )
 
 
 def _utilisation_figure(worst: tuple[CurtainLevel, Component] | None) -> list[KeyFigure]:
