@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,6 +88,14 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
     ConvergenceError
         When the tensor changes by more than a tenth of a per cent on refinement or is not symmetric to that.
     """
+    bulges = np.asarray(contour.bulges, dtype=float)
+    return _remembered(contour.vertices.tobytes(), bulges.tobytes(), accuracy)
+
+
+@lru_cache(maxsize=256)
+def _remembered(vertices: bytes, bulges: bytes, accuracy: float) -> InertiaCoefficients:
+    """Solve a contour given by its numbers once: a case asks for its section at every step from check to report."""
+    contour = Contour(np.frombuffer(vertices).reshape(-1, 2), np.frombuffer(bulges))
     levels, order = _resolution(contour, accuracy)
     coarse = _solve(contour, np.maximum(levels - 3, 1), max(order - 2, 4))
     tensor = _solve(contour, levels, order)
@@ -102,7 +111,9 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
     check = IdentityCheck(
         "symmetry of the inertia coefficients", skew, 1e-3, "C_M,xz = C_M,zx, two separate solutions (reciprocity)"
     )
-    return InertiaCoefficients(0.5 * (tensor + tensor.T), error, (check,))
+    symmetric = 0.5 * (tensor + tensor.T)
+    symmetric.flags.writeable = False
+    return InertiaCoefficients(symmetric, error, (check,))
 
 
 def _resolution(contour: Contour, accuracy: float) -> tuple[NDArray[np.int64], int]:
