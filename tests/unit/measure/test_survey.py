@@ -265,3 +265,32 @@ def test_unit_slip_and_drift_in_a_survey(tmp_path):
     assert "elevation" in told["unit-slip"].message and "100" in told["unit-slip"].message
     assert "elevation" in told["drift"].message
     np.testing.assert_allclose(result.tree["blocks"]["channel_0_deviation"].values[15:21].mean(), 35.0, rtol=0.5)
+
+
+def test_the_template_is_a_sound_file(tmp_path):
+    """``moyai new records`` with files beside it that have its headings runs as it is."""
+    import datetime as dt
+
+    from moyai.case.templates import template
+
+    random = np.random.default_rng(1)
+    text = template("records")
+    (tmp_path / "records.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(CaseError, match=r"no such file.*waves\.csv"):
+        load_survey(tmp_path / "records.yaml")
+    start = dt.datetime(1999, 9, 23, 9)
+    waves, tensions = ["time,水位,u,v"], ["time,J-1,F-1"]
+    for i in range(4800):
+        level = 80.0 * math.sin(2.0 * math.pi * i / 14.3) + 30.0 * random.normal()
+        stamp = start + dt.timedelta(seconds=0.5 * i)
+        waves.append(f"{stamp.isoformat()},{level:.2f},{10 + 0.3 * level:.2f},{0.1 * level:.2f}")
+    for i in range(24_000):
+        stamp = start + dt.timedelta(seconds=i // 10)
+        tensions.append(f"{stamp.isoformat()},{5 + random.random():.4f},{0.5 + 0.1 * random.random():.4f}")
+    (tmp_path / "waves.csv").write_text("\n".join(waves), encoding="cp932")
+    (tmp_path / "tensions.csv").write_text("\n".join(tensions))
+    result = run_survey(load_survey(tmp_path / "records.yaml"))
+    assert result.tree["waves"]["third_period"].values[:, 0] == pytest.approx(7.15, rel=0.1)
+    assert result.tree["current"]["current_normal"].values == pytest.approx(0.1, abs=0.02)
+    assert result.tree["tensions"]["steady"].values[0] == pytest.approx([0.55 * 9806.65, 5.5e3], rel=0.02)
+    assert {notice.code for notice in result.notices}.isdisjoint({"record-gaps", "time-order"})

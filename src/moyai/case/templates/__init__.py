@@ -8,20 +8,24 @@ from moyai.case.faults import did_you_mean
 from moyai.case.schema import STRUCTURE_KINDS
 from moyai.core.errors import InputError
 
+FURTHER = ("records",)
+"""Files of other commands that have a template too."""
+
 
 def template(kind: str) -> str:
-    """Return the commented case file of a kind of structure.
+    """Return the commented case file of a kind of structure, or the file of another command.
 
     Raises
     ------
     InputError
         For an unknown kind.
     """
-    if kind not in STRUCTURE_KINDS:
+    kinds = (*STRUCTURE_KINDS, *FURTHER)
+    if kind not in kinds:
         raise InputError(
             f"there is no structure '{kind}'",
             path="KIND",
-            allowed=", ".join(STRUCTURE_KINDS),
-            remedy=did_you_mean(kind, STRUCTURE_KINDS),
+            allowed=", ".join(kinds),
+            remedy=did_you_mean(kind, kinds),
         )
     return (files(__package__) / f"{kind}.yaml").read_text(encoding="utf-8")
