@@ -123,15 +123,16 @@ def _level_steps(
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
     curve = drag_curve(unit, fastest_water(unit, settings, waves))
-    table, notices = loads_dataset(unit, settings, waves, tuple(oscillator), answer, curve)
+    proportions = answer
+    if proportions is None and "waves" in settings.analyses:
+        # snaps in waves load the components in the proportions of an impact at the current's speed
+        proportions = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
+    table, notices = loads_dataset(unit, settings, waves, tuple(oscillator), answer, proportions, curve)
     collected.groups[f"{root}/loads"] = table
     collected.notices.extend(notices)
     yield
     if "limits" in settings.analyses:
-        if answer is None and "waves" in settings.analyses:
-            # snaps in waves keep the proportions of an impact at the current's speed
-            answer = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
-        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, answer, curve, progress)
+        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress)
         yield
 
 

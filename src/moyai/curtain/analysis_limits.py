@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,8 +11,9 @@ from numpy.typing import NDArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
 from moyai.curtain.analysis_anchor import rope_model
-from moyai.curtain.analysis_impact import ImpactAnswer
+from moyai.curtain.analysis_impact import ImpactAnswer, drag_coefficient
 from moyai.curtain.assembly import LevelCurtain
+from moyai.curtain.cycle_table import CycleTable
 from moyai.curtain.impact import peak_by_energy
 from moyai.curtain.limits import height_limit, speed_limit, utilisation
 from moyai.curtain.model import Settings
@@ -92,7 +92,7 @@ def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | Non
         Loads at rest, up to :func:`fastest_water`.
     """
     limits, anchor = settings.limits, settings.anchor_loads
-    asked, snapping = "impact" in settings.analyses, "waves" in settings.analyses
+    asked = "impact" in settings.analyses
     lines = unit.curtain.anchors
     with_lines = anchor is not None and lines is not None and "anchor_loads" in settings.analyses
     return SeaLoads(
@@ -107,9 +107,27 @@ def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | Non
         pretension=_pretension(unit, settings),
         steady=0.0 if lines is None or lines.pretension is None else lines.pretension,
         impact=impact_load(unit, answer, settings) if answer is not None and asked and limits.impact else None,
-        snaps=replace(impact_load(unit, answer, settings), start_ratio=1.0)
-        if answer is not None and snapping
-        else None,
+        snaps=None if answer is None else (_cycles(unit, settings, answer), impact_load(unit, answer, settings)),
+    )
+
+
+def _cycles(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer) -> CycleTable:
+    rule, ratio = settings.direction
+    limits = settings.limits
+
+    def acting(height: float) -> float:
+        return float(effective_height(height, limits.wave_angle, rule, ratio))
+
+    at_unit = unit.site.current(1.0).depth_mean(-unit.depth, 0.0)
+    normal = unit.curtain.normal
+    return CycleTable(
+        answer.impact,
+        drag_coefficient(unit, answer.impact.draught),
+        unit.depth,
+        float(at_unit @ np.array([math.cos(normal), math.sin(normal)])),
+        acting,
+        limits.period_of,
+        limits.highest_height,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,6 +51,7 @@ def loads_dataset(
     waves: tuple[DesignWave, ...],
     oscillator: tuple[tuple[str, float], ...],
     answer: ImpactAnswer | None,
+    proportions: ImpactAnswer | None,
     curve: DragCurve,
 ) -> tuple[xr.Dataset, tuple[Notice, ...]]:
     """Return the group ``loads`` and its notices.
@@ -65,13 +66,15 @@ def loads_dataset(
         Sea state and largest sum of the cable tensions in it [N], where slack and taut cycles were run.
     answer : ImpactAnswer or None
         None where the impact was not asked for.
+    proportions : ImpactAnswer or None
+        By which the tension of slack and taut cycles goes to the components; None where they were not run.
     curve : DragCurve
         Loads at rest, up to :func:`moyai.curtain.analysis_limits.fastest_water`.
     """
     import xarray as xr
 
     statics = unit.statics if unit.surface_speed > 0.0 else None
-    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, answer, curve)
+    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve)
     struck = AddedLoads() if answer is None else impact_load(unit, answer, settings).of_tension(answer.design_tension)
     name = "" if answer is None else f"impact, model {answer.design_model}"
     rows = []
@@ -101,7 +104,7 @@ def _wave_sources(
     waves: tuple[DesignWave, ...],
     statics: CurtainStatics | None,
     oscillator: tuple[tuple[str, float], ...],
-    answer: ImpactAnswer | None,
+    proportions: ImpactAnswer | None,
     curve: DragCurve,
 ) -> tuple[list[_Added], list[Notice]]:
     """Return what each wave adds by each model."""
@@ -131,22 +134,17 @@ def _wave_sources(
             moving = model.float_speed(acting, wave.period, unit.normal_speed, unit.water)
             rise = float(model.fluctuating_tension(moving, pull))
             sources.append(_Added(AddedLoads(anchor_line=rise), f"energy model, {wave.name}"))
-    shares = _shares(unit, answer)
-    for name, tension in oscillator:
-        upper, lower = (0.0, 0.0) if statics is None else (statics.upper_tension, statics.lower_tension)
-        more = AddedLoads(max(shares[0] * tension - upper, 0.0), max(shares[1] * tension - lower, 0.0))
-        sources.append(_Added(more, f"slack and taut cycles, {name}"))
+    if proportions is not None:
+        turned = impact_load(unit, proportions, settings)
+        with_energy = any(item.source.startswith("energy model") for item in sources)
+        for name, tension in oscillator:
+            whole = turned.of_tension(tension)
+            if with_energy:
+                # the energy model was fitted to anchor lines; fixed supports would overload them
+                whole = replace(whole, anchor_line=0.0)
+            more = whole if statics is None else increase(whole, statics)
+            sources.append(_Added(more, f"slack and taut cycles, {name}"))
     return sources, notices
-
-
-def _shares(unit: LevelCurtain, answer: ImpactAnswer | None) -> tuple[float, float]:
-    """Return the shares of both cables in a sum: of model A2, or in the proportion of their stiffness."""
-    if answer is not None:
-        return answer.shares
-    upper, lower = unit.curtain.upper_stiffness, unit.curtain.lower_stiffness
-    if not math.isfinite(upper + lower):
-        return 0.5, 0.5
-    return upper / (upper + lower), lower / (upper + lower)
 
 
 def _factor(unit: LevelCurtain, component: str) -> float:

@@ -1,7 +1,8 @@
 """What waves and an impact add to the steady loads of every component, for load table and operating limits.
 
 Three answers to waves stand side by side: the energy model of the anchor line, the drag at the speed whose square is
-the squared velocity under the crest, and an impact that starts with that speed. The largest of each component counts.
+the squared velocity under the crest, and slack and taut cycles. The largest of each component counts, an impact in the
+current beside them.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.assembly import LevelCurtain
+from moyai.curtain.cycle_table import CycleTable
 from moyai.curtain.impact import Impact, peak_by_energy
 from moyai.curtain.impact_kernels import taut_shape
 from moyai.curtain.limits import AddedLoads
@@ -160,28 +162,6 @@ class ImpactLoad:
         )
 
 
-def snap_speed(impact: Impact, drag_coefficient: float, current: float, amplitude: float, period: float) -> float:
-    """Return the speed with which slack and taut cycles become taut at most, but for resonance [eq:curtain-snap-speed].
-
-    A curtain that a wave has slackened swings with the water: it comes back with twice the wave's speed at most, with
-    what the current has dragged it to meanwhile, and never faster than the water.
-
-    Parameters
-    ----------
-    impact : Impact
-        The span.
-    drag_coefficient : float
-        C_D [-].
-    current, amplitude : float
-        Of the water along the normal [m/s].
-    period : float
-        Of the waves [s].
-    """
-    drag = 0.5 * impact.water.density * drag_coefficient * impact.draught
-    drift = drag * current**2 * 0.5 * period / impact.deep_mass
-    return min(2.0 * amplitude + drift, current + amplitude)
-
-
 @dataclass(frozen=True)
 class SeaLoads:
     """What a significant height in a current adds to the steady loads, by all models that the case has data for.
@@ -208,9 +188,9 @@ class SeaLoads:
     steady : float
         Tension that the anchor line has at least [N], where the case gives a pretension.
     impact : ImpactLoad or None
-        An impact in the current and under the crest.
-    snaps : ImpactLoad or None
-        Snaps of slack and taut cycles, at the speed of :func:`snap_speed`.
+        An impact in the current, without waves.
+    snaps : (CycleTable, ImpactLoad) or None
+        Slack and taut cycles, and how their tension goes to the components.
     """
 
     period: Callable[[float], float]
@@ -224,7 +204,7 @@ class SeaLoads:
     pretension: float | None = None
     steady: float = 0.0
     impact: ImpactLoad | None = None
-    snaps: ImpactLoad | None = None
+    snaps: tuple[CycleTable, ImpactLoad] | None = None
 
     def water_speed(self, significant_height: float, speed: float, water: Water) -> float:
         """Return the root of the squared velocity under the crest of the highest wave [m/s] [eq:curtain-wave-drag]."""
@@ -242,17 +222,12 @@ class SeaLoads:
         moving, current = self.water_speed(significant_height, speed, water), self.normal_ratio * speed
         found = increase(self.drag.at(moving), statics)
         if self.snaps is not None:
-            found = found.larger(
-                self.snaps.at(
-                    snap_speed(
-                        self.snaps.impact,
-                        statics.section.drag_coefficient,
-                        current,
-                        max(moving - current, 0.0),
-                        self.period(significant_height),
-                    )
-                )
-            )
+            table, proportions = self.snaps
+            struck = proportions.of_tension(table.tension(speed, significant_height))
+            if self.energy is not None:
+                # the energy model was fitted to anchor lines; fixed supports would overload them
+                struck = replace(struck, anchor_line=0.0)
+            found = found.larger(increase(struck, statics))
         if self.energy is None:
             return found
         height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
@@ -271,4 +246,4 @@ class SeaLoads:
         found = found.larger(AddedLoads(anchor_line=self._lacking(statics)))
         if self.impact is None:
             return found
-        return found.larger(self.impact.at(self.water_speed(significant_height, speed, water)))
+        return found.larger(self.impact.at(self.normal_ratio * speed))

@@ -265,38 +265,36 @@ def test_drag_curve_is_the_statics_between_its_points(small):
         assert found.anchor_line == pytest.approx(statics.anchor_line_tension, rel=3e-3)
 
 
-def test_snap_speed_bounds_the_oscillator():
-    """Random curtains, currents and waves away from resonance: nearly none becomes taut faster than the formula."""
-    from dataclasses import replace
+def test_cycle_table_is_the_oscillator(small):
+    """At a height that was run the table is the run itself, and it never falls with the height."""
+    from moyai.curtain.analysis_impact import drag_coefficient, solve_impact
+    from moyai.curtain.analysis_limits import _cycles
+    from moyai.curtain.impact_waves import slack_sag, slack_taut_motion
+    from moyai.curtain.snap_flow import depth_mean_factor
+    from moyai.sea.dispersion import wave_number
 
-    from moyai.curtain.impact import Impact, peak_by_energy
-    from moyai.curtain.impact_waves import slack_taut_motion
-    from moyai.curtain.sea_loads import snap_speed
-    from moyai.sea.water import Water
-
-    rng = np.random.default_rng(8)
-    beyond = counted = 0
-    while counted < 60:
-        span, ratio, depth = rng.uniform(8, 30), rng.uniform(0.8, 0.99), rng.uniform(1, 6)
-        stiffness, current = 10.0 ** rng.uniform(4.5, 6.5), rng.uniform(0.03, 0.6)
-        amplitude, period, drag = 10.0 ** rng.uniform(-1.7, 0.2), rng.uniform(2.5, 8.0), rng.uniform(1.0, 2.0)
-        impact = Impact(span, span / ratio, depth, stiffness / 2, stiffness / 2, 1.0, Water(20.0, 1025.0, 9.81))
-        bound = snap_speed(impact, drag, current, amplitude, period)
-        if period < 4.0 * peak_by_energy(replace(impact, speed=bound)).time:
-            # the cable swings with the waves: resonance, which the formula leaves out
-            continue
-        counted += 1
-        motion = slack_taut_motion(
-            impact,
-            drag_coefficient=drag,
-            current=current,
-            velocity_amplitude=amplitude,
-            period=period,
-            duration=40 * period,
-        )
-        speeds = [abs(contact.speed) for contact in motion.contacts if contact.time > 15 * period]
-        beyond += max(speeds, default=0.0) > 1.1 * bound
-    assert beyond <= 2
+    problem, _ = small
+    unit = assemble(problem, "SWL", 0.0)
+    answer = solve_impact(unit, problem.settings.impact)
+    table = _cycles(unit, problem.settings, answer)
+    height = 2.0 * (10.0 / 14.0) ** 1.5
+    period, acting = 3.86 * math.sqrt(height), 1.8 * height
+    number = float(wave_number(2.0 * math.pi / period, 8.0, 9.81))
+    amplitude = acting * math.pi / period * float(depth_mean_factor(number, 4.0, unit.water))
+    motion = slack_taut_motion(
+        answer.impact,
+        drag_coefficient=drag_coefficient(unit, answer.impact.draught),
+        current=0.3,
+        velocity_amplitude=amplitude,
+        period=period,
+        duration=20.0 * period,
+        start=(0.999 * slack_sag(answer.impact), 0.0),
+    )
+    largest = max(contact.tension for contact in motion.contacts if contact.time >= 6.0 * period)
+    assert table.tension(0.3, height) >= largest * (1.0 - 1e-9)
+    series = [table.tension(0.3, float(h)) for h in np.linspace(0.0, 2.0, 40)]
+    assert np.all(np.diff(series) >= 0.0) and series[0] == 0.0
+    assert table.tension(0.3, height) == pytest.approx(largest, rel=0.5)
 
 
 def test_anchor_loads_of_the_field_paper(tmp_path):
