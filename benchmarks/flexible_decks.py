@@ -1,7 +1,9 @@
 """The four problems that the time-domain line programs are held against; one place for their numbers.
 
-``chain``: 100 m of studless chain on a bed, fairlead surging 1 m / 6 s. ``snap``: 46 m of steel rope going slack and taut.
-``snapmass``: the same rope stops 5 t pulled by a soft spring. ``net``: n x n knots towed at 1 m/s, top row heaving 0.5 m / 6 s.
+``chain``: 100 m of studless chain on a bed, fairlead surging 1 m / 6 s. ``snap``: 46 m of steel rope going slack and
+taut.
+``snapmass``: the same rope stops 5 t pulled by a soft spring. ``net``: n x n knots towed at 1 m/s, top row heaving
+0.5 m / 6 s.
 """
 
 from __future__ import annotations

@@ -1,7 +1,9 @@
 """Elastic string stopped by its end mass: the exact series of reflected waves.
 
-At rest and unstressed, one end fixed, the mass at the other end gets a speed V. With T0 = V sqrt(EA m) the wave from the
-mass obeys s' = r' - k (s + r), k = sqrt(EA m) / M, r(t) = s(t - 2L/c); the fixed end feels 2 s(t - L/c). In units L = c = T0 = 1
+At rest and unstressed, one end fixed, the mass at the other end gets a speed V. With T0 = V sqrt(EA m) the wave from
+the
+mass obeys s' = r' - k (s + r), k = sqrt(EA m) / M, r(t) = s(t - 2L/c); the fixed end feels 2 s(t - L/c). In units L =
+c = T0 = 1
 every interval of 2 is a polynomial times exp(-k t). Until the string goes slack; for M/(mL) <= 5 the highest value is
 2 (1 + exp(-2 m L / M)) at t = 3 L/c (Saint-Venant's problem of the struck bar).
 """

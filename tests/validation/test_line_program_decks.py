@@ -1,7 +1,10 @@
-"""Four decks of dynamic lines whose peaks a second program and a second prototype agree on (MoorDyn RK2/RK4, converged).
+"""Four decks of dynamic lines whose peaks a second program and a second prototype agree on (MoorDyn RK2/RK4,
+converged).
 
-References: snap 102.36 kN; snapmass, cycles that start at 12, 18, 24 s: 76.26, 76.23, 76.35 kN; net 10x10 and 20x20, second line,
-6 to 12 s: 71.73 and 120.0 N. The chain differs by its bed and by the law of a bar coming taut: docs/validation/flexible.md.
+References: snap 102.36 kN; snapmass, cycles that start at 12, 18, 24 s: 76.26, 76.23, 76.35 kN; net 10x10 and 20x20,
+second line,
+6 to 12 s: 71.73 and 120.0 N. The chain differs by its bed and by the law of a bar coming taut:
+docs/validation/flexible.md.
 """
 
 import sys
@@ -13,7 +16,7 @@ import pytest
 from moyai.flexible.simulate import simulate
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "benchmarks"))
-import flexible_decks as decks  # noqa: E402
+import flexible_decks as decks
 
 
 def cycle_peaks(history, bar, period, first):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.flexible.network import FREE, Network
+from moyai.flexible.network import FREE, Network, RopeCurve
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -31,7 +31,8 @@ class KernelArrays:
     Parameters
     ----------
     nodes : ndarray, shape (12, n)
-        Rows of ``NODE_ROWS``: mass [kg], weight [N], attached volume [m3], rho/2 times drag area, attached added mass [kg],
+        Rows of ``NODE_ROWS``: mass [kg], weight [N], attached volume [m3], rho/2 times drag area, attached added mass
+        [kg],
         stiffness [N/m] and damping [N s/m] of the bed, height [m], form, 1 where a component is free.
     bars : ndarray, shape (13, m)
         Rows of ``BAR_ROWS``: length [m], EA/L0 [N/m], BA/L0 [N s/m], least tension (0, or -1e300 of bars that bear
@@ -141,7 +142,7 @@ def _bar_rows(network: Network) -> Array:
 
 
 def _curves(network: Network) -> tuple[IntArray, Array]:
-    known = []
+    known: list[RopeCurve] = []
     number = np.full(len(network.bars.types), -1, dtype=np.int64)
     for index, kind in enumerate(network.bars.types):
         if kind.curve is not None:

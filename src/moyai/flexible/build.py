@@ -80,7 +80,7 @@ class NetworkBuilder:
         place = np.array(position, dtype=np.float64)
         if place.shape != (3,) or not np.isfinite(place).all():
             raise InputError(
-                f"position of {name!r} is {position}", path=f"points.{name}", allowed="three finite numbers"
+                f"position of {name!r} is {position!r}", path=f"points.{name}", allowed="three finite numbers"
             )
         values = {"mass": 0.0, "volume": 0.0, "drag_area": 0.0, "added_mass": 0.0, "contact_area": 0.0, "height": 0.0}
         for key, value in attached.items():
@@ -260,7 +260,8 @@ class NetworkBuilder:
         Parameters
         ----------
         name : str
-            Its name; the points are called ``name[row,column]``, the rows ``name row 0`` ..., the columns ``name column 0`` ...
+            Its name; the points are called ``name[row,column]``, the rows ``name row 0`` ..., the columns ``name
+            column 0`` ...
         points : array_like, shape (rows, columns, 3)
             Positions of the knots [m].
         bar_type : BarType
@@ -359,7 +360,11 @@ class NetworkBuilder:
             )  # fmt: skip
             for key, values in attached.items():
                 values[node] = getattr(point, key)
-        starts, ends, lengths, kinds, factors = [], [], [], [], []
+        starts: list[int] = []
+        ends: list[int] = []
+        lengths: list[float] = []
+        kinds: list[int] = []
+        factors: list[float] = []
         strands: dict[str, tuple[list[int], list[int]]] = {}
         for run, first in zip(self._runs, inner, strict=True):
             chain = [index[run.start], *range(first, first + len(run.between)), index[run.end]]
@@ -390,7 +395,7 @@ class NetworkBuilder:
 def _at_rest(
     a: Array, b: Array, bar_type: BarType, length: float, fraction: Array, water: Water, bed: Bed | None
 ) -> Array:
-    """Return points on the exact catenary between two ends, or on the chord where it says nothing (a weightless line)."""
+    """Return points on the exact catenary between two ends, or on the chord of a weightless line."""
     chord = a + fraction[:, None] * (b - a)
     weight = bar_type.submerged_weight_per_length(water)
     low, high, along = (a, b, fraction) if a[2] <= b[2] else (b, a, 1.0 - fraction)

@@ -45,7 +45,7 @@ def check_network(network: Network) -> None:
 
     nodes, bars = network.nodes, network.bars
     count = len(nodes)
-    if len(bars) and not (0 <= min(bars.start.min(), bars.end.min()) and max(bars.start.max(), bars.end.max()) < count):
+    if len(bars) and not (min(bars.start.min(), bars.end.min()) >= 0 and max(bars.start.max(), bars.end.max()) < count):
         raise InputError("a bar ends at a node that does not exist", path="bars", allowed=f"nodes 0 to {count - 1}")
     held = nodes.held.all(axis=1) | (nodes.kind != FREE)
     empty = (network.node_mass <= 0.0) & ~held
@@ -62,7 +62,8 @@ def check_network(network: Network) -> None:
     if not anchored.all() and anchored.any():
         lost = int(np.argmin(anchored[part]))
         raise InputError(
-            f"{name_of_node(network, lost)} belongs to a part of {int((part == part[lost]).sum())} nodes that nothing holds",
+            f"{name_of_node(network, lost)} belongs to a part of {int((part == part[lost]).sum())} nodes "
+            "that nothing holds",
             path="bars",
             allowed="every part connected to a fixed or driven point, or no such point at all",
             remedy="connect the part or make one of its points fixed",
@@ -83,7 +84,8 @@ def check_network(network: Network) -> None:
         if deep.any():
             worst = int(np.argmin(np.where(deep, nodes.position[:, 2], np.inf)))
             raise InputError(
-                f"{name_of_node(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, under the bed at {network.bed.level:g} m",
+                f"{name_of_node(network, worst)} starts at z = {nodes.position[worst, 2]:g} m, "
+                f"under the bed at {network.bed.level:g} m",
                 path="nodes.position",
                 allowed="on or above the bed",
             )

@@ -70,7 +70,8 @@ class ExplicitRun:
         self.driving = driving_tables(network, motions)
         self.time, self.step = start.time, 0.0
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
-        # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step behind
+        # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step
+        # behind
         self.ledger = np.zeros(6)
         self.place[:], self.speed[:] = start.position.T, start.velocity.T
         self.speed[:, network.nodes.kind != 0] = 0.0
@@ -148,7 +149,8 @@ class ExplicitRun:
         rate = max(rate, 3.0 * math.sqrt(float(np.max(stiff / rows["mass"], initial=0.0))))
         if self._near_surface():
             bob = arrays.bar("buoyancy") / arrays.bar("radius") * arrays.bar("per_mass")
-            near = np.maximum(self.place[2, arrays.start], self.place[2, arrays.end]) > float(np.min(self.water[6])) - 1.0
+            upper = np.maximum(self.place[2, arrays.start], self.place[2, arrays.end])
+            near = upper > float(np.min(self.water[6])) - 1.0
             # a bar that crosses the surface steeply bobs over its height, a floating one over its diameter
             tall = np.abs(self.place[2, arrays.start] - self.place[2, arrays.end])
             flat = arrays.bar("radius") / (arrays.bar("radius") + 0.5 * tall)

@@ -1,10 +1,12 @@
 """Compiled kernels of the explicit scheme: bar forces every step, loads of water and weight every few steps.
 
-Central differences in leapfrog form [eq:flexible-leapfrog]. Everything lies in one array whose rows are ``ROW`` apart, a
+Central differences in leapfrog form [eq:flexible-leapfrog]. Everything lies in one array whose rows are ``ROW``
+apart, a
 constant: the compiler then knows that rows do not overlap and turns every loop into vector instructions, also for
 lines of a dozen bars. ``ROW`` is no power of two, so that rows fall on different lines of the cache.
 
-Bars between neighbours in memory form the *spine*: bar i joins nodes i and i + 1, and gaps hold bars without stiffness. All
+Bars between neighbours in memory form the *spine*: bar i joins nodes i and i + 1, and gaps hold bars without
+stiffness. All
 others are *ribs*, in runs (a, b, first, count, curve): rib first + i joins nodes a + i and b + i. Of a rib the same
 rows hold its constants, shifted by ``RIB``.
 """
@@ -443,10 +445,10 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
 @njit(cache=True, error_model="numpy")
 def _touching(A: Any, count: int, level: float, ahead: float) -> bool:
     """Whether a free node can reach the bed within ``ahead`` seconds at twice its speed."""
+    found = False
     for i in range(count):
-        if A[Z + i] - 2.0 * ahead * abs(A[W + i]) < level + 1e-3 and A[FREE_Z + i] > 0.0:
-            return True
-    return False
+        found = found or (A[Z + i] - 2.0 * ahead * abs(A[W + i]) < level + 1e-3 and A[FREE_Z + i] > 0.0)
+    return found
 
 
 @njit(cache=True, error_model="numpy")
@@ -474,9 +476,11 @@ def march(
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
     ``waves`` is (water moves, part may be dry, water at the start (7, n), its rate, time of the start); ``timing`` is
-    (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0 work
+    (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0
+    work
     of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
-    velocities stand half a step behind. ``saved`` is (position (rows, nodes, 3), tension (rows, bars), highest tension since
+    velocities stand half a step behind. ``saved`` is (position (rows, nodes, 3), tension (rows, bars), highest
+    tension since
     the last row, energies and work (rows, 3), kept nodes, kept bars as places in ``A``). Returns the number of good
     rows, fewer than asked for when values are no longer finite.
     """

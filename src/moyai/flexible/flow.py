@@ -115,10 +115,22 @@ class Flow:
             sea = self.waves
             elevation, velocity, acceleration = np.empty(count), np.empty((count, 3)), np.empty((count, 3))
             linear_velocity_acceleration(
-                sea.omega, np.asarray(sea.intrinsic_omega), sea.amplitude, sea.phase, sea.heading, sea.wave_number,
-                float(sea.water.depth), np.ascontiguousarray(position[0]), np.ascontiguousarray(position[1]),
-                np.ascontiguousarray(position[2]), time, stretching_code(self.stretching), elevation, velocity, acceleration,
-            )  # fmt: skip
+                sea.omega,
+                np.asarray(sea.intrinsic_omega),
+                sea.amplitude,
+                sea.phase,
+                sea.heading,
+                sea.wave_number,
+                float(self.waves.water.depth),
+                np.ascontiguousarray(position[0]),
+                np.ascontiguousarray(position[1]),
+                np.ascontiguousarray(position[2]),
+                time,
+                stretching_code(self.stretching),
+                elevation,
+                velocity,
+                acceleration,
+            )
             out[:3] += velocity.T
             out[3:6] = acceleration.T
             out[6] = elevation

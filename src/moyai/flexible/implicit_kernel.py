@@ -1,7 +1,9 @@
 """Compiled kernels of statics and of the implicit schemes: forces, their tangent, a banded solver, Newton's method.
 
-Arrays run over nodes first (n, 3). Unknowns stand in the order of ``rank`` (reverse Cuthill-McKee), so that the matrix of a
-line is block tridiagonal and that of a net has the band of its narrow side. ``system`` is (nodes, bars, start, end, curve,
+Arrays run over nodes first (n, 3). Unknowns stand in the order of ``rank`` (reverse Cuthill-McKee), so that the
+matrix of a
+line is block tridiagonal and that of a net has the band of its narrow side. ``system`` is (nodes, bars, start, end,
+curve,
 curves, hinges, bending, attached) of :class:`moyai.flexible.arrays.KernelArrays`.
 """
 
@@ -68,7 +70,8 @@ def _float_part(x: Any, water: Any, nodes: Any, i: int) -> tuple[float, float]:
 def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force: Any, tension: Any, mass: Any) -> None:
     """Write the force on every node, the tension of every bar and the mass blocks (xx, xy, xz, yy, yz, zz).
 
-    ``fluid`` is density, gravity and the width over which slack and taut are rounded into each other (0: not at all) [N];
+    ``fluid`` is density, gravity and the width over which slack and taut are rounded into each other (0: not at all)
+    [N];
     ``bed`` is level, friction, speed below which friction fades, 1 where there is a bed.
     """
     nodes, bars, start, end, curve, curves, hinges, bending, attached = system
@@ -369,8 +372,10 @@ def relax(
 ) -> tuple[int, float, int]:  # fmt: skip
     """Bring a network to rest: implicit steps of growing length whose velocity is dropped, ending in Newton's method.
 
-    [eq:flexible-relaxation]. ``pace`` is the first pseudo time step [s], ``reach`` the furthest that a node may go in one
-    step [m], ``noise`` the rounding of the forces [N]. Returns the number of steps, the largest force left over the largest force at work, and its node.
+    [eq:flexible-relaxation]. ``pace`` is the first pseudo time step [s], ``reach`` the furthest that a node may go in
+    one
+    step [m], ``noise`` the rounding of the forces [N]. Returns the number of steps, the largest force left over the
+    largest force at work, and its node.
     """
     nodes = system[0]
     count = x.shape[0]
@@ -528,7 +533,7 @@ def _stage(
     spring = system[1][1]
     count = guess.shape[0]
     last = math.inf
-    for attempt in range(12):
+    for _ in range(12):
         for i in range(count):
             for axis in range(3):
                 speed[i, axis] = across[i, axis] + gain * guess[i, axis]
@@ -571,7 +576,7 @@ def _stage(
 @njit(cache=True, error_model="numpy")
 def _energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
     """Return kinetic energy of what is free and elastic energy of bars and hinges [J]."""
-    nodes, bars, start, end, curve, curves, hinges, bending, attached = system
+    nodes, bars, start, end, curve, curves, hinges, bending, _ = system
     kinetic = elastic = 0.0
     for i in range(x.shape[0]):
         p, q, s = nodes[9, i] * v[i, 0], nodes[10, i] * v[i, 1], nodes[11, i] * v[i, 2]
@@ -605,7 +610,7 @@ def _energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
 @njit(cache=True, error_model="numpy")
 def _powers(x: Any, v: Any, force: Any, system: Any, fluid: Any, own: Any, tension: Any, result: Any) -> None:
     """Write the power of the loads on what is free and of the driven points on the bars [W]."""
-    nodes, bars, start, end, curve, curves, hinges, bending, attached = system
+    nodes, bars, start, end, curve, curves, hinges, bending, _ = system
     own[:] = 0.0
     for k in range(start.size):
         a, b = start[k], end[k]
@@ -634,14 +639,16 @@ def _powers(x: Any, v: Any, force: Any, system: Any, fluid: Any, own: Any, tensi
 
 @njit(cache=True, error_model="numpy")
 def implicit_march(
-    x: Any, v: Any, a: Any, system: Any, rank: Any, band: Any, fluid: Any, bed: Any, water: Any, driving: Any, method: Any,
-    control: Any, timing: Any, ledger: Any, saved: Any, counts: Any,
+    x: Any, v: Any, a: Any, system: Any, rank: Any, band: Any, fluid: Any, bed: Any, water: Any, driving: Any,
+    method: Any, control: Any, timing: Any, ledger: Any, saved: Any, counts: Any,
 ) -> tuple[int, int, float, int]:  # fmt: skip
     """Advance by rows of the result with an error-controlled implicit Runge-Kutta method [eq:flexible-dirk].
 
     ``water`` is (now, at the start, rate, moving); ``method`` is (stages, embedded, exponent); ``control`` is 0 step, 1
-    smallest step, 2 largest step, 3 tolerance, 4 length for the error of place, 5 largest tension so far, 6 fixed step (1) or
-    not (0), 7 whether ``a`` is known; ``counts`` is force evaluations, factorisations, steps, rejected steps. Returns status,
+    smallest step, 2 largest step, 3 tolerance, 4 length for the error of place, 5 largest tension so far, 6 fixed
+    step (1) or
+    not (0), 7 whether ``a`` is known; ``counts`` is force evaluations, factorisations, steps, rejected steps. Returns
+    status,
     good rows, time reached, node of the largest acceleration.
     """
     nodes, start, end = system[0], system[2], system[3]

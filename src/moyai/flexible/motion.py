@@ -70,7 +70,8 @@ class Motion:
         Parameters
         ----------
         displacement : callable
-            Takes times (k,) [s], returns displacements (k, 3) [m]; it is also asked two steps before and after the range.
+            Takes times (k,) [s], returns displacements (k, 3) [m]; it is also asked two steps before and after the
+            range.
         duration, step, start : float
             Range and spacing [s]; about a two-hundredth of the shortest period keeps the table exact to 1e-8.
         """
@@ -79,7 +80,7 @@ class Motion:
                 f"a motion over {duration:g} s in steps of {step:g} s", path="motion.duration", allowed="greater than 0"
             )
         count = math.ceil(duration / step - 1e-9) + 1
-        time = start + step * np.arange(-2, count + 2)
+        time: Array = np.asarray(start + step * np.arange(-2, count + 2), dtype=np.float64)
         values = np.asarray(displacement(time), dtype=np.float64).reshape(count + 4, 3)
         rate = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / (12.0 * step)
         return cls(start, step, values[2:-2], rate)
@@ -95,7 +96,8 @@ class Motion:
         phase: ArrayLike = 0.0,
         start: float = 0.0,
     ) -> Motion:
-        """Return amplitude * r(t) * sin(2 pi t / period + phase), r a smooth start over ``ramp`` seconds (half a cosine).
+        """Return amplitude * r(t) * sin(2 pi t / period + phase), r a smooth start over ``ramp`` seconds (half a
+        cosine).
 
         Parameters
         ----------
@@ -135,7 +137,8 @@ class Motion:
         displacement : array_like, shape (k, 3)
             [m].
         step : float, optional
-            Grid of the table; the shortest interval of the record when left out (then a uniform record keeps its points).
+            Grid of the table; the shortest interval of the record when left out (then a uniform record keeps its
+            points).
         """
         from scipy.interpolate import CubicSpline
 
@@ -170,9 +173,11 @@ class Motion:
         slack = 1e-9 * max(1.0, abs(self.end))
         if t.size and (t.min() < self.start - slack or t.max() > self.end + slack):
             raise InputError(
-                f"motion asked at {t.min():g} to {t.max():g} s", path="motion", allowed=f"{self.start:g} to {self.end:g} s",
+                f"motion asked at {t.min():g} to {t.max():g} s",
+                path="motion",
+                allowed=f"{self.start:g} to {self.end:g} s",
                 remedy="give a longer motion or a shorter run",
-            )  # fmt: skip
+            )
         place = np.clip((t - self.start) / self.step, 0.0, len(self.displacement) - 1)
         row = np.minimum(place.astype(np.int64), len(self.displacement) - 2)
         s = (place - row)[..., None]

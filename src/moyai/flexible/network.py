@@ -238,7 +238,8 @@ class Nodes:
     motion : array_like of int, shape (n,)
         Index into :attr:`Network.motion_names` of driven nodes, -1 of others.
     mass, volume, drag_area, added_mass, contact_area : array_like, shape (n,)
-        Attached mass [kg], volume [m3], drag coefficient times area [m2], added mass [kg], contact area with the bed [m2].
+        Attached mass [kg], volume [m3], drag coefficient times area [m2], added mass [kg], contact area with the bed
+        [m2].
     height : array_like, shape (n,)
         Vertical extent of the attached body for its partial immersion [m]; 0 for one that is always wet.
     form : array_like of int, shape (n,)

@@ -56,7 +56,8 @@ class History:
     tension_peak : ndarray, shape (k, bars)
         Highest since the row before, taken at every step [N].
     kinetic_energy, elastic_energy, work : ndarray, shape (k,)
-        Energy of what is free, energy of bars, hinges and bed, and the work done on them since the start by weight, water and
+        Energy of what is free, energy of bars, hinges and bed, and the work done on them since the start by weight,
+        water and
         driven points [J].
     final : State
         State at the end, from which a run can go on.

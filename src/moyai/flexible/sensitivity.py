@@ -57,7 +57,8 @@ class PeakSensitivity:
         return (
             Notice(
                 "peak-not-converged",
-                f"the peak of {self.peak:.4g} N moves by {100 * self.discretisation_error:.1f} % with half the step and mesh",
+                f"the peak of {self.peak:.4g} N moves by {100 * self.discretisation_error:.1f} % "
+                "with half the step and mesh",
                 self.discretisation_error,
                 limit,
                 "warning",

@@ -22,7 +22,8 @@ from moyai.flexible.tableaus import TABLEAUS
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
-#: Energy from nowhere, as a part of the energy that went through the network: what is called good, and what stops a run.
+#: Energy from nowhere, as a part of the energy that went through the network: what is called good, and what stops a
+#: run.
 ENERGY_TOLERANCE, ENERGY_STOP = 0.02, 0.25
 
 
@@ -48,8 +49,10 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
         if motion.start > start + slack or motion.end < end - slack:
             raise InputError(
                 f"motion {name!r} covers {motion.start:g} to {motion.end:g} s, the run {start:g} to {end:g} s",
-                path=f"motions.{name}", allowed="a motion over the whole run", remedy="shorten the run or lengthen the motion",
-            )  # fmt: skip
+                path=f"motions.{name}",
+                allowed="a motion over the whole run",
+                remedy="shorten the run or lengthen the motion",
+            )
     for name in motions:
         if name not in network.motion_names:
             raise InputError(
@@ -94,12 +97,14 @@ def simulate(
     flow : Flow, optional
         Motion of the water; still water when left out.
     start : State, optional
-        Where to start; as built and at rest when left out (:func:`moyai.flexible.statics.solve_equilibrium` gives the state at rest).
+        Where to start; as built and at rest when left out (:func:`moyai.flexible.statics.solve_equilibrium` gives the
+        state at rest).
     method : {"explicit", "tr_bdf2", "esdirk4"}
         Central differences at the pace of the elastic wave, or an implicit method of second or fourth order whose steps
         follow its error.
     step : float, optional
-        Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or, for
+        Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or,
+        for
         the implicit methods, what ``tolerance`` asks for.
     safety : float
         Part of the largest stable step, 0 to 1.
@@ -141,9 +146,13 @@ def simulate(
     else:
         run = ImplicitRun(network, motions or {}, flow, start, method=method, tolerance=tolerance)
     saved = (
-        np.full((rows + 1, nodes.size, 3), np.nan), np.full((rows + 1, bars.size), np.nan),
-        np.full((rows + 1, bars.size), np.nan), np.full((rows + 1, 3), np.nan), nodes, bars,
-    )  # fmt: skip
+        np.full((rows + 1, nodes.size, 3), np.nan),
+        np.full((rows + 1, bars.size), np.nan),
+        np.full((rows + 1, bars.size), np.nan),
+        np.full((rows + 1, 3), np.nan),
+        nodes,
+        bars,
+    )
     run.first_row(saved)
     per_chunk = max(1, rows // 20)
     if not flow.steady:
@@ -183,17 +192,43 @@ def _limit(run: ExplicitRun | ImplicitRun) -> float:
 
 
 def _history(
-    network: Network, run: ExplicitRun | ImplicitRun, saved: tuple[np.ndarray, ...], last: int, begin: float, interval: float, steps: int, smallest: float,
-    status: RunStatus, message: str, throughput: float,
-) -> History:  # fmt: skip
+    network: Network,
+    run: ExplicitRun | ImplicitRun,
+    saved: tuple[np.ndarray, ...],
+    last: int,
+    begin: float,
+    interval: float,
+    steps: int,
+    smallest: float,
+    status: RunStatus,
+    message: str,
+    throughput: float,
+) -> History:
     energy = saved[3][:last]
     total = energy[:, 0] + energy[:, 1]
     gain = float(np.max(total - total[0] - (energy[:, 2] - energy[0, 2]))) if last else math.nan
     check = IdentityCheck(
-        "energy from nowhere", max(gain, 0.0) / throughput if throughput > 0.0 else 0.0, ENERGY_TOLERANCE,
+        "energy from nowhere",
+        max(gain, 0.0) / throughput if throughput > 0.0 else 0.0,
+        ENERGY_TOLERANCE,
         "rise of kinetic and elastic energy beyond the work done, over the energy that went through the network",
-    )  # fmt: skip
+    )
     return History(
-        network, begin + interval * np.arange(last), saved[4], saved[5], saved[0][:last], saved[1][:last], saved[2][:last],
-        energy[:, 0], energy[:, 1], energy[:, 2], run.state(), run.name, smallest, steps, status, message, (check,),
-    )  # fmt: skip
+        network,
+        np.asarray(begin + interval * np.arange(last), dtype=np.float64),
+        saved[4],
+        saved[5],
+        saved[0][:last],
+        saved[1][:last],
+        saved[2][:last],
+        energy[:, 0],
+        energy[:, 1],
+        energy[:, 2],
+        run.state(),
+        run.name,
+        smallest,
+        steps,
+        status,
+        message,
+        (check,),
+    )

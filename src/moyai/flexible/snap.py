@@ -68,7 +68,7 @@ class SnapRecord:
         return float(np.sum(self.slack[:, 1] - self.slack[:, 0]))
 
     def exceedance(self) -> tuple[Array, Array]:
-        """Return the peaks of the snaps, falling, and the part of snaps that reaches each (Weibull positions) [N, -]."""
+        """Return the peaks of the snaps, falling [N], and the part of snaps that reaches each (Weibull positions)."""
         peaks = np.sort([contact.peak for contact in self.snaps])[::-1]
         return peaks, np.arange(1, peaks.size + 1) / (peaks.size + 1.0)
 
@@ -104,7 +104,8 @@ def find_snaps(
     threshold : float
         A contact with a higher peak is a snap [N].
     peaks : array_like, optional
-        Highest tension since the row before (:attr:`moyai.flexible.result.History.tension_peak`), so that no peak is lost between
+        Highest tension since the row before (:attr:`moyai.flexible.result.History.tension_peak`), so that no peak is
+        lost between
         rows.
 
     Raises
@@ -139,7 +140,7 @@ def find_snaps(
         begin = now
     if loose[-1]:
         slack.append((begin, float(t[-1])))
-    for number, (when, before, row) in enumerate(taut_from):
+    for when, before, row in taut_from:
         ends = [j for j in turns if j > row and not loose[j]]
         last = int(ends[0]) if ends else t.size - 1
         place = row + 1 + int(np.argmax(most[row + 1 : last + 1]))
