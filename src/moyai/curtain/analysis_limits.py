@@ -211,7 +211,9 @@ def _speeds(unit: LevelCurtain, settings: Settings, limit: float) -> tuple[float
     top = max(1.2 * limit, unit.surface_speed, 0.1)
     top = min(top, settings.limits.highest_speed)
     even = np.linspace(0.0, _round_up(top), _SPEED_COUNT)[1:]
-    values = {*(float(value) for value in even), *((unit.surface_speed,) if unit.surface_speed > 0.0 else ())}
+    values = [float(value) for value in even]
+    if unit.surface_speed > 0.0 and min(abs(unit.surface_speed - value) for value in values) > 1e-9:
+        values.append(unit.surface_speed)
     return tuple(sorted(values))
 
 
