@@ -282,6 +282,16 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
                 tuple(columns), f"{value.attrs['long_name']}. Gumbel fit by maximum likelihood, parametric bootstrap.",
             )
         )  # fmt: skip
+    for number, group in enumerate(_groups(pages, "fatigue")):
+        life = group["life"]
+        places = list(np.ndindex(*life.shape))
+        columns = [
+            Column(str(dim), [_label(pages, str(dim), life, place[n]) for place in places])
+            for n, dim in enumerate(life.dims)
+        ]
+        columns.append(Column("Life [years]", [float(life.values[place]) for place in places]))
+        title = f"Fatigue life from {group.attrs['response']}"
+        blocks.append(Table(f"fatigue-{number}", title, tuple(columns), str(life.attrs["long_name"])))
     for number, group in enumerate(_groups(pages, "long term")):
         level = group["return_level"]
         units = str(level.attrs.get("units", "1"))

@@ -19,10 +19,10 @@ from moyai.core.validity import Notice
 from moyai.design.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
 from moyai.design.codes import DesignCode, LineLoad, check_confirmation, check_line, design_code
 from moyai.design.extremes import check_fit, fit, maximum_interval
-from moyai.design.long_term import return_level
+from moyai.design.long_term import YEAR, return_level
 from moyai.study import schema
 from moyai.study.plan import Study
-from moyai.tables.design_codes import CodeRule, holding_data
+from moyai.tables.design_codes import CodeRule, endurance_data, holding_data
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -65,6 +65,8 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
         parts.append((f"extremes {number + 1}", lambda one=one: _extremes(study, result, one)))  # type: ignore[misc]
     for number, other in enumerate(wanted.long_term):
         parts.append((f"long term {number + 1}", lambda other=other: _long_term(study, result, other)))  # type: ignore[misc]
+    for number, tired in enumerate(wanted.fatigue):
+        parts.append((f"fatigue {number + 1}", lambda tired=tired: _fatigue(study, result, tired)))  # type: ignore[misc]
     for name, compute in parts:
         try:
             groups[f"/assessment/{name}"], said = compute()
@@ -382,6 +384,57 @@ def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[x
     out = xr.Dataset({"return_level": ((*dims, "return_period"), levels, attributes)}, coords=coords)
     out.attrs.update({"response": wanted.response, "over": wanted.over})
     return out, []
+
+
+def _fatigue(study: Study, result: Result, wanted: schema.Fatigue) -> tuple[xr.Dataset, list[Notice]]:
+    """Return the life of every line over the sea states; [eq:fatigue-miner] summed by their probabilities."""
+    import xarray as xr
+
+    curve = endurance_data(wanted.curve)
+    if curve.unit != "1":
+        raise InputError(
+            f"'{wanted.curve}' takes stresses",
+            path="assess.fatigue",
+            remedy="choose a curve in ratios to breaking load",
+        )
+    name = f"{wanted.response}_rainflow_{curve.exponent:g}"
+    sums = _response(result, name)
+    if "line" not in sums.dims:
+        raise InputError(f"'{wanted.response}' is no series of lines", path="assess.fatigue.response")
+    level = wanted.response.split("/")[0]
+    if not _has(result, f"/{level}/statics", "breaking_load"):
+        raise InputError("the breaking loads of the lines are not known", path="assess.fatigue")
+    breaking = _variable(result, f"/{level}/statics", "breaking_load")
+    capacity = np.full(sums.shape, curve.capacity)
+    notices: list[Notice] = []
+    if curve.mean_term:
+        mean = _response(result, wanted.response.rsplit("/", 2)[0] + "/mean_tension")
+        share = (mean / breaking).transpose(*sums.dims).values
+        capacity = curve.capacity * 10.0 ** (-curve.mean_term * share)
+    rate = sums / breaking.transpose(*sums.dims) ** curve.exponent / capacity
+    if any(axis.name == wanted.over for axis in study.axes):
+        axis = next(one for one in study.axes if one.name == wanted.over)
+        share = np.array([point.probability for point in axis.points])
+        if not np.isfinite(share).all():
+            raise InputError(f"the points of '{wanted.over}' have no probabilities", path="assess.fatigue")
+        rate = (rate * xr.DataArray(share, dims=[wanted.over])).sum(wanted.over, skipna=False)
+    else:
+        known = ", ".join(axis.name for axis in study.axes)
+        raise InputError(f"the study has no axis '{wanted.over}'", path="assess.fatigue", allowed=known)
+    seeds = [str(dim) for dim in rate.dims if dim == "seed"]
+    rate = rate.mean(seeds, skipna=False) if seeds else rate
+    with np.errstate(divide="ignore"):
+        years = 1.0 / (rate.values * YEAR * wanted.safety_factor)
+    if not (curve.confirmed or wanted.confirmed):
+        message = f"the endurance curve '{wanted.curve}' was not held against the standard itself"
+        remedy = "compare it with your copy and say 'confirmed: true'"
+        notices.append(Notice("curve-unconfirmed", message, remedy=remedy, source=curve.source))
+    words = f"life by {wanted.curve}, safety factor {wanted.safety_factor:g}"
+    attributes = {"units": "year", "long_name": words}
+    coords = {str(dim): rate.coords[dim] for dim in rate.dims if dim in rate.coords}
+    out = xr.Dataset({"life": (rate.dims, years, attributes)}, coords=coords)
+    out.attrs.update({"response": wanted.response, "curve": wanted.curve})
+    return out, notices
 
 
 def _short_term(maxima: Any) -> Any:

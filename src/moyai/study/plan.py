@@ -20,6 +20,7 @@ from moyai.study import schema
 from moyai.study.paths import assign, remove, resolve
 from moyai.study.responses import Wanted
 from moyai.study.variations import Axis, Combination, Point, axes_of, combinations, common_unit
+from moyai.tables.design_codes import endurance_data
 
 LARGEST = 1_000_000
 """Number of cases above which a study is refused as a slip."""
@@ -137,9 +138,23 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
         message = f"the study has {count} cases"
         raise CaseError([document.fault(("study", "variations"), message, allowed=f"at most {LARGEST}")])
     cases = combinations(axes)
-    wanted = tuple(Wanted(item.variable, item.reduce, item.over) for item in block.responses)
+    wanted = [Wanted(item.variable, item.reduce, item.over, item.exponent or 0.0) for item in block.responses]
+    for number, item in enumerate(block.responses):
+        if item.reduce == "rainflow" and item.exponent is None:
+            place = ("study", "responses", number)
+            raise CaseError([document.fault(place, "rainflow needs the 'exponent' of the endurance curve")])
+    for one in block.assess.fatigue if block.assess is not None else ():
+        try:
+            wanted.append(Wanted(one.response, "rainflow", (), endurance_data(one.curve).exponent))
+        except InputError as error:
+            fault = error.fault
+            raise CaseError(
+                [document.fault(("study", "assess", "fatigue"), fault.message, allowed=fault.allowed)]
+            ) from None
     keep = block.keep == "results"
-    study = Study(block.title, base, base_path, tuple(axes), cases, wanted, block.watch, keep, "", search)
+    study = Study(
+        block.title, base, base_path, tuple(axes), cases, tuple(dict.fromkeys(wanted)), block.watch, keep, "", search
+    )
     study = replace(study, assessment=block.assess, replays=block.replays)
     named = check_cases(study, progress)
     return replace(study, key=_key(study, named))
@@ -328,7 +343,7 @@ def _key(study: Study, hashes: str) -> str:
         "cases": hashes,
         "points": [[axis.name, [[point.label, point.assignments, point.removals] for point in axis.points]]
                    for axis in study.axes],
-        "wanted": [[item.variable, item.reduce, item.over] for item in study.wanted],
+        "wanted": [[item.variable, item.reduce, item.over, item.exponent] for item in study.wanted],
         "search": None if study.search is None else study.search.model_dump(mode="json"),
     }  # fmt: skip
     return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()

@@ -26,14 +26,24 @@ class Wanted:
     variable : str
         Group and name: ``SWL/rao/mean_drift_force``.
     reduce : str
-        ``maximum``, ``minimum``, ``mean``, ``last`` or ``all``.
+        ``maximum``, ``minimum``, ``mean``, ``last``, ``all`` or ``rainflow``.
     over : tuple of str
         Dimensions; all whose coordinate is no label when empty.
+    exponent : float
+        Of the endurance curve, for ``rainflow``.
     """
 
     variable: str
     reduce: str
     over: tuple[str, ...] = ()
+    exponent: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """Name under which it is kept."""
+        if self.reduce == "all":
+            return self.variable
+        return f"{self.variable}_{self.reduce}" + (f"_{self.exponent:g}" if self.reduce == "rainflow" else "")
 
 
 def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
@@ -64,8 +74,25 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
             if variable.dtype.kind in "fiubc" and variable.size <= _LARGEST and _labelled(variable):
                 found[_key(node.path, str(name))] = _record(variable)
     for item in wanted:
-        found[item.variable if item.reduce == "all" else f"{item.variable}_{item.reduce}"] = _reduced(tree, item)
+        found[item.name] = _reduced(tree, item)
     return found
+
+
+def _counted(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
+    """Return the sum of rainflow ranges to the power of the exponent, a second, of every series along time."""
+    from moyai.design.fatigue import count_cycles
+
+    if "time" not in variable.dims or "time" not in variable.coords:
+        raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")
+    seconds = float(np.ptp(variable.coords["time"].values.astype(float)))
+    moved = variable.transpose(..., "time")
+    values = moved.values.reshape(-1, moved.sizes["time"])
+    sums = np.empty(len(values))
+    for number, series in enumerate(values):
+        ranges, _, counts = count_cycles(series)
+        sums[number] = np.sum(counts * ranges**item.exponent) / seconds
+    out: xr.DataArray = moved.isel(time=0, drop=True).copy(data=sums.reshape(moved.shape[:-1]))
+    return out.assign_attrs(units=f"{variable.attrs.get('units', '1')}^{item.exponent:g}/s", long_name="damage sum")
 
 
 def read_response(tree: xr.DataTree, name: str, sign: int = 1) -> float:
@@ -160,6 +187,8 @@ def _reduced(tree: xr.DataTree, item: Wanted) -> dict[str, Any]:
         variable = abs(variable).assign_attrs(variable.attrs)
     if item.reduce == "all":
         return _record(variable)
+    if item.reduce == "rainflow":
+        return _record(_counted(variable, item))
     over = item.over or tuple(
         str(dim) for dim in variable.dims if variable.coords.get(dim, variable).dtype.kind not in "OU"
     )

@@ -163,8 +163,12 @@ class Response(Block):
     """A value to keep of every case, besides those that are kept by themselves."""
 
     variable: Annotated[str, Field(description="Group and name in results.nc, such as SWL/rao/mean_drift_force.")]
-    reduce: Annotated[Literal["maximum", "minimum", "mean", "last", "all"], Field(description="Over its dimensions.")]
+    reduce: Annotated[
+        Literal["maximum", "minimum", "mean", "last", "all", "rainflow"],
+        Field(description="Over its dimensions; rainflow: sum of the ranges to the power of the exponent, a second."),
+    ]
     over: Annotated[tuple[str, ...], Field(description="Dimensions to reduce; all unlabelled ones when absent.")] = ()
+    exponent: Annotated[PositiveNumber | None, Field(description="Of the endurance curve, for rainflow.")] = None
 
 
 class Condition(Block):
@@ -267,6 +271,16 @@ class LongTerm(Block):
     years: Annotated[tuple[PositiveNumber, ...], Field(min_length=1)]
 
 
+class Fatigue(Block):
+    """Life of the lines by a T-N curve, from rainflow counts of every case."""
+
+    response: Annotated[str, Field(description="Series of tensions in every case: group/name.")]
+    curve: Annotated[str, Field(description="Name in the table of endurance curves, in ratios to the breaking load.")]
+    over: Annotated[str, Field(description="Axis of the sea states with their probabilities.")] = "sea_state"
+    safety_factor: Annotated[PositiveNumber, Field(description="On life.")] = 1.0
+    confirmed: Annotated[Truth, Field(description="You have held the curve against the standard.")] = False
+
+
 class Assessment(Block):
     """What is made of all cases together."""
 
@@ -274,6 +288,7 @@ class Assessment(Block):
     anchors: Annotated[dict[str, AnchorOfLine], Field(default_factory=dict, description="By line.")]
     extremes: Annotated[tuple[ExtremesOfSeeds, ...], OneOrMany()] = ()
     long_term: Annotated[tuple[LongTerm, ...], OneOrMany()] = ()
+    fatigue: Annotated[tuple[Fatigue, ...], OneOrMany()] = ()
 
 
 class StudyBlock(Block):

@@ -156,3 +156,19 @@ def gumbel_case(case, progress):
         "/SWL/statics": xr.Dataset(loads, coords={"line": names}),
     }
     return Result(xr.DataTree.from_dict(groups))
+
+
+def sine_case(case, progress):
+    """Tension that swings with the height of the sea: its rainflow count is known."""
+    sea = case.model.waves[0]
+    time_axis = np.arange(0.0, 1000.25, 0.05)
+    names = [line.name for line in case.model.lines]
+    series = 2e5 + 5e4 * sea.significant_height * np.sin(2 * math.pi * time_axis / 5.0)
+    data = {"tension": (("time", "line"), np.stack([series, 2 * series], axis=1), {"units": "N"})}
+    loads = {"breaking_load": (("line",), [1e6, 1e6], {"units": "N"})}
+    groups = {
+        "/": xr.Dataset(),
+        "/SWL/time/storm/run": xr.Dataset(data, coords={"time": time_axis, "line": names}),
+        "/SWL/statics": xr.Dataset(loads, coords={"line": names}),
+    }
+    return Result(xr.DataTree.from_dict(groups))

@@ -144,3 +144,23 @@ def test_the_report_of_failures_and_of_a_single_axis_is_written(tmp_path):
     result = run_study(study, tmp_path / "out", study_cases.failing_case, workers=1)
     page = render_html(compose(result))
     assert "the float sinks" in page and "Cases that failed" in page
+
+
+def test_fatigue_life_over_a_scatter_diagram_is_that_of_its_sines(tmp_path):
+    (tmp_path / "scatter.csv").write_text(
+        "significant_height,period,probability\n0.5,5,0.9\n1.0,5,0.1\n", encoding="utf-8"
+    )
+    variation = (
+        "- scatter: {file: scatter.csv, significant_height: 'waves[0].significant_height',"
+        " period: 'waves[0].peak_period'}"
+    )
+    assessment = "{fatigue: {response: SWL/time/storm/run/tension, curve: studless_chain, safety_factor: 8}}"
+    study = load_study(study_cases.write_text(tmp_path, variation, assess=assessment))
+    result = assess(study, run_study(study, tmp_path / "out", study_cases.sine_case, workers=1), study.assessment)
+    life = result.tree["assessment/fatigue 1"]["life"]
+    # A cycle of range 0.05 (0.1) of the breaking load every 5 s; K = 316, m = 3
+    rate = (0.9 * 0.05**3 + 0.1 * 0.1**3) / 316.0 / 5.0
+    assert life.sel(line="seaward").item() == pytest.approx(1.0 / (rate * YEAR * 8.0), rel=0.01)
+    assert life.sel(line="shoreward").item() == pytest.approx(life.sel(line="seaward").item() / 8.0, rel=1e-9)
+    assert any("endurance curve" in notice.message for notice in result.notices)
+    assert "Fatigue life" in render_html(compose(result))
