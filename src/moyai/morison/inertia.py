@@ -97,7 +97,7 @@ def _remembered(vertices: bytes, bulges: bytes, accuracy: float) -> InertiaCoeff
     """Solve a contour given by its numbers once: a case asks for its section at every step from check to report."""
     contour = Contour(np.frombuffer(vertices).reshape(-1, 2), np.frombuffer(bulges))
     levels, order = _resolution(contour, accuracy)
-    coarse = _solve(contour, np.maximum(levels - 3, 1), max(order - 2, 4))
+    coarse = _solve(contour, np.maximum(levels - 3, min(1, int(levels.min()))), max(order - 2, 4))
     tensor = _solve(contour, levels, order)
     scale = float(np.abs(tensor).max())
     error = max(float(np.abs(tensor - coarse).max()) / scale, 4e-15)
@@ -133,8 +133,8 @@ def _resolution(contour: Contour, accuracy: float) -> tuple[NDArray[np.int64], i
     while True:
         strength = np.maximum(np.abs(turn) / math.pi, 1e-16)
         levels = np.ceil(np.log2(np.maximum(strength / aim, 1.0)) / (2.0 * np.minimum(exponent, 2.0))).astype(np.int64)
-        levels = np.clip(levels, 1, 40)
-        unknowns = order * int(np.sum(levels + np.roll(levels, -1) + 2))
+        levels = np.clip(levels, 0 if count > 60 else 1, 40)
+        unknowns = order * int(np.sum(np.maximum(levels + np.roll(levels, -1), 1)))
         if unknowns <= _MOST_UNKNOWNS or aim > 1e-2:
             return levels, order
         aim *= 4.0
