@@ -88,6 +88,7 @@ def test_extremes_over_seeds_find_the_known_distribution(tmp_path):
         assert found["design_value"].values[number] == pytest.approx(truth, rel=0.05)
 
 
+@pytest.mark.slow
 def test_return_levels_over_a_scatter_diagram(tmp_path):
     (tmp_path / "scatter.csv").write_text(
         "significant_height,period,probability\n0.5,5,0.9\n1.0,5,0.1\n", encoding="utf-8"

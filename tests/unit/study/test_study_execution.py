@@ -57,6 +57,7 @@ def test_a_case_that_kills_its_worker_is_a_failed_row(tmp_path):
     assert "died twice" in result.tree["case_message"].values[0, 1]
 
 
+@pytest.mark.slow
 def test_a_worker_that_died_once_costs_nothing(tmp_path, monkeypatch):
     monkeypatch.setenv("MOYAI_TEST_MARK", str(tmp_path / "mark"))
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=3))
@@ -87,6 +88,7 @@ def test_a_stopped_study_keeps_what_is_done_and_goes_on(tmp_path):
     assert len(again) == 5 and second.status == "converged"
 
 
+@pytest.mark.slow
 def test_workers_stop_in_the_middle_of_a_long_case(tmp_path):
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=4))
 

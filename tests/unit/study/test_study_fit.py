@@ -55,6 +55,7 @@ def test_a_planted_value_is_found_to_rounding_and_written_into_the_case(tmp_path
     assert sum(a != b for a, b in zip(text.splitlines()[2:], base.splitlines())) == 2
 
 
+@pytest.mark.slow
 def test_noise_is_told_by_the_interval_and_by_the_storms_left_out(tmp_path):
     fit = load_fit(write(tmp_path, noise=0.03))
     result, found = run_fit(fit, study_cases.linear_case)
