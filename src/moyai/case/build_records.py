@@ -27,6 +27,7 @@ from moyai.measure.survey import (
     Directions,
     LoadMeasure,
     ReflectionUse,
+    ResponseUse,
     Spectral,
     Survey,
     TensionUse,
@@ -125,6 +126,9 @@ class _Builder:
                 normal_heading=normal,
                 reflection=self._reflection(),
                 load_measure=self._load_measure(),
+                responses=None
+                if model.responses is None
+                else ResponseUse(model.responses.wave, model.responses.channels, model.responses.least_coherence),
                 case_text=self.document.text,
                 case_hash=hashlib.sha256(self.document.text.encode("utf-8")).hexdigest(),
             )
@@ -152,6 +156,9 @@ class _Builder:
             out["waves of tensions"] = [(("tensions", "waves"), model.tensions.waves)]
             if model.waves is not None and model.tensions.waves not in model.waves.channels:
                 self.fault(("tensions", "waves"), f"'{model.tensions.waves}' is not among waves.channels")
+        if model.responses is not None:
+            out["driving wave"] = [(("responses", "wave"), model.responses.wave)]
+            out["responses"] = [(("responses", "channels", i), name) for i, name in enumerate(model.responses.channels)]
         if model.reflection is not None:
             for key in ("front", "behind"):
                 entries = getattr(model.reflection, key)
@@ -166,6 +173,8 @@ class _Builder:
             "front": ("elevation",),
             "behind": ("elevation",),
             "tensions": ("tension", "force"),
+            "driving wave": ("elevation",),
+            "responses": ("motion", "rotation", "tension", "force", "elevation", "acceleration_z", "other"),
         }
         pairs = {"velocity": ("velocity_x", "velocity_y"), "polar": ("speed", "direction")}
         if key in pairs:
@@ -330,6 +339,25 @@ class _Builder:
         )
 
 
+# Means of these stand still unless the instrument drifts; currents and lines follow tide and weather
+_STEADY_KINDS = (
+    "elevation",
+    "slope_x",
+    "slope_y",
+    "displacement_x",
+    "displacement_y",
+    "acceleration_z",
+    "motion",
+    "rotation",
+)
+
+
+def _drift_share(given: float | None, kind: str) -> float:
+    if given is not None:
+        return given
+    return 1.0 if kind in _STEADY_KINDS else math.inf
+
+
 def _quality(keys: QualityKeys, kind: str, lowest: float, highest: float) -> QualityOptions:
     spikes = keys.spikes if keys.spikes is not None else kind not in ("tension", "force", "direction")
     return QualityOptions(
@@ -341,6 +369,6 @@ def _quality(keys: QualityKeys, kind: str, lowest: float, highest: float) -> Qua
         clip_samples=keys.clip_samples,
         lowest=lowest,
         highest=highest,
-        drift_share=math.inf if keys.drift_share is None else keys.drift_share,
+        drift_share=_drift_share(keys.drift_share, kind),
         unit_slips=keys.unit_slips,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
@@ -36,6 +37,7 @@ SignedDuration = Annotated[float, QuantityOf(quantities.TIME)]
 Row = Annotated[int, Field(strict=True, ge=0, le=1_000_000)]
 Column = Annotated[int, Field(strict=True, ge=1, le=100_000)] | Annotated[str, Field(min_length=1, max_length=200)]
 Share = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=0.9)]
+DriftShare = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, words=(("never", math.inf),))]
 PositiveForceOrNone = Annotated[float, QuantityOf(quantities.FORCE, above=0.0)]
 
 
@@ -110,9 +112,10 @@ class QualityKeys(Block):
         default=3,
         description="So many identical values in a row at the extreme of a block, twice, are clipped; 0: never.",
     )
-    drift_share: Annotated[float | None, QuantityOf(quantities.NUMBER, above=0.0, words=(("never", None),))] = Field(
+    drift_share: DriftShare | None = Field(
         default=None,
-        description="Trend over the record, as share of the standard deviation, reported as drift, or 'never'.",
+        description="A trend over the record that exceeds this share of the standard deviation is a drift, or 'never'; "
+        "absent: 1 for elevations and motions, 'never' for what tides and lines change.",
     )
     unit_slips: Truth = Field(
         default=True, description="Whether sudden changes of scale by a unit's factor are reported."
@@ -268,6 +271,16 @@ class TensionKeys(Block):
     snap_limit: PositiveForceOrNone | None = Field(default=None, description="Rise that counts as a snap event.")
 
 
+class ResponseKeys(Block):
+    """Response of motions (or tensions, forces) to the waves."""
+
+    wave: Name = Field(description="Elevation that drives.")
+    channels: Annotated[tuple[Name, ...], Field(min_length=1, max_length=50)] = Field(description="What answers.")
+    least_coherence: Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=1.0)] = Field(
+        default=0.0, description="Frequencies with less coherence are left out, beside those that chance would give."
+    )
+
+
 class GaugeEntry(Block):
     """A wave gauge of the reflection analysis."""
 
@@ -299,6 +312,7 @@ class RecordsFile(Block):
     directions: DirectionKeys | None = Field(default=None, description="Directions.")
     current: CurrentKeys | None = Field(default=None, description="Currents.")
     tensions: TensionKeys | None = Field(default=None, description="Tensions.")
+    responses: ResponseKeys | None = Field(default=None, description="Response functions with coherence.")
     reflection: ReflectionKeys | None = Field(default=None, description="Reflection and transmission.")
 
     @classmethod
@@ -308,6 +322,7 @@ class RecordsFile(Block):
             ("directions", ("site", "spectrum")),
             ("reflection", ("site", "spectrum")),
             ("tensions", ("waves",)),
+            ("responses", ("spectrum",)),
         ):
             for other in needs:
                 if data.get(key) is not None and data.get(other) is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import typer
 
+from moyai.cli.measuring_decay import decay
 from moyai.cli.measuring_forces import forces
 from moyai.cli.measuring_records import records
 from moyai.cli.measuring_streaks import streaks
@@ -14,6 +15,7 @@ measure = typer.Typer(
     rich_markup_mode=None,
     help="Turn records and pictures into statistics and coefficients.",
 )
+measure.command()(decay)
 measure.command()(forces)
 measure.command()(records)
 measure.command()(streaks)

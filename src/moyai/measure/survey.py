@@ -125,6 +125,15 @@ class ReflectionUse:
 
 
 @dataclass(frozen=True)
+class ResponseUse:
+    """Motions (or any channels) whose response to a wave channel is wanted."""
+
+    wave: str
+    channels: tuple[str, ...]
+    least_coherence: float = 0.0
+
+
+@dataclass(frozen=True)
 class Survey:
     """Everything that ``moyai measure records`` does.
 
@@ -160,6 +169,7 @@ class Survey:
     load_measure : callable, optional
         From H1/3 [m], T1/3 [s], angle from the normal [rad] and normal current [m/s] to the squared velocity that loads
         a curtain [m2/s2].
+    responses : ResponseUse, optional
     case_text, case_hash : str
     """
 
@@ -182,6 +192,7 @@ class Survey:
     normal_heading: float = math.nan
     reflection: ReflectionUse | None = None
     load_measure: LoadMeasure | None = None
+    responses: ResponseUse | None = None
     case_text: str = ""
     case_hash: str = ""
 
@@ -197,6 +208,7 @@ class Survey:
             "current": (self.current.x, self.current.y) if self.current else (),
             "tensions": tuple(entry.channel for entry in self.tensions),
             "reflection": (*self.reflection.front, *self.reflection.rear) if self.reflection else (),
+            "responses": (self.responses.wave, *self.responses.channels) if self.responses else (),
             "tensions.waves": (self.wave_of_tensions,) if self.wave_of_tensions else (),
         }
         for path, channels in wanted.items():

@@ -14,6 +14,7 @@ from moyai.measure.clocks import interpolate
 from moyai.measure.currents import block_means, components, heading_of_bearing
 from moyai.measure.directional import directional_spectrum, fourier_directions
 from moyai.measure.irregular_reflection import separate_irregular, transmission
+from moyai.measure.motions import ResponseFunction, response_function
 from moyai.measure.quality import BlockMoments, Finding, check_record, moments_of
 from moyai.measure.record import FloatArray, Record
 from moyai.measure.sensors import Sensor, surface_elevation
@@ -52,6 +53,8 @@ class BlockResult:
         Figures by name.
     tensions : dict
         By channel: figures by name.
+    responses : dict
+        By channel: the response to the wave channel.
     notices : tuple of Notice
     """
 
@@ -71,6 +74,7 @@ class BlockResult:
     current: dict[str, float] = field(default_factory=dict)
     reflection: dict[str, float] = field(default_factory=dict)
     tensions: dict[str, dict[str, float]] = field(default_factory=dict)
+    responses: dict[str, ResponseFunction] = field(default_factory=dict)
     notices: tuple[Notice, ...] = ()
 
 
@@ -156,6 +160,7 @@ def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record
         _current(survey, data),
         _reflection(survey, data, notices),
         _tensions(survey, data, cut, notices),
+        _responses(survey, data, notices),
         tuple(notices),
     )
 
@@ -375,6 +380,37 @@ def _tensions(
             remedy = "read the largest tensions as lower bounds"
             notices.append(Notice("tension-sampling", message, rate, SLOWEST_TENSION_RATE, remedy=remedy))
         out[use.channel] = figures
+    return out
+
+
+def _responses(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[str, ResponseFunction]:
+    """Return the response of every motion to the wave channel."""
+    use = survey.responses
+    if use is None or survey.spectral is None:
+        return {}
+    wave = data.get(use.wave)
+    if wave is None or wave[0].size < 16:
+        return {}
+    step, columns = _even(*wave)
+    clock = wave[0][0] + np.arange(columns.shape[0]) * step
+    out = {}
+    for name in use.channels:
+        found = data.get(name)
+        options = _fitting(survey.spectral.options, columns.shape[0], step)
+        if found is None or options is None:
+            continue
+        same = found[0].size == wave[0].size and np.array_equal(found[0], wave[0])
+        motion = _even(*found)[1][:, 0] if same else interpolate(*found, clock, largest_gap=1.5 * _step(found[0]))
+        band = survey.spectral
+        try:
+            out[name] = response_function(
+                step, columns[:, 0], motion, options, lowest=band.lowest, highest=band.highest,
+                least_coherence=use.least_coherence,
+            )  # fmt: skip
+        except InputError as error:
+            notices.append(Notice("response-skipped", f"{name}: {error.fault.message}"))
+            continue
+        notices.extend(out[name].notices)
     return out
 
 

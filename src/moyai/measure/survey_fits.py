@@ -10,7 +10,16 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.measure.record import FloatArray
-from moyai.measure.regressions import Estimate, Fit, correlation, fit_cosine, fit_line, fit_power, type_ratio
+from moyai.measure.regressions import (
+    Estimate,
+    Fit,
+    correlation,
+    fit_by_direction,
+    fit_cosine,
+    fit_line,
+    fit_power,
+    type_ratio,
+)
 from moyai.measure.survey import Survey
 
 if TYPE_CHECKING:
@@ -97,6 +106,7 @@ def _tension_rows(survey: Survey, groups: Mapping[str, xr.Dataset]) -> list[_Row
         _add(rows, "Tmax against T1/10", name, tenth, maximum, lambda x, y: fit_line(x, y, through_origin=True))
         _add_number(rows, "steady tension with U_x: correlation", name, current, steady)
         _add(rows, "T1/10 over H1/3 against cos^n of the angle", name, angle, tenth / third, fit_cosine)
+        rows.extend(_class_rows(name, third, tenth, angle))
         if survey.load_measure is not None:
             speed = np.where(np.isfinite(current), current, 0.0)
             turned = np.where(np.isfinite(angle), angle, 0.0)
@@ -106,6 +116,33 @@ def _tension_rows(survey: Survey, groups: Mapping[str, xr.Dataset]) -> list[_Row
             _add(rows, "Tmax against u2", name, squared, maximum, lambda x, y: fit_line(x, y, through_origin=True))
     rows.extend(_type_rows(members, lines, means))
     return rows
+
+
+DIRECTION_CLASSES = (0.0, 20.0, 40.0, 60.0, 90.0)
+"""Borders of the classes of angles from the normal [deg]."""
+
+
+def _class_rows(of: str, third: FloatArray, tenth: FloatArray, angle: FloatArray) -> list[_Row]:
+    """Return by how much each class of directions leaves the common line of tension and height."""
+    known = np.isfinite(third) & np.isfinite(tenth) & np.isfinite(angle)
+    if np.count_nonzero(known) < FEWEST:
+        return []
+    try:
+        _, classes = fit_by_direction(third[known], tenth[known], angle[known], np.radians(DIRECTION_CLASSES))
+    except InputError:
+        return []
+    return [
+        _row(
+            f"T1/10 off the common line, {math.degrees(entry.low):.0f} to {math.degrees(entry.high):.0f} deg",
+            of,
+            "share of the mean load",
+            entry.departure,
+            math.nan,
+            entry.count,
+        )
+        for entry in classes
+        if entry.departure is not None
+    ]
 
 
 def _type_rows(

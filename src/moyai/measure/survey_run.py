@@ -219,6 +219,8 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
         groups["tensions"] = groups["tensions"].assign_coords(
             group=("line", np.array([entry.group for entry in survey.tensions], dtype=object))
         )
+    if any(block.responses for block in found):
+        groups["responses"] = _responses(survey, found, symbols, time)
     fits = fit_relations(survey, groups)
     if fits is not None:
         groups["fits"] = fits
@@ -327,6 +329,48 @@ def _spectra(survey: Survey, found: Sequence[BlockResult], time: Any) -> dict[st
     return {"spectra": dataset}
 
 
+def _responses(survey: Survey, found: Sequence[BlockResult], symbols: dict[str, str], time: Any) -> xr.Dataset:
+    """Return modulus, phase, error and coherence of the responses."""
+    import xarray as xr
+
+    assert survey.responses is not None
+    names = survey.responses.channels
+    longest = max((entry for block in found for entry in block.responses.values()), key=lambda r: r.frequency.size)
+    shape = (len(found), len(names), longest.frequency.size)
+    tables = {key: np.full(shape, math.nan) for key in ("modulus", "phase", "error", "coherence")}
+    for row, block in enumerate(found):
+        for column, name in enumerate(names):
+            entry = block.responses.get(name)
+            if entry is None or entry.frequency.size != shape[2]:
+                continue
+            tables["modulus"][row, column] = entry.modulus
+            tables["phase"][row, column] = np.angle(entry.response)
+            tables["error"][row, column] = entry.error
+            tables["coherence"][row, column] = entry.coherence
+    words = {
+        "modulus": "response amplitude per wave amplitude",
+        "phase": "phase of the response, Re(X exp(-i omega t))",
+        "error": "standard error of the response amplitude",
+        "coherence": "squared coherence",
+    }
+    wave = symbols.get(survey.responses.wave, "m")
+    units = ", ".join(f"{name} {symbols.get(name, '')}/{wave}" for name in names)
+    data = {
+        key: (
+            ("block", "motion", "frequency"),
+            table,
+            {"units": "rad" if key == "phase" else "", "long_name": words[key]},
+        )
+        for key, table in tables.items()
+    }
+    coordinates = {
+        "time": time,
+        "motion": np.array(names, dtype=object),
+        "frequency": ("frequency", longest.frequency, {"units": "Hz", "long_name": "frequency"}),
+    }
+    return xr.Dataset(data, coordinates, {"units_of_modulus": units})
+
+
 def _quality(
     survey: Survey, found: Sequence[BlockResult], names: Sequence[str], dated: bool
 ) -> tuple[xr.Dataset, list[Notice]]:
@@ -362,7 +406,9 @@ def _quality(
         if drift is not None and drift.significant and drift.share > share:
             detail = f"trend of {drift.change:.4g} over the record, {drift.share:.2g} of its standard deviation"
             rows.append((name, "drift", found[0].start, found[-1].start + survey.block_length, 0, detail))
-            notices.append(Notice("drift", f"{name}: {detail}", drift.share, share, remedy="check the zero"))
+            notices.append(
+                Notice("drift", f"{name}: {detail}", drift.share, share, remedy="check the zero, or take the tide off")
+            )
     lost = len(rows) - MOST_FINDINGS
     if lost > 0:
         rows = rows[:MOST_FINDINGS]

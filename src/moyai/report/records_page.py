@@ -84,6 +84,7 @@ def compose(result: Result) -> Document:
         ("current", "Currents", _current),
         ("tensions", "Tensions", _tensions),
         ("fits", "Relations", _fits),
+        ("responses", "Responses", _responses),
         ("reflection", "Reflection and transmission", _reflection),
         ("whole", "Distribution of heights", _whole),
         ("blocks", "Channels", _channels),
@@ -343,6 +344,40 @@ def _tensions(tree: Any, clock: _Clock) -> list[Block]:
     return blocks
 
 
+def _responses(tree: Any, clock: _Clock) -> list[Block]:
+    group = tree["responses"]
+    frequency = np.asarray(group["frequency"].values, dtype=float)
+    names = [str(name) for name in group["motion"].values]
+    modulus, coherence = (np.asarray(group[name].values, dtype=float) for name in ("modulus", "coherence"))
+    error, phase = (np.asarray(group[name].values, dtype=float) for name in ("error", "phase"))
+    row = int(np.argmax(np.isfinite(modulus).sum(axis=(1, 2))))
+    series = []
+    for tone, name in enumerate(names):
+        series.append(Series(name, {"f": frequency}, modulus[row, tone], 0, tone, "line+points"))
+        series.append(Series(name, {"f": frequency}, coherence[row, tone], 1, tone))
+    caption = f"Block of {clock.text(float(clock.start[row]))}; moduli in {group.attrs.get('units_of_modulus', '')}."
+    figure = Figure(
+        "responses",
+        "Response to the waves",
+        (Abscissa("f", "frequency", "Hz"),),
+        (Panel("modulus", "", from_zero=True), Panel("squared coherence", "", limits=(0.0, 1.0))),
+        tuple(series),
+        caption,
+        height=460,
+    )
+    shown = np.isfinite(modulus[row]).any(axis=0)
+    columns = [Column("frequency", list(frequency[shown]), "Hz", digits=4)]
+    for tone, name in enumerate(names):
+        for label, values in (
+            ("modulus", modulus[row, tone]),
+            ("error", error[row, tone]),
+            ("phase, deg", np.degrees(phase[row, tone])),
+            ("coherence", coherence[row, tone]),
+        ):
+            columns.append(Column(f"{name} {label}", list(values[shown]), digits=4, uniform=False))
+    return [figure, Table("responses", "Response to the waves", tuple(columns), caption)]
+
+
 def _fits(tree: Any, clock: _Clock) -> list[Block]:
     group = tree["fits"]
     texts = [(name, [str(value) for value in group[name].values]) for name in ("relation", "of", "parameter")]
@@ -446,7 +481,7 @@ def _channels(tree: Any, clock: _Clock) -> list[Block]:
             Column(label, list(values), "", digits=4, uniform=False)
             for label, values in zip(labels, columns, strict=True)
         ),
-        "Flagged samples are left out of these figures and kept in the record.",
+        "Missing samples, spikes and values out of range are left out of these figures, flat and clipped ones are not.",
     )
     return [table]
 

@@ -294,3 +294,71 @@ def test_the_template_is_a_sound_file(tmp_path):
     assert result.tree["current"]["current_normal"].values == pytest.approx(0.1, abs=0.02)
     assert result.tree["tensions"]["steady"].values[0] == pytest.approx([0.55 * 9806.65, 5.5e3], rel=0.02)
     assert {notice.code for notice in result.notices}.isdisjoint({"record-gaps", "time-order"})
+
+
+def test_responses_and_reflection_through_a_survey(tmp_path):
+    """An irregular test in a flume: a planted filter and a planted reflection, out of one file."""
+    from moyai.sea.irregular import synthesise
+    from moyai.sea.spectra import jonswap
+    from moyai.sea.water import Water
+
+    water = Water(depth=0.8, density=1000.0, gravity=9.81)
+    sea = synthesise(jonswap(0.08, 1.6, 3.3), water, duration=600.0, seed=11, time_step=0.05)
+    time = np.arange(12_000) * 0.05
+    k, places = sea.wave_number, (0.0, 0.3, 0.75)
+    gauges = sea.respond(np.array([np.exp(1j * k * x) + 0.4 * np.exp(1j * k * (4.0 - x)) for x in places]), time)
+    behind = sea.respond(0.5 * np.exp(1j * k * 6.0), time)
+    transfer = 1.5 / (1.0 - (sea.omega / 5.0) ** 2 - 0.4j * sea.omega / 5.0)
+    sway = sea.respond(transfer * 0.5 * np.exp(1j * k * 6.0), time)
+    table = np.column_stack([time, gauges, behind, sway])
+    np.savetxt(tmp_path / "f.csv", table, delimiter=";", header="t;a;b;c;d;sway", comments="", fmt="%.7f")
+    channels = "\n".join(f"      - {{name: {n}, column: {n}, unit: m, kind: elevation}}" for n in "abcd")
+    (tmp_path / "f.yaml").write_text(
+        f"""moyai: 1
+loggers:
+  - name: flume
+    file: f.csv
+    time: {{column: t}}
+    channels:
+{channels}
+      - {{name: sway, column: sway, unit: m, kind: motion}}
+site: {{water_depth: 0.8, density: 1000, gravity: 9.81}}
+blocks: {{length: 601 s}}
+spectrum: {{segment: 51.2 s, lowest: 0.4 Hz, highest: 1.1 Hz}}
+reflection:
+  front: [{{channel: a, x: 0}}, {{channel: b, x: 0.3}}, {{channel: c, x: 0.75}}]
+  behind: [{{channel: d, x: 6}}]
+responses: {{wave: d, channels: [sway]}}
+"""
+    )
+    result = run_survey(load_survey(tmp_path / "f.yaml"))
+    found = result.tree["reflection"]
+    assert found["reflection_coefficient"].values[0] == pytest.approx(0.4, abs=0.02)
+    assert found["transmission_coefficient"].values[0] == pytest.approx(0.5, abs=0.03)
+    response = result.tree["responses"]
+    frequency, modulus = response["frequency"].values, response["modulus"].values[0, 0]
+    use = np.isfinite(modulus) & (frequency > 0.5) & (frequency < 0.75)
+    omega = 2.0 * math.pi * frequency[use]
+    expected = np.abs(1.5 / (1.0 - (omega / 5.0) ** 2 - 0.4j * omega / 5.0))
+    np.testing.assert_allclose(modulus[use], expected, rtol=0.06)
+    assert use.sum() > 8
+    assert "responses.csv" in {file.name for file in write_report(result, tmp_path / "out")}
+
+
+def test_decay_command(tmp_path):
+    from typer.testing import CliRunner
+
+    from moyai.cli.main import app
+
+    time = np.arange(0.0, 30.0, 0.02)
+    roll = 2.0 + 10.0 * np.exp(-0.04 * math.pi * time) * np.cos(2.0 * math.pi * time / 2.0)
+    rows = ["経過[s];横揺れ[deg]"] + [f"{t:.2f};{r:.5f}" for t, r in zip(time, roll)]
+    (tmp_path / "d.csv").write_text("\n".join(rows), encoding="cp932")
+    runner = CliRunner()
+    done = runner.invoke(app, ["measure", "decay", str(tmp_path / "d.csv"), "--column", "横揺れ", "--json"])
+    found = json.loads(done.stdout)
+    assert found["period"] == pytest.approx(2.0, rel=1e-3)
+    assert found["damping_ratio"] == pytest.approx(0.04, rel=0.02)
+    assert found["rest"] == pytest.approx(math.radians(2.0), abs=2e-3)
+    done = runner.invoke(app, ["measure", "decay", str(tmp_path / "d.csv"), "--column", "縦揺れ", "--json"])
+    assert done.exit_code == 2 and "横揺れ" in json.loads(done.stdout)["faults"][0]["message"] + done.stdout

@@ -1,0 +1,68 @@
+"""``moyai measure decay``: natural period and damping out of a free decay."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from moyai.cli.console import OK, guard, print_json, say
+
+
+def decay(
+    file: Annotated[Path, typer.Argument(metavar="RECORD", help="Text file with headings.", show_default=False)],
+    column: Annotated[str, typer.Option("--column", help="Heading of the motion.")],
+    time: Annotated[str, typer.Option("--time", help="Heading of the time; the first column when absent.")] = "",
+    unit: Annotated[
+        str, typer.Option("--unit", help="Unit of the motion where the heading has none: m, mm, deg.")
+    ] = "",
+    start: Annotated[float | None, typer.Option("--start", help="First instant to use [s].")] = None,
+    end: Annotated[float | None, typer.Option("--end", help="Last instant to use [s].")] = None,
+    rest: Annotated[float | None, typer.Option("--rest", help="Position at rest, SI; found when absent.")] = None,
+    smallest: Annotated[float, typer.Option("--smallest", help="Smallest swing used, over the first.")] = 0.05,
+    linear: Annotated[bool, typer.Option("--linear", help="Fit linear damping alone.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+) -> None:
+    """Find natural period, linear and quadratic damping of a free decay."""
+    with guard(as_json):
+        from moyai.measure.motions import fit_decay_record
+        from moyai.measure.reading import read_record
+        from moyai.measure.sources import ColumnSource, LoggerSource, TimeSource
+
+        source = LoggerSource(
+            "decay", (file,), (ColumnSource(column, "motion", unit),), TimeSource((time or 1,)), format="csv"
+        )
+        record = read_record(source)
+        found = fit_decay_record(
+            record.time, record["motion"], start=start, end=end, rest=rest, smallest=smallest, quadratic=not linear
+        )
+        unit_of = record.units[0]
+        if as_json:
+            print_json(
+                {
+                    "period": found.decay.period,
+                    "period_error": found.period_error,
+                    "damping_ratio": found.decay.damping_ratio,
+                    "damping_error": found.damping_error,
+                    "quadratic_over_inertia": found.decay.quadratic_over_inertia,
+                    "quadratic_error": found.quadratic_error,
+                    "rest": found.rest,
+                    "start": found.start,
+                    "end": found.end,
+                    "swings": [float(value) for value in found.decay.extremes],
+                    "notices": [notice.as_dict() for notice in found.notices],
+                    "faults": [],
+                }
+            )
+        else:
+            say(f"damped period {found.decay.period:.5g} +- {found.period_error:.2g} s")
+            say(f"damping ratio {found.decay.damping_ratio:.4g} +- {found.damping_error:.2g} (linear part)")
+            quadratic, error = found.decay.quadratic_over_inertia, found.quadratic_error
+            say(f"quadratic damping over inertia {quadratic:.4g} +- {error:.2g} 1/{unit_of or '1'}")
+            say(
+                f"rest {found.rest:.5g} {unit_of}, {found.decay.extremes.size} swings, {found.start:.5g} to {found.end:.5g} s"
+            )
+            for notice in found.notices:
+                say(f"{notice.severity}: {notice.message}")
+        raise typer.Exit(OK)
