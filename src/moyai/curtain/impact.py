@@ -203,6 +203,23 @@ def closed_form(impact: Impact, mass: float | None = None) -> ImpactPeak:
     return ImpactPeak(tension, impact.speed / frequency, 0.5 * math.pi / frequency)
 
 
+def energy_bound(impact: Impact, mass: float | None = None) -> float:
+    """Return U0 sqrt(m EA B/l) [N], the tension that the energy of the whole span gives [eq:impact-bound].
+
+    Every metre of the span moves with U0 and all of that energy stretches the cable evenly. Model A, whose span moves
+    like its sag, stays below; a curtain that starts with one speed all along may come near.
+
+    Parameters
+    ----------
+    impact : Impact
+        The span.
+    mass : float, optional
+        Added mass per metre of span [kg/m]; M0 of the paper by default.
+    """
+    moved = impact.deep_mass if mass is None else float(mass)
+    return impact.speed * math.sqrt(moved * impact.stiffness * impact.span_ratio)
+
+
 @dataclass(frozen=True, eq=False)
 class EdgeImpact:
     """Model A2: both cables apart.

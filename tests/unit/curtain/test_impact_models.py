@@ -13,6 +13,7 @@ from moyai.curtain.impact import (
     check_impact,
     closed_form,
     edge_impact,
+    energy_bound,
     impact_numbers,
     peak_by_energy,
     speed_factor,
@@ -166,6 +167,16 @@ def test_generalised_force_is_the_derivative_of_the_elastic_energy():
     for f in (0.0285, 0.03, 0.04):
         slope = (energy(f + 1e-7) - energy(f - 1e-7)) / 2e-7
         assert skirt.generalised_force(f) == pytest.approx(slope, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_peak_exceeds_the_energy_of_the_whole_span(seed):
+    impact = random_impact(seed)
+    assert peak_by_energy(impact).tension < energy_bound(impact)
+    base = Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, Water(0.4, 1000.0, 9.81))
+    assert energy_bound(base) == pytest.approx(13.01, abs=5e-3)
+    ratio = np.linspace(0.01, 1.0, 200)
+    assert np.all(speed_factor(ratio) < np.sqrt(ratio))
 
 
 def test_sweep_is_the_single_solution():
