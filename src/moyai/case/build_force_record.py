@@ -10,10 +10,12 @@ import numpy as np
 from moyai.case.build_member import member_section
 from moyai.case.measured import read_points
 from moyai.case.reader import read_block
-from moyai.case.schema_force_record import ForceRecordFile
+from moyai.case.schema_force_record import ForceRecordFile, WaveGauge
 from moyai.case.yaml_reader import Document, read_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.measure.force_identification import ForceRecord, Setup
+from moyai.measure.force_identification_record import period_of
+from moyai.measure.force_identification_waves import orbital_motion
 
 
 def load_force_record(path: Path) -> tuple[Document, ForceRecordFile]:
@@ -73,8 +75,14 @@ def record_of(path: Path, model: ForceRecordFile) -> ForceRecord:
     InputError
         When the file cannot be read or the record is unusable; the message names column and sample.
     """
-    names = model.columns
-    groups = {"force": names.force, "velocity": names.velocity, "acceleration": names.acceleration or ()}
+    names, gauge = model.columns, model.gauge
+    if (names.velocity is None) == (gauge is None):
+        raise InputError(
+            "give the columns of the velocity or a wave gauge, one of both",
+            path="columns.velocity",
+            allowed="exactly one",
+        )
+    groups = {"force": names.force, "velocity": names.velocity or (), "acceleration": names.acceleration or ()}
     for key, columns in groups.items():
         if columns and len(columns) != len(names.force):
             raise InputError(
@@ -83,16 +91,44 @@ def record_of(path: Path, model: ForceRecordFile) -> ForceRecord:
                 allowed="equal",
             )
     wanted = {names.time: "time"}
-    for key, columns in groups.items():
-        for number, column in enumerate(columns):
-            if column in wanted:
-                raise InputError(f"the column '{column}' is named twice", path=f"columns.{key}")
-            wanted[column] = f"{key}_{number}"
+    entries = [(column, f"{key}_{number}") for key, columns in groups.items() for number, column in enumerate(columns)]
+    if gauge is not None:
+        entries.append((gauge.elevation, "elevation"))
+    for column, target in entries:
+        if column in wanted:
+            raise InputError(f"the column '{column}' is named twice", path="columns")
+        wanted[column] = target
     table = read_points(path, wanted, "record")
 
     def gathered(key: str) -> np.ndarray:
         return np.column_stack([table[f"{key}_{number}"] for number in range(len(names.force))])
 
     force = gathered("force") / (model.length or 1.0)
-    rate = gathered("acceleration") if names.acceleration else None
-    return ForceRecord(np.asarray(table["time"]), force, gathered("velocity"), rate)
+    time = np.asarray(table["time"])
+    if gauge is None:
+        rate = gathered("acceleration") if names.acceleration else None
+        return ForceRecord(time, force, gathered("velocity"), rate)
+    return _with_gauge(time, force, np.asarray(table["elevation"]), model, gauge)
+
+
+def _with_gauge(
+    time: np.ndarray, force: np.ndarray, elevation: np.ndarray, model: ForceRecordFile, gauge: WaveGauge
+) -> ForceRecord:
+    """Return the record with the motion that linear theory finds from a gauge."""
+    # the record itself is judged first: gaps and steps of time and force, clipping of the gauge
+    both = np.column_stack([force, elevation])
+    ForceRecord(time, both, both)
+    period = model.period
+    if model.regular and period is None:
+        period = period_of(time, elevation[:, None])
+    velocity, rate = orbital_motion(
+        time,
+        elevation,
+        water_depth=gauge.water_depth,
+        gravity=gauge.gravity,
+        height=gauge.member_z,
+        distance=gauge.distance_to_member,
+        period=period if model.regular else None,
+    )
+    order = [("first", "second").index(axis) for axis in model.axes][: force.shape[1]]
+    return ForceRecord(time, force, velocity[:, order], rate[:, order])

@@ -11,6 +11,9 @@ from moyai.case.schema_types import (
     AutoDuration,
     Block,
     Density,
+    Depth,
+    Gravity,
+    Length,
     PositiveLength,
     QuantityOf,
     Seed,
@@ -32,9 +35,23 @@ class RecordColumns(Block):
 
     time: Annotated[str, Field(min_length=1)] = Field(default="time", description="Column of the time. Default: time.")
     force: Names = Field(description="Columns of the force, one or two components.", examples=[["force_x", "force_z"]])
-    velocity: Names = Field(description="Columns of the velocity of the water at the axis of the member.")
+    velocity: Names | None = Field(
+        default=None, description="Columns of the velocity of the water at the axis of the member; or give 'gauge'."
+    )
     acceleration: Names | None = Field(
         default=None, description="Columns of the acceleration; found from the velocity when absent."
+    )
+
+
+class WaveGauge(Block):
+    """A wave gauge in place of measured velocities: linear theory carries its record to the member."""
+
+    elevation: Annotated[str, Field(min_length=1)] = Field(description="Column of the surface elevation.")
+    water_depth: Depth = Field(description="Water depth, or 'infinite'.")
+    gravity: Gravity = Field(description="Acceleration of gravity.")
+    member_z: Length = Field(description="Height of the axis of the member above still water, negative.")
+    distance_to_member: Length = Field(
+        default=0.0, description="From the gauge to the member in the direction of the waves. Default: 0."
     )
 
 
@@ -49,6 +66,7 @@ class ForceRecordFile(Block):
         default=None, description="Length that the force was measured on; the force is per length when absent."
     )
     columns: RecordColumns = Field(description="Columns of the record.")
+    gauge: WaveGauge | None = Field(default=None, description="Wave gauge, where no velocity was measured.")
     axes: Annotated[tuple[Axis, ...], Field(min_length=1, max_length=2), AfterValidator(once_each)] = Field(
         default=("first", "second"), description="Axis of the section of each component. Default: [first, second]."
     )

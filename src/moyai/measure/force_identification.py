@@ -280,9 +280,10 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
         )
     if setup.form == "vector" and record.components < 2:
         raise InputError("the vector form needs two components", path="form", allowed="component")
-    period = (
-        setup.period if setup.period is not None else (period_of(record) if setup.regular else _mean_period(record))
-    )
+    if setup.period is not None:
+        period = setup.period
+    else:
+        period = period_of(record.time, record.velocity) if setup.regular else _mean_period(record)
     used = _whole_periods(record, period, setup.regular)
     omega = 2.0 * math.pi / period
     per_period = period / used.step

@@ -187,34 +187,41 @@ def acceleration_of(velocity: Array, step: float, omega: float | None, harmonics
     return np.asarray(make_interp_spline(time, velocity, k=5).derivative()(time))
 
 
-def period_of(record: ForceRecord) -> float:
-    """Return the period of a regular record [s]: the one that mean and first harmonic of the velocity fit best.
+def period_of(time: Array, records: Array) -> float:
+    """Return the period of regular records [s]: the one that mean and first harmonic fit best.
+
+    Parameters
+    ----------
+    time : ndarray, shape (samples,)
+        Evenly spaced [s].
+    records : ndarray, shape (samples, channels)
+        The channel that moves most decides.
 
     Raises
     ------
     InputError
         When the record holds less than two periods, so that it cannot tell.
     """
-    values = record.velocity - record.velocity.mean(axis=0)
-    column = int(np.argmax(values.std(axis=0)))
-    power = np.abs(np.fft.rfft(values[:, column] * np.hanning(len(values)), 8 * len(values)))
+    step = float((time[-1] - time[0]) / (time.size - 1))
+    duration = step * time.size
+    centred = records - records.mean(axis=0)
+    values = centred[:, int(np.argmax(centred.std(axis=0)))]
+    power = np.abs(np.fft.rfft(values * np.hanning(values.size), 8 * values.size))
     peak = int(np.argmax(power[1:])) + 1
-    guess = 2.0 * math.pi * peak / (8 * len(values) * record.step)
-    if guess * record.duration < 4.0 * math.pi:
+    guess = 2.0 * math.pi * peak / (8 * values.size * step)
+    if guess * duration < 4.0 * math.pi:
         raise InputError(
-            f"the record of {record.duration:.4g} s shows less than two periods",
-            path="period",
-            remedy="give the period",
+            f"the record of {duration:.4g} s shows less than two periods", path="period", remedy="give the period"
         )
 
     def residual(omega: float) -> float:
-        angle = omega * (record.time - record.time.mean())
+        angle = omega * (time - time.mean())
         design = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
-        fit, *_ = np.linalg.lstsq(design, values[:, column], rcond=None)
-        return float(np.sum((values[:, column] - design @ fit) ** 2))
+        fit, *_ = np.linalg.lstsq(design, values, rcond=None)
+        return float(np.sum((values - design @ fit) ** 2))
 
     from scipy.optimize import minimize_scalar
 
-    width = math.pi / record.duration
+    width = math.pi / duration
     found = minimize_scalar(residual, bounds=(guess - width, guess + width), method="bounded", options={"xatol": 1e-13})
     return 2.0 * math.pi / float(found.x)

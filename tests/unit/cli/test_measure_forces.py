@@ -63,6 +63,28 @@ def test_coefficients_are_found_printed_and_written(record):
     assert (record.parent / "out/report_tables/coefficients.csv").exists()
 
 
+def test_a_wave_gauge_takes_the_place_of_velocities(record):
+    from moyai.sea.dispersion import wave_number
+
+    rows = np.loadtxt(record, delimiter=",", skiprows=1)
+    omega = 2 * math.pi / 1.0526316
+    k = float(wave_number(omega, 0.5, 9.81))
+    # the horizontal velocity of the fixture, 0.06 m/s, taken back to the surface
+    eta = rows[:, 3] * math.sinh(k * 0.5) / (omega * math.cosh(k * (0.5 - 0.093)))
+    header = "time [s], force_x [N], eta [mm]"
+    table = np.column_stack([rows[:, :2], 1000.0 * eta])
+    np.savetxt(record, table, delimiter=",", header=header, comments="", fmt="%.9g")
+    gauge = "gauge: {elevation: eta, water_depth: 50 cm, gravity: 9.81 m/s2, member_z: -9.3 cm}\n"
+    both = "columns: {force: [force_x, force_z], velocity: [velocity_x, velocity_z]}"
+    config = CONFIG.replace(both, "columns: {force: [force_x]}\naxes: [first]") + gauge
+    found = measure(record, "--json", "--no-report", config=config)
+    assert found.exit_code == 0, found.output
+    inertia = [row["value"] for row in json.loads(found.stdout)["coefficients"] if row["coefficient"] == "C_M"]
+    assert inertia == pytest.approx([1.7] * 4, abs=0.02)
+    neither = measure(record, config=config.replace(gauge, ""))
+    assert (neither.exit_code, "or a wave gauge" in neither.stderr) == (2, True)
+
+
 def test_json_holds_no_digit_that_is_not_known(record):
     found = measure(
         record, "--json", "--no-report", config=CONFIG.replace("phase_error_deg: 0.5", "phase_error_deg: 15")

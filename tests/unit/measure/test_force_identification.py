@@ -9,6 +9,12 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.measure.force_identification import METHODS, ForceRecord, Setup, equivalent_work, identify
 from moyai.measure.force_identification_result import identification_result
+from moyai.measure.force_identification_waves import orbital_motion
+from moyai.sea.components import WaveComponents
+from moyai.sea.dispersion import wave_number
+from moyai.sea.irregular import synthesise
+from moyai.sea.spectra import jonswap
+from moyai.sea.water import Water
 
 DIAMETER = 0.045
 AREA = math.pi * DIAMETER**2 / 4.0
@@ -197,6 +203,37 @@ def test_reduction_and_the_gamma_it_stands_for():
     assert data["equivalent_gamma"].values[0] == pytest.approx([gamma, gamma], rel=1e-3)
     assert result.status == "converged"
     assert all(check.passed for check in result.checks)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_orbital_motion_from_a_gauge_is_that_of_the_sea(seed):
+    """Linear waves of the package itself, at a member up- or downstream of the gauge."""
+    rng = np.random.default_rng(seed)
+    water, distance, height = Water(rng.uniform(3, 30), 1000.0, 9.81), rng.uniform(-8, 8), -rng.uniform(0.5, 2.5)
+    period = rng.uniform(3, 9)
+    omega = 2 * math.pi / period
+    k = float(wave_number(omega, water.depth, 9.81))
+    sea = WaveComponents(*(np.array([v]) for v in (omega, 0.3, 0.7, 0.0, k)), water=water)
+    time = period / 37.3 * np.arange(200)
+    at = {"water_depth": water.depth, "gravity": 9.81, "height": height, "distance": distance}
+    found = orbital_motion(time, 0.2 + sea.elevation(time), period=period, **at)
+    point = (np.array([distance]), np.zeros(1), np.array([height]))
+    for values, wanted in zip(found, (sea.velocity(time, *point), sea.acceleration(time, *point))):
+        assert values == pytest.approx(wanted[:, 0, ::2], abs=1e-9)
+    irregular = synthesise(jonswap(1.0, 6.0, 3.3), water, duration=400.0, seed=seed, time_step=0.25)
+    clock = 0.25 * np.arange(round(irregular.repeat_period / 0.25))
+    velocity, rate = orbital_motion(clock, irregular.elevation(clock), **at)
+    assert velocity == pytest.approx(irregular.velocity(clock, *point)[:, 0, ::2], abs=1e-9)
+    assert rate == pytest.approx(irregular.acceleration(clock, *point)[:, 0, ::2], abs=1e-9)
+
+
+def test_gauges_with_gaps_and_members_out_of_the_water_are_refused():
+    time = 0.1 * np.arange(100)
+    water = {"water_depth": 5.0, "gravity": 9.81}
+    with pytest.raises(InputError, match="sample 8"):
+        orbital_motion(time, np.where(np.arange(100) == 7, np.nan, np.sin(time)), height=-1.0, **water)
+    with pytest.raises(InputError, match="z = 1 m"):
+        orbital_motion(time, np.sin(time), height=1.0, **water)
 
 
 def sound():

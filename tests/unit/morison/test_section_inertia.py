@@ -116,6 +116,38 @@ def test_a_potential_solver_with_surface_and_bed_agrees_far_below_the_surface(se
     assert np.abs(mass / section.area - section.inertia.added_mass).max() < 2e-3
 
 
+AWKWARD = {
+    "spike of half a degree": [(0, 0), (1, -0.00437), (1, 0.00437)],
+    "slot": [(-1, 0), (1, 0), (1, 2), (0.01, 2), (0.01, 0.1), (-0.01, 0.1), (-0.01, 2), (-1, 2)],
+    "beam": [
+        *[(-1, -1), (1, -1), (1, -0.95), (0.025, -0.95), (0.025, 0.95), (1, 0.95)],
+        *[(1, 1), (-1, 1), (-1, 0.95), (-0.025, 0.95), (-0.025, -0.95), (-1, -0.95)],
+    ],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", AWKWARD)
+def test_awkward_sections_settle(name):
+    found = sections.polygon(AWKWARD[name]).inertia
+    assert found.error < 1e-5
+    assert found.checks[0].value < 1e-9
+    assert abs(found.tensor[0, 1]) < 1e-8 * found.tensor.max()
+
+
+@pytest.mark.slow
+def test_random_stars_settle():
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        count = rng.integers(4, 10)
+        angle = 2.0 * math.pi * (np.arange(count) + rng.uniform(0.1, 0.9, count)) / count
+        radius = 10.0 ** rng.uniform(-0.7, 0.3, count)
+        found = sections.polygon(radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])).inertia
+        assert found.error < 1e-4
+        assert found.checks[0].value < 1e-8
+        assert found.principal[0] > 1.0
+
+
 def test_rounding_of_corners_leads_from_the_square_to_the_circle():
     values = [sections.rounded_rectangle(1.0, 1.0, r).inertia.tensor[0, 0] for r in (0.01, 0.1, 0.3, 0.4999)]
     assert 2.18844 > values[0] > values[1] > values[2] > values[3] > 2.0
