@@ -232,14 +232,14 @@ def test_interrupted_record_within_its_ramp() -> None:
 def test_any_other_structure_gets_a_plain_listing() -> None:
     tree = xr.DataTree.from_dict(
         {
-            "/SWL/curtain": xr.Dataset(
+            "/SWL/weir": xr.Dataset(
                 {"tension": ("z", np.linspace(1.0, 2.0, 5), {"units": "N", "long_name": "tension"}),
                  "load": ((), 2.0e5, {"units": "N", "long_name": "total load"})},
                 {"z": np.linspace(-5.0, 0.0, 5)},
             )
         }
     )  # fmt: skip
-    tree.attrs.update(structure="curtain", title="カーテン")
+    tree.attrs.update(structure="weir", title="カーテン")
     text = render_html(compose_document(Result(tree)))
     read_page(text)
     assert "カーテン" in text and "total load" in text and "200" in text and "kN" in text
