@@ -60,9 +60,8 @@ def decay(
             say(f"damping ratio {found.decay.damping_ratio:.4g} +- {found.damping_error:.2g} (linear part)")
             quadratic, error = found.decay.quadratic_over_inertia, found.quadratic_error
             say(f"quadratic damping over inertia {quadratic:.4g} +- {error:.2g} 1/{unit_of or '1'}")
-            say(
-                f"rest {found.rest:.5g} {unit_of}, {found.decay.extremes.size} swings, {found.start:.5g} to {found.end:.5g} s"
-            )
+            say(f"rest {found.rest:.5g} {unit_of}")
+            say(f"{found.decay.extremes.size} swings from {found.start:.5g} to {found.end:.5g} s")
             for notice in found.notices:
                 say(f"{notice.severity}: {notice.message}")
         raise typer.Exit(OK)
