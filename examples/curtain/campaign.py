@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from moyai.curtain.anchor_energy import FITTING_RULES, EnergyModel, calibrate, calibration_bounds
 from moyai.curtain.squared_velocity import effective_height, fit_proportional, squared_velocity
 from moyai.measure.regressions import correlation, fit_by_direction, fit_cosine, fit_line, type_ratio
-from moyai.measure.tensions import Blocks, analyse_blocks
+from moyai.measure.tension_blocks import Blocks, analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.statistics import zero_crossing

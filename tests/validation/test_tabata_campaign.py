@@ -19,7 +19,7 @@ from moyai.curtain.snap_events import snaps_in_sea
 from moyai.curtain.snap_flow import flow_over_skirt
 from moyai.curtain.squared_velocity import effective_height, fit_proportional, squared_velocity
 from moyai.measure.regressions import correlation, fit_by_direction, fit_cosine, fit_line, fit_power, type_ratio
-from moyai.measure.tensions import analyse_blocks
+from moyai.measure.tension_blocks import analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.statistics import rayleigh_expected_maximum

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.measure.tensions import analyse_blocks, find_delay, split_tension, tension_statistics, wave_maxima
+from moyai.measure.tension_blocks import analyse_blocks
+from moyai.measure.tensions import find_delay, split_tension, tension_statistics, wave_maxima
 from moyai.sea.statistics import zero_crossing
 
 
