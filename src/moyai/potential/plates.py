@@ -317,6 +317,7 @@ def _inner(line: ComplexArray) -> ComplexArray:
     place = np.concatenate([[0.0], np.cumsum(steps)])
     wanted = place[-1] * np.concatenate([[_BESIDE_JOINT], np.linspace(0.02, 0.98, 49), [1.0 - _BESIDE_JOINT]])
     wanted = np.unique(np.concatenate([wanted, place[1:-1]]))
+    wanted = wanted[np.diff(wanted, prepend=-1.0) > 1e-9 * place[-1]]  # no two in one place
     return np.asarray(np.interp(wanted, place, line.real) + 1j * np.interp(wanted, place, line.imag))
 
 

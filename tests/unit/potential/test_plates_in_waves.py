@@ -10,7 +10,7 @@ from moyai.potential.drift import mean_drift_far_field, mean_drift_near_field
 from moyai.potential.field import potential_at, surface_elevation
 from moyai.potential.modes import Modes, Rigid, rigid_modes
 from moyai.potential.plates import PlateLine
-from moyai.potential.shapes import pi_type, polygon, rectangle, twin_pontoon
+from moyai.potential.shapes import circle, pi_type, polygon, rectangle, rounded_rectangle, trapezoid, twin_pontoon
 from moyai.potential.skirt_modes import edge_modes, stretching_modes
 from moyai.potential.solver import solve
 from moyai.potential.thin_plate import Plate, hanging_arc, horizontal_motion, solve_plate_limit
@@ -153,6 +153,50 @@ def test_hulls_with_plates_keep_all_identities_and_both_drifts(kind):
         far = mean_drift_far_field(found, moved).horizontal
         near = mean_drift_near_field(found, moved).horizontal
         assert np.abs(far - near).max() < 1e-4 * np.abs(far).max()
+
+
+def random_hull_with_plates(rng):
+    """Any hull with one to three plates on it, under it or beside it; None where they would cross."""
+    beam = 10.0 ** rng.uniform(-0.3, 1.0)
+    height = beam * rng.uniform(0.2, 1.0)
+    hulls = (
+        rectangle(beam, height),
+        trapezoid(beam * rng.uniform(0.5, 1.0), beam, height),
+        rounded_rectangle(beam, height, 0.3 * min(0.5 * beam, height)),
+        circle(height),
+        twin_pontoon(beam / 3.0, height, beam / 3.0),
+    )
+    kind = rng.integers(5)
+    corner = height if kind == 3 else 0.5 * beam
+    plates = []
+    for side in rng.choice([-1.0, 1.0, 0.0], rng.integers(1, 4), replace=False):
+        start = np.array([side * corner, 0.0]) if kind in (0, 4) and side else np.array([side * beam, -0.3 * height])
+        angle, length = rng.uniform(-0.6, 0.6), height * 10.0 ** rng.uniform(-1.3, 0.5)
+        end = start + length * np.array([math.sin(angle), -math.cos(angle)])
+        plates.append(PlateLine([start, end], [rng.choice([0.0, rng.uniform(-0.5, 0.5)])]))
+    try:
+        return hulls[kind].with_plates(*plates).immersed(height * rng.uniform(0.1, 0.9))
+    except InputError:
+        return None
+
+
+@pytest.mark.slow
+def test_random_hulls_with_plates():
+    """Fifty random problems keep all identities to the accuracy asked for."""
+    solved = 0
+    for seed in range(60):
+        rng = np.random.default_rng(7000 + seed)
+        section = random_hull_with_plates(rng)
+        if section is None:
+            continue
+        depth = rng.choice([math.inf, -section.bottom * (1.0 + 10.0 ** rng.uniform(-1.3, 1.0))])
+        wave_number = np.sort(10.0 ** rng.uniform(-1.0, 1.0, 3)) / section.bounds[1]
+        omega = np.sqrt(G * wave_number * np.tanh(np.minimum(wave_number * depth, 30.0)))
+        found = solve(section, Water(depth, 1025.0, G), omega, modes=rigid_modes((0.0, -0.2)))
+        assert found.status == "converged", (seed, found.message)
+        assert np.isfinite(found.infinite_frequency_added_mass).all()
+        solved += 1
+    assert solved > 45
 
 
 @pytest.mark.parametrize("seed", range(4))
