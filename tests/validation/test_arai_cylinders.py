@@ -14,6 +14,7 @@ from moyai.case.reader import load_case
 from moyai.cli.runner import run as run_case
 from moyai.morison import sections
 from moyai.morison.circulation import STRENGTHS, CirculationLaw, inertia_reduction, magnus_force, settled_circulation
+from moyai.morison.field import circle_surface_speed, circle_velocity
 from moyai.sea.dispersion import wave_number
 from moyai.sea.kinematics import depth_functions
 
@@ -121,6 +122,24 @@ def test_lift_is_to_the_left_of_the_flow_and_against_the_inertia_force():
     assert np.all(flow[:, 0] * lift[:, 1] - flow[:, 1] * lift[:, 0] > 0.99)
     assert np.all(flow[:, 0] * rate[:, 1] - flow[:, 1] * rate[:, 0] < -0.99)
     assert np.all(np.sum(lift * rate, axis=1) < -0.99)
+
+
+def test_the_fast_region_turns_clockwise_with_the_wave():
+    """KC 1.50: above the body at the crest, ahead of it as the surface falls, below it at the trough, behind it then."""
+    number, radius = 1.5, 0.5 * BREADTH
+    v = speed(number)
+    circulation = float(settled_circulation(STRENGTHS["arai"], v, v, PERIOD))
+    angle = np.radians(np.arange(-180, 180))
+    fastest = []
+    for phase in np.linspace(0.0, 2 * math.pi, 8, endpoint=False):
+        stream = (v * math.cos(phase), -v * math.sin(phase))
+        values = circle_surface_speed(angle, radius, stream, circulation)
+        fastest.append(int(np.degrees(angle[int(np.argmax(values))])))
+        # both sides of the body differ by twice the circulation over its girth
+        assert values.max() == pytest.approx(2 * v + circulation / (2 * math.pi * radius), rel=1e-9)
+    assert [place % 360 for place in fastest] == [90, 45, 0, 315, 270, 225, 180, 135]
+    turned = circle_velocity(np.array([[0.0, -radius]]), radius, (-v, 0.0), circulation)
+    assert turned[0, 0] < -2 * v
 
 
 def test_planar_flow_keeps_its_coefficient():

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.member.model import MemberProblem
 from moyai.member.variables import labelled
 from moyai.morison.circulation import LAMINAR_EDGE, STRENGTHS, settled_circulation
+from moyai.morison.field import circle_surface_speed
 from moyai.morison.planar import stokes_wang_inertia
 from moyai.morison.sections import MemberSection
 
@@ -18,6 +19,19 @@ if TYPE_CHECKING:
 
 LARGEST_KC = 4.0
 POINTS = 161
+#: Phases of a wave towards the first axis, and the Keulegan-Carpenter number of the photographs
+PHASES = ("crest", "falling surface", "trough", "rising surface")
+FIELD_KC = 1.5
+
+
+def _surface_speed(radius: float, frequency: float, gamma: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return angles [rad] and speed along the surface of a circle over that of the stream, at KC = 1.5, four phases."""
+    angle = np.radians(np.arange(-180.0, 181.0, 3.0))
+    speed = FIELD_KC * 2.0 * radius * frequency
+    circulation = float(settled_circulation(gamma, speed, speed, 1.0 / frequency))
+    streams = [(speed, 0.0), (0.0, -speed), (-speed, 0.0), (0.0, speed)]
+    rows = [circle_surface_speed(angle, radius, stream, circulation) / speed for stream in streams]
+    return angle, np.array(rows)
 
 
 def _planar(section: MemberSection, beta: float, ideal: np.ndarray) -> np.ndarray:
@@ -58,7 +72,7 @@ def sweep(problem: MemberProblem, frequency: float) -> xr.Dataset:
     share = np.where(number > law.largest, np.nan, share)
     own = share * settled_circulation(gamma, speed, speed, period)
     axes = ("keulegan_carpenter", "axis")
-    arrays = {
+    arrays: dict[str, Any] = {
         "inertia_coefficient": (axes, ideal[None, :] - own[:, None] / (2.0 * math.pi * frequency * area)),
         "planar_inertia_coefficient": (axes, np.tile(_planar(section, beta, ideal), (number.size, 1))),
         "laminar_inertia_coefficient": (axes, curve(LAMINAR_EDGE)),
@@ -69,9 +83,14 @@ def sweep(problem: MemberProblem, frequency: float) -> xr.Dataset:
     for name, strength in STRENGTHS.items():
         arrays[f"{name}_inertia_coefficient"] = (axes, curve(strength))
         arrays[f"{name}_circulation"] = (axes[0], settled_circulation(strength, speed, speed, period))
+    coords: dict[str, Any] = {"keulegan_carpenter": number, "axis": ["first", "second"]}
+    if section.is_circle:
+        angle, surface = _surface_speed(0.5 * breadth, frequency, gamma)
+        arrays["surface_speed_ratio"] = (("phase", "surface_angle"), surface)
+        coords |= {"phase": list(PHASES), "surface_angle": angle}
     data = xr.Dataset(
         arrays,
-        coords={"keulegan_carpenter": number, "axis": ["first", "second"]},
+        coords=coords,
         attrs={"frequency": frequency, "beta": beta, "gamma": gamma, "counted": str(law.counted)},
     )
     return labelled(data)

@@ -61,6 +61,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "arai_circulation": ("m2/s", "circulation of Arai et al., circular orbit"),
     "otsuka_circulation": ("m2/s", "circulation that Otsuka and Ikeda's formula amounts to"),
     "chaplin_circulation": ("m2/s", "circulation that Chaplin's formula amounts to"),
+    "surface_angle": ("rad", "angle around the section from its first axis, counter-clockwise"),
+    "surface_speed_ratio": ("1", "speed along the surface over that of the stream, potential flow with circulation"),
     "magnus_force_per_length": ("N/m", "amplitude of the Magnus force, circular orbit"),
     "near_surface_inertia_coefficient": ("1", "inertia coefficient under the free surface by potential theory"),
     "near_surface_change": ("1", "its departure from the ideal one, over the ideal one"),

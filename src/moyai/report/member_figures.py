@@ -83,6 +83,25 @@ def over_keulegan_carpenter(level: Group) -> tuple[Figure, ...]:
             (Mark("end of the law", x=2.0),),
         )
     )
+    angle, speeds = (
+        group.real("surface_angle", "surface_angle"),
+        group.real("surface_speed_ratio", "phase", "surface_angle"),
+    )
+    if angle is not None and speeds is not None:
+        degrees = np.degrees(angle)
+        figures.append(
+            Figure(
+                slug(level.name, "surface-speed"),
+                "Where the water runs fast",
+                (Abscissa("angle", "angle around the circle from its first axis", "deg"),),
+                (Panel("speed over that of the stream", from_zero=True),),
+                tuple(
+                    Series(phase, {"angle": degrees}, speeds[n], 0, n) for n, phase in enumerate(group.labels("phase"))
+                ),
+                "Potential flow with circulation in a circular orbit at KC = 1.5, waves towards the first axis: the fast "
+                "region stands above (+90°) at the crest, below (−90°) at the trough, and turns clockwise with the wave.",
+            )
+        )
     return tuple(figures)
 
 

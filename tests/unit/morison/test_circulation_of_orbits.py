@@ -8,6 +8,7 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.morison import circulation as law
 from moyai.morison import planar
+from moyai.morison.field import circle_velocity
 from moyai.morison.orbits import mean_frequency, orbit_amplitudes, orbit_product
 
 
@@ -146,3 +147,28 @@ def test_laminar_planar_flow():
     assert float(planar.stokes_wang_inertia(1e12)) == pytest.approx(2.0, abs=1e-5)
     with pytest.raises(InputError, match="beta"):
         planar.stokes_wang_inertia(-1.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_field_around_a_circle_slips_circulates_and_fades(seed):
+    rng = np.random.default_rng(seed)
+    radius, gamma, stream = rng.uniform(0.1, 2.0), rng.normal(), rng.normal(size=2)
+    angle = 2.0 * math.pi * np.arange(64) / 64
+    for reach in (1.0, 1.7):
+        points = reach * radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        velocity = circle_velocity(points, radius, stream, gamma)
+        tangent = np.column_stack([-np.sin(angle), np.cos(angle)])
+        # clockwise is positive
+        around = -np.sum(velocity * tangent) * 2.0 * math.pi * reach * radius / 64
+        assert around == pytest.approx(gamma)
+        if reach == 1.0:
+            assert np.abs(np.sum(velocity * points, axis=1)).max() < 1e-12 * radius * np.abs(velocity).max() * 10
+    far = circle_velocity([[1e6 * radius, 0.0]], radius, stream, gamma)
+    assert far[0] == pytest.approx(stream, abs=1e-5)
+    # Kutta and Joukowski: the mean of the pressure round the circle gives rho Gamma (-w, u)
+    points = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    pressure = -0.5 * np.sum(circle_velocity(points, radius, stream, gamma) ** 2, axis=1)
+    force = -np.sum(pressure[:, None] * points, axis=0) * 2.0 * math.pi / 64
+    assert force == pytest.approx(law.magnus_force(1.0, gamma, stream[None])[0])
+    with pytest.raises(InputError, match="inside"):
+        circle_velocity([[0.0, 0.0]], radius, stream, gamma)
