@@ -375,7 +375,7 @@ def _tensions(
                 "waves": float(statistics.count),
                 "lag": lag,
             }
-        if rate < SLOWEST_TENSION_RATE:
+        if rate < SLOWEST_TENSION_RATE * (1.0 - 1e-6):
             message = f"{use.channel}: {rate:.3g} samples a second do not resolve snaps, which rise in 0.01 to 0.1 s"
             remedy = "read the largest tensions as lower bounds"
             notices.append(Notice("tension-sampling", message, rate, SLOWEST_TENSION_RATE, remedy=remedy))

@@ -129,7 +129,8 @@ def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK
     )
     if not message:
         span = instant_text(found[0].start, dated), instant_text(found[-1].start + survey.block_length, dated)
-        message = f"{len(found)} blocks of {survey.block_length:g} s from {span[0]} to {span[1]}"
+        words = "1 block" if len(found) == 1 else f"{len(found)} blocks"
+        message = f"{words} of {survey.block_length:g} s from {span[0]} to {span[1]}"
     return Result(tree, status, message, (), everything, provenance)  # type: ignore[arg-type]
 
 

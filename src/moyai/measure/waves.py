@@ -294,7 +294,12 @@ def _notices(
         )
     if kept.sum() < 50:
         notices.append(
-            Notice("few-waves", f"{int(kept.sum())} waves: statistics of so few are uncertain", float(kept.sum()), 50.0)
+            Notice(
+                "few-waves",
+                f"only {int(kept.sum())} waves in the block: statistics of so few are uncertain",
+                float(kept.sum()),
+                50.0,
+            )
         )
     return tuple(notices)
 
