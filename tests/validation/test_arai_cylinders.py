@@ -125,7 +125,7 @@ def test_lift_is_to_the_left_of_the_flow_and_against_the_inertia_force():
 
 
 def test_the_fast_region_turns_clockwise_with_the_wave():
-    """KC 1.50: above the body at the crest, ahead of it as the surface falls, below it at the trough, behind it then."""
+    """KC 1.50: above the body at the crest, ahead as the surface falls, below at the trough, behind then."""
     number, radius = 1.5, 0.5 * BREADTH
     v = speed(number)
     circulation = float(settled_circulation(STRENGTHS["arai"], v, v, PERIOD))

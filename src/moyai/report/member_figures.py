@@ -63,8 +63,9 @@ def over_keulegan_carpenter(level: Group) -> tuple[Figure, ...]:
         ("circulation", "this case", 0),
         ("arai_circulation", "Arai et al.", 1),
         ("otsuka_circulation", "Otsuka", 2),
+        ("chaplin_circulation", "Chaplin", 3),
+        ("laminar_circulation", "laminar edge, 3 V²T", 5),
     )
-    names += (("chaplin_circulation", "Chaplin", 3), ("laminar_circulation", "laminar edge, 3 V²T", 5))
     curves = []
     for name, label, tone in names:
         values = group.real(name, "keulegan_carpenter")
@@ -98,8 +99,9 @@ def over_keulegan_carpenter(level: Group) -> tuple[Figure, ...]:
                 tuple(
                     Series(phase, {"angle": degrees}, speeds[n], 0, n) for n, phase in enumerate(group.labels("phase"))
                 ),
-                "Potential flow with circulation in a circular orbit at KC = 1.5, waves towards the first axis: the fast "
-                "region stands above (+90°) at the crest, below (−90°) at the trough, and turns clockwise with the wave.",
+                "Potential flow with circulation in a circular orbit at KC = 1.5, waves towards the first axis: the "
+                "fast region stands above (+90°) at the crest, below (−90°) at the trough, and turns clockwise "
+                "with the wave.",
             )
         )
     return tuple(figures)
@@ -215,7 +217,11 @@ def _columns(sea: Group, entries: tuple[tuple[str, str, str, dict[str, str]], ..
     return found
 
 
-_WAVE = (("H", "wave_height", "m", {}), ("T", "period", "s", {}), ("KC", "keulegan_carpenter", "", {}))
+_WAVE: tuple[tuple[str, str, str, dict[str, str]], ...] = (
+    ("H", "wave_height", "m", {}),
+    ("T", "period", "s", {}),
+    ("KC", "keulegan_carpenter", "", {}),
+)
 
 
 def coefficient_table(level: Group, sea: Group) -> Table | None:
