@@ -204,8 +204,8 @@ def _excursion(flow: SkirtFlow) -> float:
 class StepError:
     """Change of the results from a fine run to a coarse one.
 
-    A stiff cable throws the skirt back, and small differences grow from bounce to bounce: two runs of one sea part after
-    some contacts, however fine the steps. Then single snaps mean nothing, and counts, means and fitted laws do.
+    A stiff cable throws the skirt back, and small differences grow from bounce to bounce: two runs of one sea part
+    after some contacts, however fine the steps. Then single snaps mean nothing, and counts, means and fitted laws do.
 
     Parameters
     ----------
