@@ -17,8 +17,8 @@ from moyai.sea.breaking import breaking_limit
 
 Array = NDArray[np.float64]
 
-_HEIGHTS = 14
-_SETTLED, _ANALYSED = 6, 14
+_HEIGHTS = 10
+_SETTLED, _ANALYSED = 4, 10
 #: Let go so close to taut that no time is lost until it is
 _JUST_SLACK = 0.999
 
