@@ -118,6 +118,13 @@ def arc_skirt_mass(chord: float, water: Water) -> ArcMass:
     """
     if not (math.isfinite(chord) and chord > 0.0):
         raise InputError(f"chord is {chord:g} m", path="chord", allowed="greater than 0")
+    if chord >= water.depth:
+        raise InputError(
+            f"the skirt's chord is {chord:g} m in water {water.depth:g} m deep",
+            path="chord",
+            allowed=f"less than {water.depth:g} m",
+            remedy="the impact models take a skirt that is clear of the bed",
+        )
     scaled = Water(water.depth / chord, 1.0, water.gravity)
     x = np.cos(math.pi * (np.arange(_TERMS) + 0.5) / _TERMS)
     values = np.empty((3, _TERMS))

@@ -74,6 +74,13 @@ def slack_phase(
             raise InputError(f"{name} is {value:g}", path=name, allowed="finite")
     if not (math.isfinite(drag_coefficient) and drag_coefficient >= 0.0):
         raise InputError(f"drag_coefficient is {drag_coefficient:g}", path="drag_coefficient", allowed="0 or more")
+    if sag == 0.0:
+        raise InputError(
+            "the cable is as long as its span: it is taut from the start",
+            path="length",
+            allowed=f"above {impact.span:g} m",
+            remedy="give the speed at the taut instant",
+        )
     if abs(position) >= sag:
         raise InputError(
             f"the curtain is let go {position:g} m from the line between the supports; it is taut there",

@@ -124,3 +124,8 @@ def test_soft_skirt_leaves_no_false_alarm_below_two_percent():
             seen += 1
             assert both.tension == pytest.approx(curved_impact(impact, skirt).tension, rel=0.015)
     assert seen > 15
+
+
+def test_skirt_deeper_than_the_water_is_refused():
+    with pytest.raises(InputError, match="clear of the bed"):
+        compare_models(flume(), Skirt(0.5, 0.45, 5e4), memory=False)

@@ -182,7 +182,12 @@ def test_bad_release_is_refused(changed, word):
             snap_in_current(impact, **given)
 
 
-def test_release_without_drag_or_current_may_never_end():
+def test_cable_as_long_as_its_span_has_no_slack_phase():
+    with pytest.raises(InputError, match="taut from the start"):
+        slack_phase(random_span(0, length=1.0, span=1.0), drag_coefficient=1.2, current=0.3, position=0.0, speed=0.0)
+
+
+def test_series_that_ends_before_the_cable_is_taut_is_refused():
     impact = random_span(0, length=1.3, span=1.0)
     with pytest.raises(InputError, match="duration"):
         snap_in_current(impact, drag_coefficient=1.2, current=0.3, position=0.0, speed=0.0, duration=0.1)
