@@ -91,6 +91,8 @@ timing:
   interval: {1e3 * INTERVAL:.5f} ms
   on_time: {450.0 * INTERVAL:.5f} ms
 {pattern}\
+circulation:
+  size_ratios: [1.25, 1.5, 1.75, 2, 2.25, 2.5]
 runs:
 {recordings}"""
 

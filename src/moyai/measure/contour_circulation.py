@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
-from moyai.measure.drift_interpolation import Interpolation, interpolation_matrix, remainder_smoothing, trend
+from moyai.measure.drift_interpolation import Interpolation, interpolation_matrix, outliers, remainder_smoothing, trend
 
 FloatArray = NDArray[np.float64]
 
@@ -40,6 +40,8 @@ class Circulation:
         Level of the intervals.
     samples : ndarray, shape (samples, contours)
         Circulation of the resampled clouds [m2/s].
+    outlier : ndarray of bool, shape (particles,)
+        Particles left out because they lie off their neighbours.
     notices : tuple of Notice
     """
 
@@ -53,6 +55,7 @@ class Circulation:
     linear_interval: tuple[float, float]
     confidence: float
     samples: FloatArray
+    outlier: NDArray[np.bool_]
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 
 
@@ -216,10 +219,12 @@ def measure_circulation(
     if ratio.size < 2 or np.any(ratio < 1.0):
         raise InputError("give at least two contours, none smaller than the section", path="contours")
     error = np.ones(len(points)) if deviation is None else np.asarray(deviation, dtype=float)
+    length = float(np.ptp(shape[:, 0]))
+    outlier = outliers(points, vectors, error, length)
+    points, vectors, error = points[~outlier], vectors[~outlier], error[~outlier]
     contours = [contour_points(shape, item) for item in ratio]
     targets = np.vstack(contours)
     limits = np.cumsum([0, *(len(item) for item in contours)])
-    length = float(np.ptp(shape[:, 0]))
 
     def evaluate(weight: FloatArray, smoothing: float | None) -> FloatArray:
         chosen = weight > 0.0
@@ -251,7 +256,7 @@ def measure_circulation(
         samples[index] = np.where(inside, evaluate(weight, smoothing), np.nan)
     if resamples:
         progress("circulation", resamples, resamples)
-    return _summary(ratio, value, samples, least_ratio, confidence, inside)
+    return _summary(ratio, value, samples, least_ratio, confidence, inside, outlier)
 
 
 def _summary(
@@ -261,6 +266,7 @@ def _summary(
     least: float,
     confidence: float,
     inside: NDArray[np.bool_],
+    outlier: NDArray[np.bool_],
 ) -> Circulation:
     spread = np.full(ratio.size, np.nan)
     if len(samples) > 2:
@@ -297,6 +303,7 @@ def _summary(
         line_interval,
         confidence,
         samples,
+        outlier,
         tuple(notices),
     )
 

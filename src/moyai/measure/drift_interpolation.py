@@ -70,6 +70,32 @@ def _trend_basis(points: FloatArray, length: float) -> FloatArray:
     return np.column_stack(columns)
 
 
+def outliers(
+    points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float, *, limit: float = 5.0
+) -> NDArray[np.bool_]:
+    """Return which vectors lie off their neighbours: the normalised median test [eq:streaks-outlier].
+
+    Parameters
+    ----------
+    points, vectors, deviation, length
+        As in :func:`trend`, which is taken off first.
+    limit : float
+        Distance from the median of eight neighbours, over their median distance from it.
+    """
+    from scipy.spatial import cKDTree
+
+    count = min(8, len(points) - 2)
+    if count < 3:
+        return np.zeros(len(points), dtype=bool)
+    base, _ = trend(points, vectors, deviation, length, points[:1])
+    rest = vectors - base
+    near = np.asarray(cKDTree(points).query(points, count + 1)[1])[:, 1:]
+    middle = np.median(rest[near], axis=1)
+    spread = np.median(np.hypot(*(rest[near] - middle[:, None]).transpose(2, 0, 1)), axis=1)
+    away = np.hypot(*(rest - middle).T)
+    return np.asarray(away > limit * (spread + float(np.median(spread))))
+
+
 def remainder_smoothing(points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float) -> float:
     """Return the smoothing of the spline that predicts left-out particles best (by their median).
 

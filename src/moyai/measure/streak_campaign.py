@@ -251,9 +251,17 @@ def _measure_run(
         seed=campaign.seed,
         progress=progress,
     )
-    return _Measured(
-        run, cloud, drift, circulation, background, overlay_picture(run.recordings[0].pictures, datasets[0])
+    kept = ~circulation.outlier
+    cloud = replace(
+        cloud,
+        position=cloud.position[kept],
+        velocity=cloud.velocity[kept],
+        deviation=cloud.deviation[kept],
+        residual=cloud.residual[kept],
+        refused=cloud.refused + int(circulation.outlier.sum()),
     )
+    picture = overlay_picture(run.recordings[0].pictures, datasets[0])
+    return _Measured(run, cloud, drift[kept], circulation, background, picture)
 
 
 def amplitude_number(run: StreakRun, breadth: float) -> float:

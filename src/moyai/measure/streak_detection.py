@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
-from moyai.measure.streak_fit import PARAMETERS, fit_streaks, streak_grey
+from moyai.measure.streak_fit import PARAMETERS, fit_streaks, gather_pixels, streak_grey
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -333,6 +333,10 @@ def _fit_region(
     if best is None or best[0] > chosen.unexplained:
         return None
     streaks = best[1][:-1].reshape(-1, PARAMETERS).copy()
+    # A faint partner of a bright streak may run away from its region in the fit
+    limit = np.array([own.shape[1], own.shape[0]] * 2) - 1.0 + margin
+    if np.any(streaks[:, :4] < -margin) or np.any(streaks[:, :4] > limit):
+        return None
     streaks[:, :2] += offset
     streaks[:, 2:4] += offset
     return list(streaks)
@@ -351,7 +355,7 @@ def _unexplained(misfit: FloatArray, used: NDArray[np.bool_]) -> float:
 
 def _first_guess(place: FloatArray, weight: FloatArray, count: int) -> FloatArray | None:
     """Return first parameters of ``count`` streaks: pixels gathered around as many lines."""
-    groups = np.zeros(len(place), dtype=int) if count == 1 else _gather(place, weight, count)
+    groups = np.zeros(len(place), dtype=np.int64) if count == 1 else _gather(place, weight, count)
     parts = []
     for k in range(count):
         chosen = groups == k
@@ -380,38 +384,9 @@ def _principal(points: FloatArray, light: FloatArray) -> tuple[FloatArray, Float
 
 
 def _gather(place: FloatArray, weight: FloatArray, count: int) -> IntArray:
-    """Return for every pixel the nearest of ``count`` line segments, moved until they fit (several starts)."""
+    """Return for every pixel which of ``count`` line segments it belongs to."""
     random = np.random.default_rng(len(place))
     light = weight + 1e-9
-    best, smallest = np.zeros(len(place), dtype=int), math.inf
-    for _ in range(12):
-        segments = []
-        for _ in range(count):
-            chosen = random.choice(len(place), 2, replace=False, p=light / light.sum())
-            segments.append((place[chosen[0]], place[chosen[1]]))
-        groups = best
-        distance = np.zeros((count, len(place)))
-        for _ in range(8):
-            distance = np.stack([_distance(place, *segment) for segment in segments])
-            groups = distance.argmin(axis=0)
-            segments = [
-                _segment(place[groups == k], light[groups == k]) if (groups == k).sum() > 3 else segments[k]
-                for k in range(count)
-            ]
-        cost = float((distance.min(axis=0) ** 2 * light).sum())
-        if cost < smallest and min(np.bincount(groups, minlength=count)) >= 6:
-            best, smallest = groups, cost
-    return best
-
-
-def _segment(points: FloatArray, light: FloatArray) -> tuple[FloatArray, FloatArray]:
-    centre, axis = _principal(points, light)
-    along = (points - centre) @ axis
-    return centre + axis * along.min(), centre + axis * along.max()
-
-
-def _distance(points: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
-    step = last - first
-    length = float(step @ step)
-    share = np.clip((points - first) @ step / length, 0.0, 1.0) if length > 0.0 else np.zeros(len(points))
-    return np.asarray(np.hypot(*(points - first - share[:, None] * step).T))
+    share = np.cumsum(light) / light.sum()
+    starts = np.searchsorted(share, random.random((12, count, 2))).clip(0, len(place) - 1)
+    return np.asarray(gather_pixels(place, light, starts, 8))

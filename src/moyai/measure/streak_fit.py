@@ -146,3 +146,87 @@ def streak_grey(column, row, p):  # type: ignore[no-untyped-def]
             along = 0.5 * (math.erf(s / (root * blur)) - math.erf((s - length) / (root * blur)))
             out[i] += p[o + 5] * along * math.exp(-0.5 * (rest / blur) ** 2)
     return out
+
+
+@njit(cache=True, error_model="numpy")
+def gather_pixels(place, light, starts, sweeps):  # type: ignore[no-untyped-def]
+    """Share pixels out among line segments, each moved to its pixels until they fit; the best of several starts.
+
+    Parameters
+    ----------
+    place : ndarray, shape (pixels, 2)
+    light : ndarray, shape (pixels,)
+        Weights, positive.
+    starts : ndarray of int, shape (starts, segments, 2)
+        Pixels that the segments run between at first.
+    sweeps : int
+
+    Returns
+    -------
+    ndarray of int, shape (pixels,)
+        Segment of every pixel; -1 everywhere where no start leaves each segment six pixels.
+    """
+    pixels, count = place.shape[0], starts.shape[1]
+    best = np.full(pixels, -1)
+    smallest = np.inf
+    group = np.zeros(pixels, dtype=np.int64)
+    ends = np.zeros((count, 4))
+    for trial in range(starts.shape[0]):
+        for k in range(count):
+            a, b = starts[trial, k, 0], starts[trial, k, 1]
+            ends[k, 0], ends[k, 1], ends[k, 2], ends[k, 3] = place[a, 0], place[a, 1], place[b, 0], place[b, 1]
+        cost = 0.0
+        for _ in range(sweeps):
+            cost = 0.0
+            for i in range(pixels):
+                nearest, where = np.inf, 0
+                for k in range(count):
+                    dx, dy = ends[k, 2] - ends[k, 0], ends[k, 3] - ends[k, 1]
+                    ux, uy = place[i, 0] - ends[k, 0], place[i, 1] - ends[k, 1]
+                    share = (ux * dx + uy * dy) / max(dx * dx + dy * dy, 1e-9)
+                    share = min(max(share, 0.0), 1.0)
+                    square = (ux - share * dx) ** 2 + (uy - share * dy) ** 2
+                    if square < nearest:
+                        nearest, where = square, k
+                group[i] = where
+                cost += nearest * light[i]
+            for k in range(count):
+                _move_segment(place, light, group, k, ends)
+        enough = True
+        for k in range(count):
+            enough = enough and (group == k).sum() >= 6
+        if enough and cost < smallest:
+            smallest = cost
+            best = group.copy()
+    return best
+
+
+@njit(cache=True, error_model="numpy")
+def _move_segment(place, light, group, k, ends):  # type: ignore[no-untyped-def]
+    """Lay a segment along the main axis of its pixels, from the first to the last of them."""
+    total, mx, my, members = 0.0, 0.0, 0.0, 0
+    for i in range(place.shape[0]):
+        if group[i] == k:
+            total += light[i]
+            mx += light[i] * place[i, 0]
+            my += light[i] * place[i, 1]
+            members += 1
+    if members < 4:
+        return
+    mx, my = mx / total, my / total
+    xx, xy, yy = 0.0, 0.0, 0.0
+    for i in range(place.shape[0]):
+        if group[i] == k:
+            dx, dy = place[i, 0] - mx, place[i, 1] - my
+            xx += light[i] * dx * dx
+            xy += light[i] * dx * dy
+            yy += light[i] * dy * dy
+    angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
+    tx, ty = math.cos(angle), math.sin(angle)
+    low, high = np.inf, -np.inf
+    for i in range(place.shape[0]):
+        if group[i] == k:
+            along = (place[i, 0] - mx) * tx + (place[i, 1] - my) * ty
+            low, high = min(low, along), max(high, along)
+    ends[k, 0], ends[k, 1] = mx + low * tx, my + low * ty
+    ends[k, 2], ends[k, 3] = mx + high * tx, my + high * ty

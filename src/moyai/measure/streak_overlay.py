@@ -38,6 +38,8 @@ def overlay_picture(files: Sequence[Path], dataset: xr.Dataset) -> dict[str, Any
     factor = max(-(-whole.shape[1] // MOST_COLUMNS), 1)
     rows, columns = whole.shape[0] // factor * factor, whole.shape[1] // factor * factor
     # The brightest pixel of a block keeps thin streaks visible
+    middle, low = np.percentile(whole, [50.0, 15.87])
+    whole = whole - middle - 3.0 * (middle - low)
     small = whole[:rows, :columns].reshape(rows // factor, factor, columns // factor, factor).max(axis=(1, 3))
     top = max(float(np.percentile(small, 99.5)), 1.0)
     grey = (255.0 * np.sqrt(np.clip(small / top, 0.0, 1.0))).astype(np.uint8)

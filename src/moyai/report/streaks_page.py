@@ -158,7 +158,7 @@ def _runs(root: Group, runs: tuple[Group, ...]) -> tuple[Block, ...]:
             Column("Streaks", [int(_number(run, "streaks")) for run in runs]),
             Column("Regions refused", [int(_number(run, "rejected")) for run in runs]),
             Column("Chains", [int(_number(run, "chains")) for run in runs]),
-            Column("Too short or rough", [int(_number(run, "refused")) for run in runs]),
+            Column("Too short, rough or off", [int(_number(run, "refused")) for run in runs]),
             Column("Without direction", [int(_number(run, "undecided")) for run in runs]),
             Column(
                 "Misfit of ends, median", [1e3 * _median(_array(run, "residual")) for run in runs], "mm", fixed=True
@@ -299,16 +299,16 @@ def _contours(root: Group, run: Group) -> tuple[Block, ...]:
         series.insert(1, Series("too close for the fit", {"ratio": ratio[left]}, value[left], style="points", tone=4))
     if samples.ndim == 2 and len(samples) > 2:
         half = 50.0 * (1.0 - _number(root, "confidence"))
-        for label, share in (("interval of a contour", half), ("", 100.0 - half)):
-            series.append(
-                Series(
-                    label or "interval, upper end",
-                    {"ratio": ratio[known]},
-                    np.percentile(samples[:, known], share, axis=0),
-                    tone=1,
-                    faint=True,
-                )
+        low, high = np.percentile(samples[:, known], [half, 100.0 - half], axis=0)
+        gaps = np.full(low.size, np.nan)
+        series.append(
+            Series(
+                f"{100.0 - 2.0 * half:g} % interval",
+                {"ratio": np.column_stack([ratio[known], ratio[known], gaps]).ravel()},
+                np.column_stack([low, high, gaps]).ravel(),
+                tone=1,
             )
+        )
     return (
         Figure(
             f"contours-{slug(run.name)}",
