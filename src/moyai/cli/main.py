@@ -78,7 +78,7 @@ def _options(
 
 @app.command()
 def new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of structure: breakwater.", show_default=False)],
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of structure, such as member.", show_default=False)],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
     ] = None,
