@@ -8,7 +8,6 @@ import numpy as np
 
 from moyai.core.validation import ValidationCase
 from moyai.measure.calibration import Parameter, calibrate
-from moyai.measure.currents import CONSTITUENTS, fit_tide
 from moyai.measure.detrend import Detrend, slow_response
 from moyai.measure.directional import fourier_directions
 from moyai.measure.harmonics import fit_harmonics
@@ -16,6 +15,7 @@ from moyai.measure.motions import rigid_motion
 from moyai.measure.reflection import separate_waves
 from moyai.measure.sensors import Sensor
 from moyai.measure.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.measure.tides import CONSTITUENTS, fit_tide
 from moyai.measure.waves import WaveOptions, find_waves, fit_weibull
 from moyai.sea.water import Water
 

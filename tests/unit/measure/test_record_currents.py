@@ -7,14 +7,13 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.measure.currents import (
-    CONSTITUENTS,
     block_means,
     components,
-    fit_tide,
     heading_of_bearing,
     mean_profile,
     principal_axis,
 )
+from moyai.measure.tides import CONSTITUENTS, fit_tide
 
 
 @pytest.mark.parametrize("seed", range(4))
