@@ -1,7 +1,8 @@
 """The protocol by which bodies hang in networks: driven points in, reaction forces out.
 
 A network knows a body only by the points that it drives; a body knows a network only by the forces at these points. The
-package ``coupled`` joins the two: it asks the body where its points are, lets the network take a step (or many, while the body
+package ``coupled`` joins the two: it asks the body where its points are, lets the network take a step (or many, while
+the body
 moves smoothly), and hands the mean reaction back. Both sides keep their own integrator and step.
 """
 
@@ -30,7 +31,8 @@ class PointCarrier(Protocol):
         """Return place [m] and velocity [m/s] of every point now, shape (points, 3) each, in the axes of the site."""
 
     def try_step(self, end: float, reaction: Array) -> tuple[Array, Array]:
-        """Move to time ``end`` [s] under the mean forces of the network on the points, (points, 3) [N]; return place and velocity there.
+        """Move to time ``end`` [s] under the mean forces of the network on the points, (points, 3) [N]; return place
+        and velocity there.
 
         A second call with the same ``end`` starts again from the last accepted state with better forces.
         """
@@ -47,7 +49,8 @@ class PointNetwork(Protocol):
         """Number of driven points."""
 
     def try_step(self, end: float, place: Array, velocity: Array) -> Array:
-        """Move to time ``end`` [s] while the points go to ``place`` with ``velocity`` there; return the mean forces on the points [N].
+        """Move to time ``end`` [s] while the points go to ``place`` with ``velocity`` there; return the mean forces
+        on the points [N].
 
         A second call with the same ``end`` starts again from the last accepted state.
         """

@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 
 #: Part of the stable step that is used unless told otherwise.
 SAFETY = 0.95
+#: The same where bars go slack with a damping ratio on the mesh below ``LEAST_DAMPING``: a spring that only pulls gives
+#: back more than it took when (w dt)^2 > 2, half of the bound of a spring that also pushes [eq:flexible-one-sided].
+SAFETY_UNDAMPED, LEAST_DAMPING = 0.7, 0.05
 #: Steps between two evaluations of the loads, at most.
 LOAD_STEPS = 12
 #: Bound of the load interval times the fastest rate of drag.
@@ -61,10 +64,10 @@ class ExplicitRun:
         flow: Flow,
         start: State,
         *,
-        safety: float,
+        safety: float | None,
         load_steps: int,
     ) -> None:
-        self.network, self.flow, self.safety, self.load_steps = network, flow, safety, load_steps
+        self.network, self.flow, self.load_steps = network, flow, load_steps
         self.arrays = kernel_arrays(network)
         self.packed = pack(self.arrays)
         self.driving = driving_tables(network, motions)
@@ -81,6 +84,16 @@ class ExplicitRun:
         self.water = flow.at(self.time, self.place)
         self.packed.node_rows(kernel.WU, 7)[:] = self.water
         self._loads()
+        self.safety = self._usual_safety() if safety is None else safety
+
+    def _usual_safety(self) -> float:
+        """Return the part of the stable step that suits the viscosity of the bars."""
+        limit, _ = self.limit()
+        pulls_only = self.arrays.bar("least_tension") == 0.0
+        if not pulls_only.any() or not math.isfinite(limit):
+            return SAFETY
+        damping = self.arrays.bar("viscous")[pulls_only] / (self.arrays.bar("spring")[pulls_only] * limit)
+        return SAFETY if float(damping.min()) >= LEAST_DAMPING else SAFETY_UNDAMPED
 
     @property
     def place(self) -> Array:
@@ -96,7 +109,7 @@ class ExplicitRun:
         water = self.network.water
         kernel.loads(
             self.packed.memory, self.packed.sizes, self.packed.runs, self.arrays.attached, water.density, water.gravity,
-            self._near_surface(), not self.flow.steady,
+            self._near_surface(), not self.flow.steady, 0.0,
         )  # fmt: skip
 
     def _near_surface(self) -> bool:

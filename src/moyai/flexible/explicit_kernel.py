@@ -164,30 +164,36 @@ def kick_and_drift(A: Any, count: int, push: float, move: float) -> None:
         A[Z + i] += move * w
 
 
-@njit(cache=True, error_model="numpy")
-def contact(A: Any, count: int, level: float, friction: float, time: float) -> None:
-    """Apply the impulses of the bed to the velocities: implicit spring and dashpot, Coulomb friction that sticks.
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def contact_and_drift(A: Any, count: int, level: float, friction: float, time: float, move: float) -> None:
+    """Apply the impulses of the bed to the velocities, then advance the positions.
 
-    [eq:flexible-bed]
+    Implicit spring and dashpot, Coulomb friction that sticks [eq:flexible-bed]; without branches, for whole vectors.
     """
     for i in range(count):
+        u, v, w, share = A[U + i], A[V + i], A[W + i], A[IZZ + i]
         depth = level - A[Z + i]
-        if depth > 0.0 and A[IZZ + i] > 0.0:
-            stiff, damp, share = A[STIFF + i], A[DAMP + i], A[IZZ + i]
-            # depth - time w replaces depth: a stiff bed then needs no smaller step
-            push = time * (stiff * depth - (stiff * time + damp) * A[W + i])
-            push = push / (1.0 + time * (stiff * time + damp) * share)
-            if push > 0.0:
-                A[U + i] += A[IXZ + i] * push
-                A[V + i] += A[IYZ + i] * push
-                A[W + i] += share * push
-                if friction > 0.0:
-                    speed, light = math.hypot(A[U + i], A[V + i]), max(A[IXX + i], A[IYY + i])
-                    if speed > 0.0 and light > 0.0:
-                        hold = min(speed / light, friction * push) / speed
-                        px, py = hold * A[U + i], hold * A[V + i]
-                        A[U + i] -= A[IXX + i] * px + A[IXY + i] * py
-                        A[V + i] -= A[IXY + i] * px + A[IYY + i] * py
+        # depth - time w replaces depth: a stiff bed then needs no smaller step
+        grip = A[STIFF + i] * time + A[DAMP + i]
+        push = time * (A[STIFF + i] * depth - grip * w) / (1.0 + time * grip * share)
+        # contact is told by where the node would end: a hard bed stops it at its face instead of throwing it back
+        push = push if depth > time * w else 0.0
+        push = push if push > 0.0 else 0.0
+        u += A[IXZ + i] * push
+        v += A[IYZ + i] * push
+        w += share * push
+        light = A[IXX + i] if A[IXX + i] > A[IYY + i] else A[IYY + i]
+        # the impulse that stops the node, or the one that friction can give
+        speed, bound = math.sqrt(u * u + v * v) + TINY, friction * push
+        stop = speed / (light + TINY)
+        hold = (stop if stop < bound else bound) / speed
+        px, py = hold * u, hold * v
+        A[U + i] = u - A[IXX + i] * px - A[IXY + i] * py
+        A[V + i] = v - A[IXY + i] * px - A[IYY + i] * py
+        A[W + i] = w
+        A[X + i] += move * A[U + i]
+        A[Y + i] += move * A[V + i]
+        A[Z + i] += move * w
 
 
 @njit(cache=True, error_model="numpy")
@@ -226,11 +232,13 @@ def wetness(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool) -> None:
+def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead: float) -> None:
     """Write the loads of the water on both ends of bars and their added mass, half for each end.
 
     Normal and tangential drag of the relative velocity at each end, buoyancy, and the inertia of the water
-    [eq:flexible-morison]; ``RATE`` is the rate at which drag damps the lighter end [1/s].
+    [eq:flexible-morison]; ``RATE`` is the rate at which drag damps the lighter end [1/s]. Where that rate times the
+    interval
+    ``ahead`` comes near 1, drag is held back so that its continuation stays stable [eq:flexible-drag-limit].
     """
     for i in range(count):
         a, b, k = a0 + i, b0 + i, k0 + i
@@ -250,7 +258,10 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool) -> Non
         along = ux * tx + uy * ty + uz * tz
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
         size = across * math.sqrt(ux * ux + uy * uy + uz * uz)
-        slide = skin * abs(along) * along
+        slide = skin * abs(along)
+        quick = 2.0 * ahead * (size + slide) * A[LIGHT + k]
+        held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
+        size, slide = held * size, held * slide * along
         A[AX + k] = size * ux + slide * tx
         A[AY + k] = size * uy + slide * ty
         A[AZ + k] = size * uz + slide * tz + lift
@@ -258,7 +269,10 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool) -> Non
         along = ux * tx + uy * ty + uz * tz
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
         other = across * math.sqrt(ux * ux + uy * uy + uz * uz)
-        slide = skin * abs(along) * along
+        slide = skin * abs(along)
+        quick = 2.0 * ahead * (other + slide) * A[LIGHT + k]
+        held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
+        other, slide = held * other, held * slide * along
         A[EX + k] = other * ux + slide * tx
         A[EY + k] = other * uy + slide * ty
         A[EZ + k] = other * uz + slide * tz + lift
@@ -314,7 +328,7 @@ def add_ribs(A: Any, runs: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def attached_loads(A: Any, attached: Any, rho: float, gravity: float) -> None:
+def attached_loads(A: Any, attached: Any, rho: float, gravity: float, ahead: float) -> None:
     """Add the loads on attached floats and weights, partly immersed [eq:flexible-immersion], and their added mass."""
     for n in range(attached.size):
         i = attached[n]
@@ -325,6 +339,8 @@ def attached_loads(A: Any, attached: Any, rho: float, gravity: float) -> None:
                 part = part * part * (3.0 - 2.0 * part)
         ux, uy, uz = A[WU + i] - A[U + i], A[WV + i] - A[V + i], A[WW + i] - A[W + i]
         size = part * A[DRAG + i] * math.sqrt(ux * ux + uy * uy + uz * uz)
+        quick = 2.0 * ahead * size / (A[MASS + i] + part * A[ADDED + i])
+        size /= 1.0 + 0.4 * quick * quick * quick * quick
         inertia = part * (A[ADDED + i] + rho * A[VOLUME + i])
         A[QX + i] += size * ux + inertia * A[WA + i]
         A[QY + i] += size * uy + inertia * A[WB + i]
@@ -354,21 +370,23 @@ def invert_blocks(A: Any, count: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def loads(A: Any, sizes: Any, runs: Any, attached: Any, rho: float, gravity: float, surface: bool, waves: bool) -> None:
+def loads(
+    A: Any, sizes: Any, runs: Any, attached: Any, rho: float, gravity: float, surface: bool, waves: bool, ahead: float
+) -> None:  # fmt: skip
     """Write weight, buoyancy, drag and inertia of the water at every node, and the inverse mass blocks."""
     count, spine = sizes[0], sizes[1]
     if surface:
         wetness(A, 0, 1, 0, spine)
         for r in range(runs.shape[0]):
             wetness(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3])
-    bar_loads(A, 0, 1, 0, spine, waves)
+    bar_loads(A, 0, 1, 0, spine, waves, ahead)
     node_loads(A, count, spine)
     if runs.shape[0] > 0:
         for r in range(runs.shape[0]):
-            bar_loads(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3], waves)
+            bar_loads(A, runs[r, 0], runs[r, 1], RIB + runs[r, 2], runs[r, 3], waves, ahead)
         add_ribs(A, runs)
     if attached.size > 0:
-        attached_loads(A, attached, rho, gravity)
+        attached_loads(A, attached, rho, gravity, ahead)
     invert_blocks(A, count)
 
 
@@ -444,11 +462,12 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
 
 @njit(cache=True, error_model="numpy")
 def _touching(A: Any, count: int, level: float, ahead: float) -> bool:
-    """Whether a free node can reach the bed within ``ahead`` seconds at twice its speed."""
-    found = False
+    """Whether a free node can reach the bed within ``ahead`` seconds at twice the greatest vertical speed."""
+    fastest, lowest = 0.0, math.inf
     for i in range(count):
-        found = found or (A[Z + i] - 2.0 * ahead * abs(A[W + i]) < level + 1e-3 and A[FREE_Z + i] > 0.0)
-    return found
+        fastest = max(fastest, abs(A[W + i]))
+        lowest = min(lowest, A[Z + i] if A[FREE_Z + i] > 0.0 else math.inf)
+    return lowest - 2.0 * ahead * fastest < level + 1e-3
 
 
 @njit(cache=True, error_model="numpy")
@@ -502,7 +521,7 @@ def march(
                     for i in range(water.shape[1]):
                         A[WU + r * ROW + i] = water[r, i] + (now - water_time) * water_rate[r, i]
             turning = kinetic_energy(A, count)
-            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving)
+            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, per_load * step)
             if ledger[4] == 0.0:
                 for axis in range(3):
                     for i in range(count):
@@ -535,10 +554,7 @@ def march(
                     ledger[5] = 1.0
                 if touching:
                     kick_and_drift(A, count, push, 0.0)
-                    contact(A, count, level, friction, push)
-                    for axis in range(3):
-                        for i in range(count):
-                            A[X + axis * ROW + i] += step * A[U + axis * ROW + i]
+                    contact_and_drift(A, count, level, friction, push, step)
                 else:
                     kick_and_drift(A, count, push, step)
                 drive(A, driven, rest, tables, table_start, table_step, start + (index + inner + 1) * step, step)

@@ -140,8 +140,8 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
     if bed[3] > 0.0:
         for i in range(x.shape[0]):
             depth = bed[0] - x[i, 2]
-            if depth > 0.0:
-                push = max(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0)
+            if depth > 0.0 or fluid[2] > 0.0:
+                push, _ = _cut(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0, fluid[2])
                 force[i, 2] += push
                 if bed[1] > 0.0:
                     speed = math.sqrt(v[i, 0] ** 2 + v[i, 1] ** 2 + bed[2] * bed[2])
@@ -260,11 +260,11 @@ def tangent(
     if bed[3] > 0.0:
         for i in range(x.shape[0]):
             depth = bed[0] - x[i, 2]
-            if depth > 0.0:
+            if depth > 0.0 or fluid[2] > 0.0:
                 block[:] = 0.0
-                push = nodes[5, i] * depth - nodes[6, i] * v[i, 2]
-                if push > 0.0:
-                    block[2, 2] = by_place * nodes[5, i] + by_rate * nodes[6, i]
+                push, part = _cut(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0, fluid[2])
+                if part > 0.0:
+                    block[2, 2] = part * (by_place * nodes[5, i] + by_rate * nodes[6, i])
                     speed = math.sqrt(v[i, 0] ** 2 + v[i, 1] ** 2 + bed[2] * bed[2])
                     for p in range(2):
                         block[p, p] = by_rate * bed[1] * push / speed

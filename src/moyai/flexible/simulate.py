@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
-from moyai.flexible.explicit import LOAD_STEPS, SAFETY, ExplicitRun
+from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
@@ -77,7 +77,7 @@ def simulate(
     start: State | None = None,
     method: Method = "explicit",
     step: float | None = None,
-    safety: float = SAFETY,
+    safety: float | None = None,
     load_steps: int = LOAD_STEPS,
     tolerance: float = TOLERANCE,
     keep_nodes: ArrayLike | None = None,
@@ -106,8 +106,10 @@ def simulate(
         Time step [s], rounded down to fill an output step; when left out the largest stable one times ``safety``, or,
         for
         the implicit methods, what ``tolerance`` asks for.
-    safety : float
-        Part of the largest stable step, 0 to 1.
+    safety : float, optional
+        Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.7 where bars may go slack with
+        hardly any
+        viscosity. 1 is the pace of the elastic wave: along equal bars wave fronts then travel without error.
     load_steps : int
         Steps between two evaluations of the loads of the water, at most.
     tolerance : float
@@ -137,7 +139,7 @@ def simulate(
         raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
     if step is not None and not step > 0.0:
         raise InputError(f"step is {step:g} s", path="step", allowed="greater than 0")
-    if not 0.0 < safety <= 1.0:
+    if safety is not None and not 0.0 < safety <= 1.0:
         raise InputError(f"safety is {safety:g}", path="safety", allowed="above 0, at most 1")
     nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
     run: ExplicitRun | ImplicitRun

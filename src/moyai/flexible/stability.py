@@ -84,8 +84,9 @@ def _limit(
         if fast > 0.0:
             slow = 2.0 * _largest_eigenvalue(share, damp[i])
             limit = (math.sqrt(slow * slow + 4.0 * fast) - slow) / fast
-            # with lag, viscosity turns the fastest mode into a zigzag from step to step: let it die by half each step
-            calm = (math.sqrt(2.25 * slow * slow + 4.5 * fast) - 1.5 * slow) / fast
+            # with lag, viscosity turns the fastest mode into a zigzag from step to step: let it die by a fifth each
+            # step
+            calm = (math.sqrt(1.265625 * slow * slow + 4.05 * fast) - 1.125 * slow) / fast
             limit = min(limit, calm)
             if limit < least:
                 least, worst = limit, i
@@ -98,7 +99,8 @@ def step_limit(arrays: KernelArrays, position: Array, inverse: Array) -> tuple[f
     Twice the stiffness of the bars at a node bounds the whole matrix from above, block by block, so the largest
     eigenvalue of ``2 M^-1 sum k e e^T`` over the nodes bounds the highest frequency; the same with the viscosities
     bounds the damping. Lagged viscosity then asks for ``dt^2 w^2 + 2 dt c <= 4`` to be stable and for
-    ``dt^2 w^2 + 3 dt c <= 4.5`` to kill the zigzag of the fastest mode by half in every step [eq:flexible-step-limit].
+    ``dt^2 w^2 + 2.25 dt c <= 4.05`` to damp the zigzag of the fastest mode by a fifth in every step [eq:flexible-
+    step-limit].
 
     Parameters
     ----------

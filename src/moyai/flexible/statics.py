@@ -22,7 +22,8 @@ IntArray = NDArray[np.int64]
 
 
 #: Steps towards Newton's method before the true motion is asked, and how often and how long it is asked.
-_STEPS_AT_ONCE, _SHAKES, _SHAKE_INTERVALS = 40, 12, 40
+#: The solver of a line is quick, that of a net is not.
+_STEPS_OF_A_LINE, _STEPS_OF_A_NET, _SHAKES, _SHAKE_INTERVALS = 200, 40, 12, 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,15 +137,16 @@ def solve_equilibrium(
     )
     fluid = np.array([network.water.density, network.water.gravity, 0.0])
     steps, residual, worst, shaken = 0, math.inf, 0, 0
+    at_once = _STEPS_OF_A_LINE if width <= 20 else _STEPS_OF_A_NET
     while True:
         before = place.copy()
         taken, residual, worst = kernel.relax(
             place, water, kernel_system(arrays), fluid, kernel_bed(network), rank, band,
             math.sqrt(typical / network.water.gravity), max(0.5 * typical, 0.02 * extent), tolerance, noise,
-            min(_STEPS_AT_ONCE, most_steps - steps), tension,
+            min(at_once, most_steps - steps), tension,
         )  # fmt: skip
         steps += taken
-        if taken < _STEPS_AT_ONCE or steps >= most_steps or shaken >= _SHAKES:
+        if taken < at_once or steps >= most_steps or shaken >= _SHAKES:
             break
         # Newton's method goes in circles: let the true motion, stopped at every peak of its speed, lead the way
         place = _shake(network, before if shaken == 0 or not np.isfinite(place).all() else place, calm, extent)
