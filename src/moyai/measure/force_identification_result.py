@@ -9,7 +9,8 @@ import numpy as np
 
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck
-from moyai.measure.force_identification import COEFFICIENTS, Coefficient, Identification
+from moyai.measure.force_identification import Coefficient, Identification
+from moyai.measure.force_identification_fit import COEFFICIENTS
 
 if TYPE_CHECKING:
     import xarray as xr
