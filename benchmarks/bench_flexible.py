@@ -85,6 +85,8 @@ def compare(python: str | None) -> None:
                 str(courant),
                 "--duration",
                 str(duration),
+                "--settle",
+                str(settle),
                 "--exchange",
                 str(exchange),
             ]

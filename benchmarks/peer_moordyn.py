@@ -108,11 +108,12 @@ def problem(name, size, step):
     return deck([TWINE], points, lines, options), tow, (2, 1), 6.0
 
 
-def run(name, size, courant, duration, exchange):
+def run(name, size, courant, duration, exchange, settle):
     """Run once; return CPU seconds, highest tension after the start, and the step."""
     stiffness, mass, length = {"chain": (2.135e8, 49.8, 100.0), "net": (2e5, 0.36, size)}.get(name, (1e8, 9.0, 46.0))
     step = courant * length / size / math.sqrt(stiffness / mass)
-    text, place, watched, settle = problem(name, size, step)
+    text, place, watched, usual = problem(name, size, step)
+    settle = usual if settle is None else settle
     path = os.path.join(tempfile.mkdtemp(prefix="peer"), "lines.txt")
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
@@ -144,13 +145,17 @@ def main():
     parser.add_argument("--courant", type=float, default=0.4)
     parser.add_argument("--duration", type=float, default=20.0)
     parser.add_argument("--exchange", type=float, default=1e-3)
+    parser.add_argument("--settle", type=float, default=None)
     parser.add_argument("--repeat", type=int, default=3)
     given = parser.parse_args()
     voice = os.fdopen(os.dup(1), "w")
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
     os.dup2(silence, 2)
-    runs = [run(given.problem, given.size, given.courant, given.duration, given.exchange) for _ in range(given.repeat)]
+    runs = [
+        run(given.problem, given.size, given.courant, given.duration, given.exchange, given.settle)
+        for _ in range(given.repeat)
+    ]
     record = {
         "cpu_s": float(np.median([entry[0] for entry in runs])),
         "peak_N": runs[0][1],
