@@ -14,6 +14,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
+from moyai.flexible.fronts import front_notices
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
@@ -233,4 +234,11 @@ def _history(
         status,
         message,
         (check,),
+        front_notices(
+            network,
+            np.asarray(np.arange(last) * interval, dtype=np.float64),
+            saved[5],
+            saved[1][:last],
+            getattr(run, "safety", None) == 1.0,
+        ),
     )

@@ -246,3 +246,77 @@ def test_motion_outside_its_range_is_refused():
         with pytest.raises(InputError):
             simulate(network, {"end": still()}, **{"duration": 1.0, "output_step": 0.1, **wrong})
     assert NO_GRAVITY.density > 0.0
+
+
+@pytest.mark.parametrize("diameter", [0.6, 1.5])
+def test_floating_sphere_bobs_at_its_natural_period(diameter):
+    """Half immersed, small motion: omega^2 = rho g (waterplane) / (mass + added mass)."""
+    water = Water(math.inf, 1025.0, 9.81)
+    volume = math.pi / 6.0 * diameter**3
+    mass = 0.5 * 1025.0 * volume
+    builder = NetworkBuilder(water)
+    builder.float_sphere(
+        "buoy",
+        (0.0, 0.0, 0.01 * diameter),
+        diameter=diameter,
+        mass=mass,
+        drag_coefficient=0.0,
+        added_mass_coefficient=0.5,
+    )
+    # the wet part of the added mass is half of it
+    omega = math.sqrt(1025.0 * 9.81 * math.pi / 4.0 * diameter**2 / (mass + 0.25 * 1025.0 * volume))
+    for method in ("explicit", "esdirk4"):
+        history = simulate(builder.build(), duration=20.0 / omega, output_step=0.01 / omega, method=method)
+        z = history.position[:, 0, 2]
+        rises = np.flatnonzero((z[:-1] < 0.0) & (z[1:] >= 0.0))
+        when = history.time[rises] - z[rises] / (z[rises + 1] - z[rises]) * (history.time[1] - history.time[0])
+        assert np.diff(when) == pytest.approx(2.0 * math.pi / omega, rel=2e-3)
+        assert np.max(np.abs(z)) == pytest.approx(0.01 * diameter, rel=0.02)
+
+
+def test_small_float_rides_long_waves():
+    """A light float without line follows the surface of long waves and the orbit of the water."""
+    from moyai.sea.dispersion import wave_number
+    from moyai.sea.irregular import WaveComponents
+
+    water = Water(30.0, 1025.0, 9.81)
+    omega, amplitude = 0.7, 0.5
+    number = float(wave_number(omega, 30.0, 9.81))
+    sea = WaveComponents([omega], [amplitude], [0.0], [0.0], [number], water)
+    builder = NetworkBuilder(water)
+    volume = math.pi / 6.0 * 0.5**3
+    builder.float_sphere(
+        "float",
+        (0.0, 0.0, 0.0),
+        diameter=0.5,
+        mass=0.5 * 1025.0 * volume,
+        drag_coefficient=0.6,
+        added_mass_coefficient=0.5,
+    )
+    network = builder.build()
+    results = []
+    for method in ("explicit", "tr_bdf2"):
+        history = simulate(network, duration=40.0, output_step=0.05, flow=Flow(waves=sea, ramp=9.0), method=method)
+        assert history.status == "converged"
+        late = history.time > 20.0
+        x, z = history.position[late, 0, 0], history.position[late, 0, 2]
+        surface = amplitude * np.cos(number * x - omega * history.time[late])
+        assert z == pytest.approx(surface, abs=0.04 * amplitude)
+        results.append(z)
+    assert results[1] == pytest.approx(results[0], abs=0.01 * amplitude)
+
+
+def test_wave_front_is_told():
+    builder = NetworkBuilder(NO_GRAVITY)
+    builder.fixed("wall", (0.0, 0.0, DEEP))
+    builder.free("mass", (50.0, 0.0, DEEP), mass=300.0)
+    builder.line("string", "wall", "mass", BarType("string", 3.0, 2e7, 1e-9), length=50.0, segments=50)
+    network = builder.build()
+    velocity = np.zeros((51, 3))
+    velocity[network.point("mass"), 0] = 1.0
+    start = State(0.0, np.array(network.nodes.position), velocity)
+    travel = 50.0 / math.sqrt(2e7 / 3.0)
+    usual = simulate(network, duration=4.0 * travel, output_step=travel / 10.0, start=start)
+    paced = simulate(network, duration=4.0 * travel, output_step=travel / 10.0, start=start, safety=1.0)
+    assert [notice.code for notice in usual.notices] == ["wave-front"]
+    assert not paced.notices
