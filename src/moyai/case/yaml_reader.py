@@ -187,7 +187,7 @@ class _Builder:
                 root = self._record(self.loader.get_event(), 0)
         if root is None or (root.kind == "scalar" and root.value is None):
             raise CaseError(
-                [Fault("the file is empty", file=self.file, remedy="'moyai new breakwater' prints a template")]
+                [Fault("the file is empty", file=self.file, remedy="'moyai new' prints a template")]
             )
         data = self._build(root, ())
         if self.faults:
