@@ -1,0 +1,346 @@
+"""A MoorDyn input file as frozen records, each with its line number, and the writer of such files.
+
+Read with :func:`moyai.interop.moordyn_reader.read_deck`; turned into a network of :mod:`moyai.flexible` and back by
+:mod:`moyai.interop.moordyn_network`. Units are those of the file, which are SI.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from moyai.core.errors import InputError
+
+PointKind = Literal["fixed", "coupled", "free"]
+
+#: Options that the file format gives a value when they are left out (manual of MoorDyn v2).
+FORMAT_DEFAULTS = {"g": 9.80665, "WtrDnsty": 1025.0, "kBot": 3.0e6, "cBot": 3.0e5, "FrictionCoefficient": 0.0}
+
+
+@dataclass(frozen=True)
+class StiffnessTable:
+    """Tension over strain, from a file that a line type names in place of EA.
+
+    Parameters
+    ----------
+    strain : tuple of float
+        Rising from 0 [-].
+    tension : tuple of float
+        Rising from 0 [N].
+    file : str
+        Name of the file, beside the deck.
+    """
+
+    strain: tuple[float, ...]
+    tension: tuple[float, ...]
+    file: str
+
+
+@dataclass(frozen=True)
+class DeckLineType:
+    """A row of LINE TYPES.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    diameter : float
+        Volume-equivalent [m].
+    mass_per_length : float
+        In air [kg/m].
+    stiffness : float or StiffnessTable
+        EA [N], or the table.
+    damping : float
+        BA [N s]; negative: minus the part of the critical damping of one segment.
+    bending_stiffness : float
+        EI [N m2].
+    drag_normal, added_mass_normal, drag_axial, added_mass_axial : float
+        Cd on the diameter, Ca, CdAx on the circumference, CaAx [-].
+    line : int
+        Line of the file, 0 for a record that was not read.
+    """
+
+    name: str
+    diameter: float
+    mass_per_length: float
+    stiffness: float | StiffnessTable
+    damping: float
+    bending_stiffness: float
+    drag_normal: float
+    added_mass_normal: float
+    drag_axial: float
+    added_mass_axial: float
+    line: int = field(default=0, compare=False)
+
+
+@dataclass(frozen=True)
+class DeckPoint:
+    """A row of POINTS.
+
+    Parameters
+    ----------
+    number : int
+        Its ID.
+    kind : {"fixed", "coupled", "free"}
+        What moves it: nothing, a prescribed motion, its forces.
+    position : (float, float, float)
+        Start [m].
+    mass, volume, drag_area : float
+        [kg], [m3], [m2].
+    added_mass_coefficient : float
+        On the volume [-].
+    line : int
+        Line of the file.
+    """
+
+    number: int
+    kind: PointKind
+    position: tuple[float, float, float]
+    mass: float
+    volume: float
+    drag_area: float
+    added_mass_coefficient: float
+    line: int = field(default=0, compare=False)
+
+
+@dataclass(frozen=True)
+class DeckLine:
+    """A row of LINES.
+
+    Parameters
+    ----------
+    number : int
+        Its ID.
+    line_type : str
+        Name of a line type.
+    start, end : int
+        IDs of the points at its ends A and B.
+    length : float
+        Unstretched [m].
+    segments : int
+        Number of segments.
+    outputs : str
+        Flags of the line's own output file, ``-`` for none.
+    line : int
+        Line of the file.
+    """
+
+    number: int
+    line_type: str
+    start: int
+    end: int
+    length: float
+    segments: int
+    outputs: str = "-"
+    line: int = field(default=0, compare=False)
+
+
+@dataclass(frozen=True)
+class DeckOption:
+    """A row of OPTIONS.
+
+    Parameters
+    ----------
+    key : str
+        In the spelling of MoorDyn v2.
+    value : float or str
+        As the file has it.
+    line : int
+        Line of the file.
+    """
+
+    key: str
+    value: float | str
+    line: int = field(default=0, compare=False)
+
+
+@dataclass(frozen=True)
+class DeckCurrent:
+    """Steady current over the height, from ``current_profile.txt`` beside the deck.
+
+    Parameters
+    ----------
+    z : tuple of float
+        Heights [m], rising.
+    velocity : tuple of (float, float)
+        Horizontal components at them [m/s].
+    """
+
+    z: tuple[float, ...]
+    velocity: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class MoorDynDeck:
+    """A MoorDyn input file.
+
+    Parameters
+    ----------
+    line_types, points, lines : tuple
+        Rows of the sections.
+    options : tuple of DeckOption
+        Rows of OPTIONS, in order.
+    outputs : tuple of str
+        Channels of OUTPUTS.
+    current : DeckCurrent, optional
+        When the option Currents is 1.
+    seafloor_depth : float, optional
+        Depth of a flat grid of depths [m].
+    title : str
+        Line that describes the deck.
+    source : str
+        Name of the file.
+    notes : tuple of str
+        What the reader says about the file that is no fault: options without meaning here, columns in another order.
+    """
+
+    line_types: tuple[DeckLineType, ...]
+    points: tuple[DeckPoint, ...]
+    lines: tuple[DeckLine, ...]
+    options: tuple[DeckOption, ...] = ()
+    outputs: tuple[str, ...] = ()
+    current: DeckCurrent | None = None
+    seafloor_depth: float | None = None
+    title: str = field(default="", compare=False)
+    source: str = field(default="", compare=False)
+    notes: tuple[str, ...] = field(default=(), compare=False)
+
+    def number(self, key: str) -> float | None:
+        """Return an option as a number; the value of the format when the deck leaves it out; ``None`` without one."""
+        for option in self.options:
+            if option.key == key and isinstance(option.value, float):
+                return option.value
+        return FORMAT_DEFAULTS.get(key)
+
+    def point(self, number: int) -> DeckPoint:
+        """Return the point of an ID.
+
+        Raises
+        ------
+        InputError
+            When there is none.
+        """
+        for point in self.points:
+            if point.number == number:
+                return point
+        raise InputError(f"no point {number}", path="points", allowed=", ".join(str(p.number) for p in self.points))
+
+    def line_type(self, name: str) -> DeckLineType:
+        """Return the line type of a name.
+
+        Raises
+        ------
+        InputError
+            When there is none.
+        """
+        for kind in self.line_types:
+            if kind.name == name:
+                return kind
+        raise InputError(f"no line type {name!r}", path="line_types", allowed=", ".join(t.name for t in self.line_types))
+
+
+_KIND_NAMES: dict[PointKind, str] = {"fixed": "Fixed", "coupled": "Coupled", "free": "Free"}
+
+
+def _title(name: str) -> str:
+    return f"---------------------- {name} ".ljust(100, "-")
+
+
+def _columns(names: str, units: str, rows: Iterable[Iterable[str]]) -> list[str]:
+    """Return aligned rows under two heading lines."""
+    table = [names.split(), units.split(), *[list(row) for row in rows]]
+    widths = [max(len(row[i]) for row in table) for i in range(len(table[0]))]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
+
+
+def deck_text(deck: MoorDynDeck) -> str:
+    """Return the text of a MoorDyn v2 input file; every number keeps all its digits."""
+    kinds = [
+        (
+            t.name, repr(t.diameter), repr(t.mass_per_length),
+            t.stiffness.file if isinstance(t.stiffness, StiffnessTable) else repr(t.stiffness), repr(t.damping),
+            repr(t.bending_stiffness), repr(t.drag_normal), repr(t.added_mass_normal), repr(t.drag_axial),
+            repr(t.added_mass_axial),
+        )
+        for t in deck.line_types
+    ]  # fmt: skip
+    points = [
+        (
+            str(p.number), _KIND_NAMES[p.kind], *map(repr, p.position), repr(p.mass), repr(p.volume),
+            repr(p.drag_area), repr(p.added_mass_coefficient),
+        )
+        for p in deck.points
+    ]  # fmt: skip
+    lines = [
+        (str(n.number), n.line_type, str(n.start), str(n.end), repr(n.length), str(n.segments), n.outputs)
+        for n in deck.lines
+    ]
+    text = [
+        _title("MoorDyn Input File"),
+        deck.title or "moored lines",
+        _title("LINE TYPES"),
+        *_columns(
+            "TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx",
+            "(name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)",
+            kinds,
+        ),
+        _title("POINTS"),
+        *_columns("ID Type X Y Z Mass Volume CdA Ca", "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)", points),
+        _title("LINES"),
+        *_columns(
+            "ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs", "(#) (name) (#) (#) (m) (-) (-)", lines
+        ),
+        _title("OPTIONS"),
+        *[f"{o.value if isinstance(o.value, str) else repr(o.value):<24}{o.key}" for o in deck.options],
+    ]
+    if deck.outputs:
+        text += [_title("OUTPUTS"), *deck.outputs, "END"]
+    return "\n".join([*text, _title("need this line"), ""])
+
+
+def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
+    """Write a deck and the files that it names (stiffness tables, the profile of the current).
+
+    Parameters
+    ----------
+    deck : MoorDynDeck
+        The deck.
+    path : path
+        File; its folder takes the others.
+
+    Returns
+    -------
+    Path
+        The file of the deck.
+
+    Raises
+    ------
+    InputError
+        When the folder is absent, or the deck rests on a grid of depths, which is not written.
+    """
+    place = Path(path)
+    if not place.parent.is_dir():
+        raise InputError(f"no such folder: {place.parent}", path="path")
+    if any(option.key == "SeafloorFile" for option in deck.options):
+        raise InputError(
+            "the deck takes its depth from a grid file, which is not written",
+            path="options.SeafloorFile",
+            remedy="replace it by WtrDpth",
+        )
+    place.write_text(deck_text(deck), encoding="utf-8")
+    for kind in deck.line_types:
+        if isinstance(kind.stiffness, StiffnessTable):
+            table = kind.stiffness
+            rows = [f"{e!r} {t!r}" for e, t in zip(table.strain, table.tension, strict=True)]
+            (place.parent / table.file).write_text("\n".join(["Strain Tension", "(-) (N)", *rows, ""]), encoding="utf-8")
+    if deck.current is not None:
+        rows = [f"{z!r} {u!r} {v!r} 0.0" for z, (u, v) in zip(deck.current.z, deck.current.velocity, strict=True)]
+        heading = ["--- MoorDyn steady currents File", "Water currents", "z (m), ux (m/s), uy (m/s), uz (m/s)"]
+        (place.parent / CURRENT_FILE).write_text("\n".join([*heading, *rows, ""]), encoding="utf-8")
+    return place
+
+
+#: Name that MoorDyn gives the profile of a steady current, beside the deck.
+CURRENT_FILE = "current_profile.txt"
