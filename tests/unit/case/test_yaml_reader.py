@@ -147,7 +147,7 @@ def test_syntax_faults_are_told_in_plain_words(scanner, text, place, words):
 
 @pytest.mark.parametrize("text", ["", "\n\n", "# nothing\n", "---\n", "null\n"])
 def test_an_empty_file_points_to_the_template(scanner, text):
-    assert faults_of(text) == ["case.yaml: the file is empty; 'moyai new breakwater' prints a template"]
+    assert faults_of(text) == ["case.yaml: the file is empty; 'moyai new' prints a template"]
 
 
 def test_nested_aliases_cannot_fill_the_memory(scanner):
