@@ -165,13 +165,50 @@ def kick_and_drift(A: Any, count: int, push: float, move: float) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def contact_and_drift(A: Any, count: int, level: float, friction: float, time: float, move: float) -> None:
-    """Apply the impulses of the bed to the velocities, then advance the positions.
+def kick_contact_and_drift(A: Any, count: int, level: float, time: float, move: float) -> None:
+    """Do what :func:`kick_and_drift` does, with the impulses of a smooth bed in between.
 
-    Implicit spring and dashpot, Coulomb friction that sticks [eq:flexible-bed]; without branches, for whole vectors.
+    Implicit spring and dashpot [eq:flexible-bed], without branches, for whole vectors.
     """
     for i in range(count):
-        u, v, w, share = A[U + i], A[V + i], A[W + i], A[IZZ + i]
+        share = A[IZZ + i]
+        fx = time * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = time * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = time * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + share * fz
+        depth = level - A[Z + i]
+        # depth - time w replaces depth: a stiff bed then needs no smaller step
+        grip = A[STIFF + i] * time + A[DAMP + i]
+        push = time * (A[STIFF + i] * depth - grip * w) / (1.0 + time * grip * share)
+        # contact is told by where the node would end: a hard bed stops it at its face instead of throwing it back
+        push = push if depth > time * w else 0.0
+        push = push if push > 0.0 else 0.0
+        u += A[IXZ + i] * push
+        v += A[IYZ + i] * push
+        w += share * push
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
+        A[Z + i] += move * w
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def kick_rub_and_drift(A: Any, count: int, level: float, friction: float, time: float, move: float) -> None:
+    """Do the same on a rough bed: Coulomb friction that sticks.
+
+    The body is repeated from :func:`kick_contact_and_drift`: a shared function in the loop would hinder the compiler, and the
+    roots and divisions of friction cost as much as all the rest.
+    """
+    for i in range(count):
+        share = A[IZZ + i]
+        fx = time * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = time * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = time * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + share * fz
         depth = level - A[Z + i]
         # depth - time w replaces depth: a stiff bed then needs no smaller step
         grip = A[STIFF + i] * time + A[DAMP + i]
@@ -188,11 +225,10 @@ def contact_and_drift(A: Any, count: int, level: float, friction: float, time: f
         stop = speed / (light + TINY)
         hold = (stop if stop < bound else bound) / speed
         px, py = hold * u, hold * v
-        A[U + i] = u - A[IXX + i] * px - A[IXY + i] * py
-        A[V + i] = v - A[IXY + i] * px - A[IYY + i] * py
-        A[W + i] = w
-        A[X + i] += move * A[U + i]
-        A[Y + i] += move * A[V + i]
+        u, v = u - A[IXX + i] * px - A[IXY + i] * py, v - A[IXY + i] * px - A[IYY + i] * py
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
         A[Z + i] += move * w
 
 
@@ -552,9 +588,10 @@ def march(
                 if ledger[5] == 0.0:
                     push = 0.5 * step
                     ledger[5] = 1.0
-                if touching:
-                    kick_and_drift(A, count, push, 0.0)
-                    contact_and_drift(A, count, level, friction, push, step)
+                if touching and friction > 0.0:
+                    kick_rub_and_drift(A, count, level, friction, push, step)
+                elif touching:
+                    kick_contact_and_drift(A, count, level, push, step)
                 else:
                     kick_and_drift(A, count, push, step)
                 drive(A, driven, rest, tables, table_start, table_step, start + (index + inner + 1) * step, step)
