@@ -238,7 +238,9 @@ class MoorDynDeck:
         for kind in self.line_types:
             if kind.name == name:
                 return kind
-        raise InputError(f"no line type {name!r}", path="line_types", allowed=", ".join(t.name for t in self.line_types))
+        raise InputError(
+            f"no line type {name!r}", path="line_types", allowed=", ".join(t.name for t in self.line_types)
+        )
 
 
 _KIND_NAMES: dict[PointKind, str] = {"fixed": "Fixed", "coupled": "Coupled", "free": "Free"}
@@ -289,9 +291,7 @@ def deck_text(deck: MoorDynDeck) -> str:
         _title("POINTS"),
         *_columns("ID Type X Y Z Mass Volume CdA Ca", "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)", points),
         _title("LINES"),
-        *_columns(
-            "ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs", "(#) (name) (#) (#) (m) (-) (-)", lines
-        ),
+        *_columns("ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs", "(#) (name) (#) (#) (m) (-) (-)", lines),
         _title("OPTIONS"),
         *[f"{o.value if isinstance(o.value, str) else repr(o.value):<24}{o.key}" for o in deck.options],
     ]
@@ -334,7 +334,9 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
         if isinstance(kind.stiffness, StiffnessTable):
             table = kind.stiffness
             rows = [f"{e!r} {t!r}" for e, t in zip(table.strain, table.tension, strict=True)]
-            (place.parent / table.file).write_text("\n".join(["Strain Tension", "(-) (N)", *rows, ""]), encoding="utf-8")
+            (place.parent / table.file).write_text(
+                "\n".join(["Strain Tension", "(-) (N)", *rows, ""]), encoding="utf-8"
+            )
     if deck.current is not None:
         rows = [f"{z!r} {u!r} {v!r} 0.0" for z, (u, v) in zip(deck.current.z, deck.current.velocity, strict=True)]
         heading = ["--- MoorDyn steady currents File", "Water currents", "z (m), ux (m/s), uy (m/s), uz (m/s)"]

@@ -71,7 +71,9 @@ def read_output(path: str | Path) -> MoorDynOutput:
     place = Path(path)
     lines = read_lines(place)
     # OpenFAST writes remarks above the names
-    first = next((i for i, line in enumerate(lines) if line.split() and line.split()[0].lower().startswith("time")), None)
+    first = next(
+        (i for i, line in enumerate(lines) if line.split() and line.split()[0].lower().startswith("time")), None
+    )
     if first is None:
         raise InputError(f"{place.name}: no row of channel names that starts with Time", path="output")
     names = lines[first].replace(",", " ").split()
@@ -103,7 +105,9 @@ def read_output(path: str | Path) -> MoorDynOutput:
         key = unit.lower().replace("^", "").replace("-m", "m").replace("*", "")
         if key not in _TO_SI:
             raise InputError(
-                f"{place.name}:{first + 2}: unit {unit!r} of {name!r} is unknown", path="output", allowed=", ".join(_TO_SI)
+                f"{place.name}:{first + 2}: unit {unit!r} of {name!r} is unknown",
+                path="output",
+                allowed=", ".join(_TO_SI),
             )
         table[:, column] *= _TO_SI[key]
     table.setflags(write=False)

@@ -1,0 +1,124 @@
+"""Names of sections, columns and options in MoorDyn input files: versions 1 and 2, and what has no meaning here."""
+
+from __future__ import annotations
+
+#: Titles of sections, in capitals, and what they are here.
+SECTIONS = {
+    "LINE TYPES": "line types",
+    "LINE DICTIONARY": "line types",
+    "POINTS": "points",
+    "POINT PROPERTIES": "points",
+    "POINT LIST": "points",
+    "CONNECTIONS": "points",
+    "CONNECTION PROPERTIES": "points",
+    "NODES": "points",
+    "NODE PROPERTIES": "points",
+    "LINES": "lines",
+    "LINE PROPERTIES": "lines",
+    "LINE LIST": "lines",
+    "OPTIONS": "options",
+    "SOLVER OPTIONS": "options",
+    "OUTPUTS": "outputs",
+    "OUTPUT": "outputs",
+}
+
+#: Sections whose rows this reader refuses, and why.
+REFUSED_SECTIONS = {
+    "ROD TYPES": "",
+    "ROD DICTIONARY": "",
+    "RODS": "rods are not read",
+    "ROD LIST": "rods are not read",
+    "ROD PROPERTIES": "rods are not read",
+    "BODIES": "bodies are not read",
+    "BODY LIST": "bodies are not read",
+    "BODY PROPERTIES": "bodies are not read",
+    "FAILURE": "failing lines are not read",
+    "CONTROL": "lines of controlled length are not read",
+    "EXTERNAL LOADS": "external loads are not read",
+    "SYROPE IC": "the working curves of polyester ropes are not read",
+    "USER METADATA": "",
+}
+
+#: Columns by their names in lower case.
+LINE_TYPE_COLUMNS = {
+    "typename": "name", "linetype": "name", "name": "name",
+    "diam": "diameter", "diameter": "diameter", "d": "diameter",
+    "mass/m": "mass_per_length", "massden": "mass_per_length", "massdeninair": "mass_per_length",
+    "ea": "stiffness",
+    "ba/-zeta": "damping", "ba": "damping", "cintdamp": "damping",
+    "ei": "bending_stiffness",
+    "cd": "drag_normal", "cdn": "drag_normal", "cdtr": "drag_normal",
+    "ca": "added_mass_normal", "can": "added_mass_normal",
+    "cdax": "drag_axial", "cdt": "drag_axial",
+    "caax": "added_mass_axial", "cat": "added_mass_axial",
+    "cl": "lift", "df": "lift_range", "cf": "lift_frequency",
+}  # fmt: skip
+POINT_COLUMNS = {
+    "id": "number", "node": "number", "point": "number", "connection": "number",
+    "type": "kind", "attachment": "kind",
+    "x": "x", "y": "y", "z": "z",
+    "mass": "mass", "m": "mass",
+    "volume": "volume", "v": "volume", "vol": "volume",
+    "cda": "drag_area", "ca": "added_mass_coefficient",
+    "fx": "force x", "fy": "force y", "fz": "force z",
+}  # fmt: skip
+LINE_COLUMNS = {
+    "id": "number", "line": "number",
+    "linetype": "line_type",
+    "attacha": "start", "nodea": "start", "nodeanch": "start",
+    "attachb": "end", "nodeb": "end", "nodefair": "end",
+    "unstrlen": "length",
+    "numsegs": "segments",
+    "outputs": "outputs", "lineoutputs": "outputs", "flags/outputs": "outputs",
+}  # fmt: skip
+
+#: Columns in the order in which MoorDyn v2 takes them, whatever their headings say.
+LINE_TYPE_ORDER = (
+    "name", "diameter", "mass_per_length", "stiffness", "damping", "bending_stiffness", "drag_normal",
+    "added_mass_normal", "drag_axial", "added_mass_axial",
+)  # fmt: skip
+
+#: Columns that a section may go without (version 1 had no bending stiffness, OUTPUTS flags may be left out).
+MAY_MISS = {
+    "line types": {"bending_stiffness", "lift", "lift_range", "lift_frequency"},
+    "points": {"force x", "force y", "force z"},
+    "lines": {"outputs"},
+}
+
+POINT_KINDS = {
+    "fixed": "fixed", "fix": "fixed", "anchor": "fixed", "anch": "fixed",
+    "vessel": "coupled", "ves": "coupled", "coupled": "coupled", "cpld": "coupled",
+    "free": "free", "connect": "free", "con": "free", "point": "free", "pnt": "free",
+}  # fmt: skip
+
+#: Options that a run here uses, by their names in lower case.
+OPTIONS_USED = {
+    "wtrdpth": "WtrDpth", "depth": "WtrDpth", "wtrdepth": "WtrDpth",
+    "wtrdnsty": "WtrDnsty", "rho": "WtrDnsty", "rhow": "WtrDnsty",
+    "g": "g", "gravity": "g",
+    "kbot": "kBot", "kb": "kBot",
+    "cbot": "cBot", "cb": "cBot",
+    "frictioncoefficient": "FrictionCoefficient", "mu_kt": "FrictionCoefficient",
+    "seafloorfile": "SeafloorFile", "bathymetryfile": "SeafloorFile", "bathyfile": "SeafloorFile",
+    "wavekin": "WaveKin",
+    "currents": "Currents", "currentmod": "Currents",
+}  # fmt: skip
+
+#: Options that steer MoorDyn's own step, start or files: kept in the deck, without meaning here.
+OPTIONS_WITHOUT_MEANING = {
+    "dtm": "dtM", "cfl": "cfl", "tscheme": "tScheme", "dtout": "dtOut", "writelog": "writeLog", "echo": "Echo",
+    "dtic": "dtIC", "tmaxic": "TmaxIC", "cdscaleic": "CdScaleIC", "icdfac": "CdScaleIC", "threshic": "threshIC",
+    "icgendynamic": "ICgenDynamic", "fileic": "fileIC", "disableoutput": "disableOutput",
+    "disableouttime": "disableOutTime", "writeunits": "WriteUnits", "dtwave": "dtWave", "fricdamp": "FricDamp",
+    "statdynfricscale": "StatDynFricScale", "outswitch": "outSwitch",
+}  # fmt: skip
+
+#: Values of WaveKin and Currents that are refused, in words.
+WAVE_KINEMATICS = {
+    2.0: "elevations of a file by Fourier transform",
+    3.0: "elevations on a grid",
+    4.0: "Fourier sums at the nodes",
+    5.0: "kinematics at the nodes",
+    6.0: "kinematics on a grid",
+    7.0: "a sum of wave frequencies",
+}

@@ -1,0 +1,313 @@
+"""MoorDyn decks as flexible networks, and networks as decks.
+
+What differs between the two models, and how it is met:
+
+- MoorDyn's axial drag acts on the circumference, ours on the diameter: C = pi CdAx.
+- A negative BA is minus the part of the critical damping of the fastest motion of a segment, whose two ends swing
+  against each other at 2/l sqrt(EA/m): BA = zeta l sqrt(EA m). It belongs to the mesh and is turned into N s line by
+  line.
+- MoorDyn's volume is that of its diameter. A type whose volume differs is written with the diameter of its volume and
+  a drag coefficient that keeps the product; the bed is then made stiffer in the ratio of the diameters.
+- MoorDyn lets the viscous force act on slack segments too; ours ends with the tension.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from moyai.core.errors import CaseError, Fault, InputError
+from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.flow import Flow
+from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCurve
+from moyai.interop.moordyn_deck import (
+    DeckLine,
+    DeckLineType,
+    DeckOption,
+    DeckPoint,
+    MoorDynDeck,
+    PointKind,
+    StiffnessTable,
+)
+from moyai.sea.current import table as current_table
+from moyai.sea.water import Water
+
+
+def point_name(number: int) -> str:
+    """Return the name of a deck's point in the network, which is also the name of its motion."""
+    return f"point {number}"
+
+
+def line_name(number: int) -> str:
+    """Return the name of a deck's line in the network."""
+    return f"line {number}"
+
+
+def water_of(deck: MoorDynDeck) -> Water:
+    """Return the water that the options of a deck describe.
+
+    Raises
+    ------
+    InputError
+        When the deck gives no depth (a deck of OpenFAST takes it from there), or no gravity.
+    """
+    depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
+    if depth is None:
+        raise InputError(
+            f"{deck.source or 'the deck'} gives no water depth", path="WtrDpth", remedy="pass the water to to_network"
+        )
+    density, gravity = deck.number("WtrDnsty"), deck.number("g")
+    return Water(depth, density if density is not None else math.nan, gravity if gravity is not None else math.nan)
+
+
+def flow_of(deck: MoorDynDeck) -> Flow:
+    """Return the steady current of a deck; still water when it has none."""
+    if deck.current is None:
+        return Flow()
+    z, velocity = np.array(deck.current.z), np.array(deck.current.velocity)
+    wet = z <= 0.0
+    if not wet.all() and wet.any() and z[wet][-1] < 0.0:
+        # the profile of the engine ends at still water
+        at_surface = [np.interp(0.0, z, velocity[:, k]) for k in range(2)]
+        z, velocity = np.append(z[wet], 0.0), np.vstack([velocity[wet], at_surface])
+    else:
+        z, velocity = z[wet], velocity[wet]
+    return Flow(current=current_table(z, np.hypot(*velocity.T), np.arctan2(velocity[:, 1], velocity[:, 0])))
+
+
+def damping_of(kind: DeckLineType, segment_length: float, axial_stiffness: float) -> float:
+    """Return the viscosity BA [N s] of a line type on segments of a length [m]."""
+    if kind.damping >= 0.0:
+        return kind.damping
+    return -kind.damping * segment_length * math.sqrt(axial_stiffness * kind.mass_per_length)
+
+
+def bar_type(kind: DeckLineType, segment_length: float) -> BarType:
+    """Return the material of a line type on segments of a length [m]."""
+    curve, stiffness = None, 0.0
+    if isinstance(kind.stiffness, StiffnessTable):
+        curve = RopeCurve(np.array(kind.stiffness.strain), np.array(kind.stiffness.tension))
+        stiffness = float(curve.stiffness[0])
+    else:
+        stiffness = kind.stiffness
+    return BarType(
+        kind.name,
+        kind.mass_per_length,
+        stiffness,
+        kind.diameter,
+        viscosity=damping_of(kind, segment_length, stiffness),
+        drag_normal=kind.drag_normal,
+        drag_tangential=math.pi * kind.drag_axial,
+        added_mass_normal=kind.added_mass_normal,
+        added_mass_tangential=kind.added_mass_axial,
+        bending_stiffness=kind.bending_stiffness,
+        curve=curve,
+    )
+
+
+def to_network(deck: MoorDynDeck, *, water: Water | None = None, segments: int | None = None) -> Network:
+    """Return the network that a deck describes.
+
+    Points are named ``point 1`` ..., lines ``line 1`` ...; a coupled point follows the motion of its own name.
+
+    Parameters
+    ----------
+    deck : MoorDynDeck
+        From :func:`moyai.interop.moordyn_reader.read_deck`.
+    water : Water, optional
+        Instead of the deck's own: needed where the deck gives no depth.
+    segments : int, optional
+        Segments of every line instead of the deck's own. A negative BA keeps the value that the deck's own mesh gives.
+
+    Returns
+    -------
+    Network
+        Its start lies on catenaries; :func:`moyai.flexible.statics.solve_equilibrium` finds it at rest.
+
+    Raises
+    ------
+    InputError
+        No depth; a network that :class:`moyai.flexible.network.Network` refuses.
+    """
+    site = water or water_of(deck)
+    stiffness, damping, friction = (deck.number(key) or 0.0 for key in ("kBot", "cBot", "FrictionCoefficient"))
+    builder = NetworkBuilder(
+        site, Bed(-site.depth, stiffness, damping, friction) if math.isfinite(site.depth) else None
+    )
+    for point in deck.points:
+        name = point_name(point.number)
+        if point.kind == "fixed":
+            builder.fixed(name, point.position)
+        elif point.kind == "coupled":
+            builder.driven(name, point.position)
+        else:
+            builder.free(
+                name, point.position, mass=point.mass, volume=point.volume, drag_area=point.drag_area,
+                added_mass=point.added_mass_coefficient * site.density * point.volume,
+            )  # fmt: skip
+    made: dict[tuple[str, float], BarType] = {}
+    for line in deck.lines:
+        own = line.length / line.segments
+        if (line.line_type, own) not in made:
+            made[line.line_type, own] = bar_type(deck.line_type(line.line_type), own)
+        builder.line(
+            line_name(line.number), point_name(line.start), point_name(line.end), made[line.line_type, own],
+            length=line.length, segments=segments or line.segments,
+        )  # fmt: skip
+    return builder.build()
+
+
+def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
+    """Return a network as a deck: every run of equal bars between named points, branches or loads is a line.
+
+    Parameters
+    ----------
+    network : Network
+        The network.
+    title : str
+        Line that describes it.
+
+    Raises
+    ------
+    CaseError
+        All that MoorDyn cannot express: floats that are partly immersed, held components, contact of points with the
+        bed, wakes, bars that bear compression, a bed above or below the depth, diameters of contact in different
+        ratios to the volume.
+    """
+    faults: list[Fault] = []
+    nodes, bars, water = network.nodes, network.bars, network.water
+    names = {node: name for name, node in network.points.items()}
+
+    def refuse(what: str, where: object) -> None:
+        faults.append(Fault(f"{where}: {what} cannot be written into a deck of MoorDyn", "network"))
+
+    free = (nodes.kind != FIXED) & (nodes.kind != DRIVEN)
+    for node in range(len(nodes)):
+        label = names.get(node, f"node {node}")
+        if nodes.height[node] > 0.0:
+            refuse("partial immersion", label)
+        if free[node] and nodes.held[node].any():
+            refuse("a component that is held", label)
+        if nodes.contact_area[node] > 0.0:
+            refuse("contact of a point with the bed", label)
+        if nodes.added_mass[node] > 0.0 and nodes.volume[node] <= 0.0:
+            refuse("added mass without volume", label)
+    if np.any(bars.flow_factor != 1.0):
+        refuse("a wake", "bars")
+    equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in bars.types]
+    ratios = []
+    for kind, diameter in zip(bars.types, equivalent, strict=True):
+        if not kind.tension_only:
+            refuse("a bar that bears compression", kind.name)
+        if diameter <= 0.0:
+            refuse("a line without volume", kind.name)
+        else:
+            ratios.append(kind.diameter / diameter)
+    bed = network.bed
+    if bed is not None and ratios and max(ratios) - min(ratios) > 1e-9 * max(ratios):
+        refuse("a bed under types whose diameter and volume differ in different ratios", "bed")
+    if bed is not None and abs(bed.level + water.depth) > 1e-9 * water.depth:
+        refuse(f"a bed at {bed.level:g} m in {water.depth:g} m of water", "bed")
+    if math.isinf(water.depth):
+        refuse("infinite depth", "water")
+    if faults:
+        raise CaseError(faults)
+    runs = _runs(network)
+    number = {node: k + 1 for k, node in enumerate(_ends_in_order(network, runs))}
+    points = tuple(_point(network, node, number[node]) for node in number)
+    ratio = ratios[0] if ratios else 1.0
+    kinds, type_names = _line_types(network, equivalent)
+    lines = tuple(
+        DeckLine(k + 1, type_names[kind], number[first], number[last], total, count)
+        for k, (first, last, kind, total, count) in enumerate(runs)
+    )
+    options = [
+        DeckOption("WtrDpth", water.depth),
+        DeckOption("WtrDnsty", water.density),
+        DeckOption("g", water.gravity),
+    ]
+    if bed is not None:
+        options += [
+            DeckOption("kBot", bed.stiffness * ratio),
+            DeckOption("cBot", bed.damping * ratio),
+            DeckOption("FrictionCoefficient", bed.friction),
+        ]
+    return MoorDynDeck(kinds, points, lines, tuple(options), title=title)
+
+
+_Run = tuple[int, int, int, float, int]
+
+
+def _runs(network: Network) -> list[_Run]:
+    """Return first node, last node, type, length and number of the bars of every piece that is one line of a deck."""
+    nodes, bars = network.nodes, network.bars
+    meeting = np.bincount(np.concatenate([bars.start, bars.end]), minlength=len(nodes))
+    loaded = (nodes.mass > 0.0) | (nodes.volume > 0.0) | (nodes.drag_area > 0.0)
+    cut = (meeting != 2) | (nodes.kind != 0) | loaded
+    cut[list(network.points.values())] = True
+    found: list[_Run] = []
+    seen = np.zeros(len(bars), dtype=bool)
+
+    def walk(nodes_of: list[int], bars_of: list[int]) -> None:
+        first, start = 0, nodes_of[0]
+        for place, bar in enumerate(bars_of):
+            seen[bar] = True
+            after = bars_of[place + 1] if place + 1 < len(bars_of) else -1
+            ends = after < 0 or cut[nodes_of[place + 1]] or bars.kind[after] != bars.kind[bar]
+            if ends or abs(bars.length[after] - bars.length[bar]) > 1e-12 * bars.length[bar]:
+                count = place + 1 - first
+                # the sum of equal lengths, without the rounding of a sum
+                found.append((start, nodes_of[place + 1], int(bars.kind[bar]), float(bars.length[bar]) * count, count))
+                first, start = place + 1, nodes_of[place + 1]
+
+    for strand in network.strands:
+        walk([int(n) for n in strand.nodes], [int(b) for b in strand.bars])
+    for bar in np.flatnonzero(~seen):
+        walk([int(bars.start[bar]), int(bars.end[bar])], [int(bar)])
+    return found
+
+
+def _ends_in_order(network: Network, runs: list[_Run]) -> list[int]:
+    ends = [node for run in runs for node in run[:2]]
+    return list(dict.fromkeys([*network.points.values(), *ends]))
+
+
+def _point(network: Network, node: int, number: int) -> DeckPoint:
+    nodes = network.nodes
+    kinds: dict[int, PointKind] = {FIXED: "fixed", DRIVEN: "coupled"}
+    volume = float(nodes.volume[node])
+    x, y, z = (float(value) for value in nodes.position[node])
+    added = float(nodes.added_mass[node]) / (network.water.density * volume) if volume > 0.0 else 0.0
+    return DeckPoint(
+        number, kinds.get(int(nodes.kind[node]), "free"), (x, y, z), float(nodes.mass[node]), volume,
+        float(nodes.drag_area[node]), added,
+    )  # fmt: skip
+
+
+def _line_types(network: Network, equivalent: list[float]) -> tuple[tuple[DeckLineType, ...], list[str]]:
+    """Return the types with names that hold no blank and differ, and the name of each."""
+    found: list[DeckLineType] = []
+    names: list[str] = []
+    for kind, diameter in zip(network.bars.types, equivalent, strict=True):
+        base = "_".join(kind.name.replace("#", "_").replace("!", "_").split()) or "line"
+        name, count = base, 1
+        while name in names:
+            count += 1
+            name = f"{base}_{count}"
+        names.append(name)
+        stiffness: float | StiffnessTable = kind.axial_stiffness
+        if kind.curve is not None:
+            stiffness = StiffnessTable(
+                tuple(map(float, kind.curve.strain)), tuple(map(float, kind.curve.tension)), f"{name}_stiffness.txt"
+            )
+        made = DeckLineType(
+            name, diameter, kind.mass_per_length, stiffness, kind.viscosity, kind.bending_stiffness, kind.drag_normal,
+            kind.added_mass_normal, kind.drag_tangential / math.pi, kind.added_mass_tangential,
+        )  # fmt: skip
+        ratio = kind.diameter / diameter
+        if abs(ratio - 1.0) > 1e-12:
+            made = replace(made, drag_normal=made.drag_normal * ratio, drag_axial=made.drag_axial * ratio)
+        found.append(made)
+    return tuple(found), names

@@ -1,0 +1,475 @@
+"""Read MoorDyn input files; all faults of a file come at once, each with its line.
+
+MoorDyn itself passes over what it does not know and takes columns by their place. Here unknown sections, keys and
+columns are faults, and columns go by their headings; where the place would have given other values a note says so.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from moyai.core.errors import CaseError, Fault
+from moyai.interop import moordyn_keys as keys
+from moyai.interop.moordyn_deck import (
+    CURRENT_FILE,
+    DeckCurrent,
+    DeckLine,
+    DeckLineType,
+    DeckOption,
+    DeckPoint,
+    MoorDynDeck,
+    StiffnessTable,
+)
+from moyai.interop.textfiles import parse_number, read_lines
+
+_RULE = re.compile(r"^\s*-{3,}\s*(.*?)\s*-*\s*$")
+
+
+@dataclass(frozen=True)
+class _Row:
+    """Entries of a row by column, and its line."""
+
+    line: int
+    cells: Mapping[str, str]
+
+
+class _Faults:
+    """Collects what is wrong, so that all of it is told at once."""
+
+    def __init__(self, file: str) -> None:
+        self.file, self.found = file, list[Fault]()
+
+    def add(self, line: int, message: str, allowed: str = "", remedy: str = "", path: str = "") -> None:
+        self.found.append(Fault(message, path, allowed, remedy, self.file, line, 1 if line else 0))
+
+    def number(self, row: _Row, key: str, *, least: float = -math.inf, above: float = -math.inf) -> float:
+        """Return an entry as a number; NaN with a fault when it is none or out of range."""
+        text = row.cells.get(key, "0")
+        value = parse_number(text)
+        label = key.replace("_", " ")
+        if value is None or not math.isfinite(value):
+            self.add(row.line, f"{label} is {text!r}, which is no number", path=key)
+            return math.nan
+        if value < least or value <= above:
+            allowed = f"{least:g} or more" if math.isfinite(least) else f"greater than {above:g}"
+            self.add(row.line, f"{label} is {value:g}", allowed, path=key)
+            return math.nan
+        return value
+
+    def whole(self, row: _Row, key: str) -> int:
+        """Return an entry as a whole number above 0; 0 with a fault when it is none."""
+        value = parse_number(row.cells.get(key, ""))
+        if value is None or value != int(value) or value < 1.0:
+            self.add(row.line, f"{key} is {row.cells.get(key, '')!r}", "a whole number, 1 or more", path=key)
+            return 0
+        return int(value)
+
+
+def _suggest(word: str, known: Iterable[str]) -> str:
+    close = difflib.get_close_matches(word, list(known), n=1)
+    return f"did you mean {close[0]!r}?" if close else ""
+
+
+def _tokens(text: str) -> list[str]:
+    """Return the entries of a row; a remark after # or ! is left out."""
+    return re.split(r"[#!]", text, maxsplit=1)[0].split()
+
+
+def _split(lines: list[str], faults: _Faults) -> dict[str, tuple[int, list[tuple[int, str]]]]:
+    """Return the lines of every section with their numbers; the text before the first section is left out."""
+    sections: dict[str, tuple[int, list[tuple[int, str]]]] = {}
+    body: list[tuple[int, str]] | None = None
+    for number, text in enumerate(lines, start=1):
+        rule = _RULE.match(text)
+        if rule is None:
+            if body is not None and text.strip():
+                body.append((number, text))
+            continue
+        title = " ".join(rule[1].strip("- ").upper().split())
+        name = keys.SECTIONS.get(title)
+        if title in keys.REFUSED_SECTIONS:
+            body = []
+            sections[title] = (number, body)
+        elif name is not None:
+            if name in sections:
+                faults.add(number, f"section {title} comes a second time", remedy=f"first in line {sections[name][0]}")
+            body = []
+            sections[name] = (number, body)
+        elif title == "" or "NEED THIS LINE" in title:
+            body = None
+        elif sections:
+            remedy = _suggest(title, [*keys.SECTIONS, *keys.REFUSED_SECTIONS])
+            faults.add(number, f"unknown section {title!r}", ", ".join(keys.SECTIONS), remedy)
+            body = None
+        else:
+            # rules and remarks above the first section are a heading, unless one was meant to be a section
+            meant = difflib.get_close_matches(title, list(keys.SECTIONS), n=1, cutoff=0.8)
+            if meant:
+                faults.add(number, f"unknown section {title!r}", remedy=f"did you mean {meant[0]!r}?")
+    return sections
+
+
+def _table(
+    section: str, sections: dict[str, tuple[int, list[tuple[int, str]]]], columns: Mapping[str, str], faults: _Faults
+) -> tuple[list[str], list[_Row]]:
+    """Return the columns and the rows of a section: names, units, then rows."""
+    if section not in sections:
+        faults.add(0, f"section {section.upper()} is missing", path=section)
+        return [], []
+    top, body = sections[section]
+    if len(body) < 2:
+        faults.add(
+            top, f"section {section.upper()} is empty", "a row of names, a row of units, then rows", path=section
+        )
+        return [], []
+    head, units = body[0], body[1]
+    names: list[str] = []
+    for word in _tokens(head[1]):
+        column = columns.get(word.lower())
+        if column is None:
+            faults.add(
+                head[0], f"unknown column {word!r}", ", ".join(columns), _suggest(word.lower(), columns), section
+            )
+        elif column in names:
+            faults.add(head[0], f"column {word!r} comes a second time", path=section)
+        names.append(column or word)
+    missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS[section]]
+    if missing:
+        faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
+    if not units[1].lstrip().startswith("("):
+        faults.add(
+            units[0], f"the row under the names of {section.upper()} holds no units",
+            "a row such as (-) (m) ..., which the format passes over", path=section,
+        )  # fmt: skip
+    rows = []
+    fewest = len(names) - (1 if names and names[-1] == "outputs" else 0)
+    for number, text in body[2:]:
+        cells = _tokens(text)
+        if not cells:
+            continue
+        if not fewest <= len(cells) <= len(names):
+            faults.add(number, f"{len(cells)} columns", f"{len(names)}: {' '.join(_tokens(head[1]))}", path=section)
+            continue
+        rows.append(_Row(number, dict(zip(names, cells, strict=False))))
+    return ([] if missing else names), rows
+
+
+def _stiffness(row: _Row, folder: Path, faults: _Faults) -> float | StiffnessTable:
+    text = row.cells.get("stiffness", "")
+    if parse_number(text) is not None:
+        return faults.number(row, "stiffness", above=0.0)
+    if "|" in text or text.upper().startswith("SYROPE"):
+        faults.add(
+            row.line, f"stiffness {text!r}: ropes whose stiffness depends on rate or history are not read",
+            "EA in N, or a file of strain and tension", path="stiffness",
+        )  # fmt: skip
+        return math.nan
+    place = folder / text
+    if not place.is_file():
+        faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file beside the deck", path="stiffness")
+        return math.nan
+    strain, tension = [], []
+    for number, line in enumerate(read_lines(place), start=1):
+        values = [parse_number(token) for token in line.replace(",", " ").split()]
+        if not values or (not strain and values[0] is None):
+            continue
+        if len(values) != 2 or values[0] is None or values[1] is None:
+            faults.found.append(Fault("a row is not strain and tension", "stiffness", "", "", place.name, number, 1))
+            return math.nan
+        strain.append(values[0])
+        tension.append(values[1])
+    rising = all(b > a for a, b in zip(strain, strain[1:], strict=False)) and all(
+        b > a for a, b in zip(tension, tension[1:], strict=False)
+    )
+    if len(strain) < 2 or strain[0] != 0.0 or tension[0] != 0.0 or not rising:
+        faults.found.append(
+            Fault(
+                "strain and tension do not rise from 0",
+                "stiffness",
+                "two rows or more, the first 0 0",
+                "",
+                place.name,
+                0,
+                0,
+            )
+        )
+        return math.nan
+    return StiffnessTable(tuple(strain), tuple(tension), text)
+
+
+def _line_types(names: list[str], rows: list[_Row], folder: Path, faults: _Faults) -> tuple[DeckLineType, ...]:
+    found: list[DeckLineType] = []
+    for row in rows:
+        if any(parse_number(row.cells.get(key, "0")) != 0.0 for key in ("lift", "lift_range", "lift_frequency")):
+            faults.add(
+                row.line, "vortex-induced vibration (Cl, dF, cF) is not read", "0 or no such column", path="lift"
+            )
+        name = row.cells.get("name", "")
+        if any(kind.name == name for kind in found):
+            faults.add(row.line, f"two line types are named {name!r}", path="line types")
+        damping = row.cells.get("damping", "0")
+        if parse_number(damping) is None:
+            faults.add(row.line, f"damping is {damping!r}", "one number: BA in N s, or minus a damping ratio")
+        found.append(
+            DeckLineType(
+                name,
+                faults.number(row, "diameter", above=0.0),
+                faults.number(row, "mass_per_length", above=0.0),
+                _stiffness(row, folder, faults),
+                parse_number(damping) or 0.0,
+                faults.number(row, "bending_stiffness", least=0.0),
+                *(faults.number(row, key, least=0.0) for key in LINE_COEFFICIENTS),
+                line=row.line,
+            )
+        )
+    return tuple(found)
+
+
+#: Coefficients of a line type in the order of the record.
+LINE_COEFFICIENTS = ("drag_normal", "added_mass_normal", "drag_axial", "added_mass_axial")
+
+
+def _points(rows: list[_Row], faults: _Faults) -> tuple[DeckPoint, ...]:
+    found: list[DeckPoint] = []
+    for row in rows:
+        word = row.cells.get("kind", "")
+        kind = keys.POINT_KINDS.get(word.lower())
+        if kind is None:
+            hung = re.match(r"(body|b|rod|r|turbine|t)\d", word.lower())
+            faults.add(
+                row.line, f"type of point is {word!r}" + (": points on bodies and rods are not read" if hung else ""),
+                "Fixed, Coupled (Vessel), Free", _suggest(word.lower(), keys.POINT_KINDS), "points",
+            )  # fmt: skip
+        for axis in ("force x", "force y", "force z"):
+            if parse_number(row.cells.get(axis, "0")) != 0.0:
+                faults.add(row.line, f"a steady {axis} on a point is not read", "0", path="points")
+        number = faults.whole(row, "number")
+        if number and any(point.number == number for point in found):
+            faults.add(row.line, f"two points have the ID {number}", path="points")
+        place = tuple(faults.number(row, axis) for axis in "xyz")
+        values = [
+            faults.number(row, key, least=0.0) for key in ("mass", "volume", "drag_area", "added_mass_coefficient")
+        ]
+        choice: Any = kind or "fixed"
+        found.append(DeckPoint(number, choice, (place[0], place[1], place[2]), *values, line=row.line))
+    return tuple(found)
+
+
+def _lines(
+    rows: list[_Row], kinds: tuple[DeckLineType, ...], points: tuple[DeckPoint, ...], faults: _Faults
+) -> tuple[DeckLine, ...]:
+    found: list[DeckLine] = []
+    known = [point.number for point in points]
+    for row in rows:
+        number = faults.whole(row, "number")
+        if number and any(line.number == number for line in found):
+            faults.add(row.line, f"two lines have the ID {number}", path="lines")
+        name = row.cells.get("line_type", "")
+        types = [kind.name for kind in kinds]
+        if name not in types:
+            faults.add(row.line, f"no line type {name!r}", ", ".join(types), _suggest(name, types), "line_type")
+        ends = []
+        for key in ("start", "end"):
+            text = row.cells.get(key, "")
+            if re.match(r"[rR]\d+[abAB]$", text):
+                faults.add(row.line, f"{key} is {text!r}: lines on rods are not read", "the ID of a point", path=key)
+                ends.append(0)
+                continue
+            end = faults.whole(row, key)
+            if end and end not in known:
+                faults.add(row.line, f"{key} is point {end}, which is not there", ", ".join(map(str, known)), path=key)
+            ends.append(end)
+        if ends[0] == ends[1] != 0:
+            faults.add(row.line, f"line {number} starts and ends at point {ends[0]}", "two points", path="end")
+        length, segments = faults.number(row, "length", above=0.0), faults.whole(row, "segments")
+        flags = row.cells.get("outputs", "-")
+        found.append(DeckLine(number, name, ends[0], ends[1], length, segments, flags, row.line))
+    return tuple(found)
+
+
+def _options(body: list[tuple[int, str]], faults: _Faults, notes: list[str]) -> tuple[DeckOption, ...]:
+    found: list[DeckOption] = []
+    known = {**keys.OPTIONS_USED, **keys.OPTIONS_WITHOUT_MEANING}
+    unused: list[str] = []
+    for number, text in body:
+        words = _tokens(text)
+        if not words:
+            continue
+        if len(words) < 2:
+            faults.add(number, f"option {words[0]!r} has no key", "a value, then its key", path="options")
+            continue
+        key = known.get(words[1].lower())
+        if key is None:
+            turned = "the value stands before its key" if words[0].lower() in known else ""
+            remedy = turned or _suggest(words[1].lower(), known)
+            allowed = ", ".join(dict.fromkeys(known.values()))
+            faults.add(number, f"unknown option {words[1]!r}", allowed, remedy, "options")
+            continue
+        before = next((option for option in found if option.key == key), None)
+        if before is not None:
+            # some decks of MoorDyn's own give the density twice under two names: the last one counts
+            notes.append(f"line {number}: {words[1]} replaces {key} of line {before.line}")
+            found.remove(before)
+        value = parse_number(words[0])
+        if words[1].lower() in keys.OPTIONS_WITHOUT_MEANING:
+            unused.append(key)
+        elif key != "SeafloorFile" and (value is None or not math.isfinite(value)):
+            # the Fortran version takes the name of a depth file here
+            faults.add(number, f"{key} is {words[0]!r}, which is no number", path=key)
+            continue
+        found.append(DeckOption(key, words[0] if value is None else value, number))
+    if unused:
+        notes.append(f"kept, without meaning here: {', '.join(dict.fromkeys(unused))}")
+    return tuple(found)
+
+
+def _check_option_values(deck_options: tuple[DeckOption, ...], faults: _Faults) -> None:
+    positive, not_negative = ("WtrDpth", "kBot"), ("g", "WtrDnsty", "cBot", "FrictionCoefficient")
+    for option in deck_options:
+        value = option.value
+        if not isinstance(value, float):
+            continue
+        if option.key in positive and value <= 0.0:
+            faults.add(option.line, f"{option.key} is {value:g}", "greater than 0", path=option.key)
+        if option.key in not_negative and value < 0.0:
+            faults.add(option.line, f"{option.key} is {value:g}", "0 or more", path=option.key)
+        if option.key == "WaveKin" and value not in (0.0, 1.0):
+            words = keys.WAVE_KINEMATICS.get(value, "unknown")
+            faults.add(
+                option.line, f"WaveKin {value:g} ({words}) is not read", "0, or 1: waves given to the run",
+                "give the run its waves", "WaveKin",
+            )  # fmt: skip
+        if option.key == "Currents" and value not in (0.0, 1.0):
+            faults.add(option.line, f"Currents {value:g} is not read", f"0, or 1: {CURRENT_FILE}", path="Currents")
+        if option.key == "StatDynFricScale" and value != 1.0:
+            faults.add(option.line, f"StatDynFricScale is {value:g}", "1: friction at rest as in motion")
+
+
+def _read_current(option: DeckOption, folder: Path, faults: _Faults) -> DeckCurrent | None:
+    place = folder / CURRENT_FILE
+    if not place.is_file():
+        faults.add(option.line, f"Currents is 1, but there is no {CURRENT_FILE} beside the deck", path="Currents")
+        return None
+    rows: list[list[float]] = []
+    for number, text in enumerate(read_lines(place)[3:], start=4):
+        values = [parse_number(token) for token in text.replace(",", " ").split()]
+        if not values:
+            continue
+        row = [value for value in values if value is not None]
+        fault = ""
+        if len(row) != len(values) or len(row) != 4:
+            fault = "a row is not z and three velocities"
+        elif rows and row[0] <= rows[-1][0]:
+            fault = f"z = {row[0]:g} m does not rise"
+        elif row[3] != 0.0:
+            fault = f"a vertical current of {row[3]:g} m/s is not read"
+        if fault:
+            faults.found.append(Fault(fault, "Currents", "", "", place.name, number, 1))
+            return None
+        rows.append(row)
+    if not rows:
+        faults.add(option.line, f"{CURRENT_FILE} holds no rows", path="Currents")
+        return None
+    return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows))
+
+
+def _flat_depth(option: DeckOption, folder: Path, faults: _Faults) -> float | None:
+    """Return the depth of a grid file that is flat."""
+    place = next((p for p in (folder / str(option.value), folder / Path(str(option.value)).name) if p.is_file()), None)
+    if place is None:
+        faults.add(option.line, f"there is no file {option.value!s} beside the deck", path="SeafloorFile")
+        return None
+    levels: set[float] = set()
+    for number, text in enumerate(read_lines(place)[3:], start=4):
+        values = [parse_number(token) for token in text.split()]
+        if not values:
+            continue
+        if len(values) != 3 or any(value is None for value in values):
+            faults.found.append(Fault("a row is not x, y, z", "SeafloorFile", "", "", place.name, number, 1))
+            return None
+        levels.add(float(values[2] or 0.0))
+    if len(levels) != 1:
+        faults.add(
+            option.line, f"the bed of {place.name} is not flat (z from {min(levels, default=0.0):g} to "
+            f"{max(levels, default=0.0):g} m)", "one depth: beds that vary are not read", path="SeafloorFile",
+        )  # fmt: skip
+        return None
+    return -levels.pop()
+
+
+def _check_site(deck: MoorDynDeck, faults: _Faults) -> None:
+    depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
+    held = {end for line in deck.lines for end in (line.start, line.end)}
+    for point in deck.points:
+        if depth is not None and point.kind != "fixed" and point.position[2] < -1.02 * depth:
+            faults.add(
+                point.line, f"point {point.number} at z = {point.position[2]:g} m is under the bed",
+                f"{-depth:g} or more", path="points",
+            )  # fmt: skip
+        if point.number not in held and point.kind == "free":
+            faults.add(point.line, f"free point {point.number} hangs on no line", path="points")
+
+
+def read_deck(path: str | Path) -> MoorDynDeck:
+    """Read a MoorDyn input file, version 1 or 2.
+
+    Parameters
+    ----------
+    path : path
+        File; stiffness tables, profiles of current and grids of depths are looked for beside it.
+
+    Returns
+    -------
+    MoorDynDeck
+        Its ``notes`` hold what is worth knowing and no fault.
+
+    Raises
+    ------
+    InputError
+        When the file is absent or empty.
+    CaseError
+        All faults at once, each with its line: missing and unknown sections, columns, options; rods, bodies, failures
+        and other parts of the format that have no counterpart here; numbers out of range; points and line types that
+        are not there.
+    """
+    place = Path(path)
+    lines = read_lines(place)
+    faults, notes = _Faults(place.name), list[str]()
+    sections = _split(lines, faults)
+    for title, why in keys.REFUSED_SECTIONS.items():
+        if why and title in sections and len(sections[title][1]) > 2:
+            top, body = sections[title]
+            faults.add(top, f"section {title} with {len(body) - 2} row(s): {why}", path=title.lower())
+    names, kind_rows = _table("line types", sections, keys.LINE_TYPE_COLUMNS, faults)
+    kinds = _line_types(names, kind_rows, place.parent, faults)
+    if names and tuple(names[: len(keys.LINE_TYPE_ORDER)]) != keys.LINE_TYPE_ORDER:
+        notes.append(
+            f"line {kind_rows[0].line - 2 if kind_rows else 0}: the columns of LINE TYPES stand in another order than "
+            "MoorDyn v2 takes them; they are read by their headings"
+        )
+    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults)[1], faults)
+    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults)[1], kinds, points, faults)
+    options = _options(sections.get("options", (0, []))[1], faults, notes)
+    _check_option_values(options, faults)
+    current, depth = None, None
+    for option in options:
+        if option.key == "Currents" and option.value == 1.0:
+            current = _read_current(option, place.parent, faults)
+        if option.key == "SeafloorFile":
+            depth = _flat_depth(option, place.parent, faults)
+    outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]
+    outputs = outputs[: outputs.index("END")] if "END" in outputs else outputs
+    title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
+    deck = MoorDynDeck(
+        kinds, points, rows, options, tuple(outputs), current, depth, title, place.name, tuple(notes)
+    )  # fmt: skip
+    _check_site(deck, faults)
+    if faults.found:
+        raise CaseError(sorted(faults.found, key=lambda fault: (fault.file != place.name, fault.line)))
+    return deck
