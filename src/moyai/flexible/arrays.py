@@ -42,7 +42,7 @@ class KernelArrays:
     curves : ndarray, shape (c, 3, points)
         Rope curves: strain, tension, slope.
     hinges, bending : ndarray
-        Node triples of bending and EI over the mean bar length [N m].
+        Node triples of bending; EI over the mean bar length [N m], one over both unstretched lengths [1/m].
     attached : ndarray of int
         Nodes that carry volume, drag or added mass of their own.
     """
@@ -76,11 +76,11 @@ class KernelArrays:
 
 
 def find_hinges(network: Network) -> tuple[IntArray, Array]:
-    """Return the node triples of strands that bend and EI over the mean length of their two bars [N m]."""
+    """Return the node triples of strands that bend, each with EI over the mean length of its bars, 1/l1, 1/l2."""
     triples, stiffness = [], []
     bending = network.bars.of_type("bending_stiffness")
     if not np.any(bending > 0.0):
-        return np.zeros((0, 3), dtype=np.int64), np.zeros(0)
+        return np.zeros((0, 3), dtype=np.int64), np.zeros((0, 3))
     for strand in network.strands:
         for left, right, one, two, three in zip(
             strand.bars[:-1], strand.bars[1:], strand.nodes[:-2], strand.nodes[1:-1], strand.nodes[2:], strict=True
@@ -88,8 +88,9 @@ def find_hinges(network: Network) -> tuple[IntArray, Array]:
             value = min(bending[left], bending[right])
             if value > 0.0:
                 triples.append((one, two, three))
-                stiffness.append(value / (0.5 * (network.bars.length[left] + network.bars.length[right])))
-    return np.array(triples, dtype=np.int64).reshape(-1, 3), np.array(stiffness)
+                first, second = network.bars.length[left], network.bars.length[right]
+                stiffness.append((value / (0.5 * (first + second)), 1.0 / first, 1.0 / second))
+    return np.array(triples, dtype=np.int64).reshape(-1, 3), np.array(stiffness).reshape(-1, 3)
 
 
 def _node_rows(network: Network) -> Array:

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 SAFETY = 0.95
 #: The same where bars go slack with a damping ratio on the mesh below ``LEAST_DAMPING``: a spring that only pulls gives
 #: back more than it took when (w dt)^2 > 2, half of the bound of a spring that also pushes [eq:flexible-one-sided].
-SAFETY_UNDAMPED, LEAST_DAMPING = 0.7, 0.05
+SAFETY_UNDAMPED, LEAST_DAMPING = 0.5, 0.05
 #: Steps between two evaluations of the loads, at most.
 LOAD_STEPS = 12
 #: Bound of the load interval times the fastest rate of drag.

@@ -122,27 +122,17 @@ def _curved(A: Any, a: int, b: int, k: int, curve: Any) -> None:
 
 @njit(cache=True, error_model="numpy")
 def bending_forces(A: Any, hinges: Any, stiffness: Any) -> None:
-    """Add the forces of the bending energy EI/l (1 - t1 . t2) of every hinge to the total [eq:flexible-bending]."""
+    """Add the forces of the bending energy of every hinge to the total [eq:flexible-bending]."""
     for h in range(hinges.shape[0]):
         a, b, c = hinges[h, 0], hinges[h, 1], hinges[h, 2]
-        px, py, pz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
-        qx, qy, qz = A[X + c] - A[X + b], A[Y + c] - A[Y + b], A[Z + c] - A[Z + b]
-        ip, iq = 1.0 / math.sqrt(px * px + py * py + pz * pz), 1.0 / math.sqrt(qx * qx + qy * qy + qz * qz)
-        px, py, pz, qx, qy, qz = px * ip, py * ip, pz * ip, qx * iq, qy * iq, qz * iq
-        cosine = px * qx + py * qy + pz * qz
-        kp, kq = stiffness[h] * ip, stiffness[h] * iq
-        # the gradient of t1 . t2 over one side is the direction of the other less its part along the first
-        gx, gy, gz = kp * (qx - cosine * px), kp * (qy - cosine * py), kp * (qz - cosine * pz)
-        hx, hy, hz = kq * (px - cosine * qx), kq * (py - cosine * qy), kq * (pz - cosine * qz)
-        A[TX + a] -= gx
-        A[TY + a] -= gy
-        A[TZ + a] -= gz
-        A[TX + b] += gx - hx
-        A[TY + b] += gy - hy
-        A[TZ + b] += gz - hz
-        A[TX + c] += hx
-        A[TY + c] += hy
-        A[TZ + c] += hz
+        one, two = stiffness[h, 1], stiffness[h, 2]
+        for axis in range(3):
+            row = axis * ROW
+            turn = (A[X + row + c] - A[X + row + b]) * two - (A[X + row + b] - A[X + row + a]) * one
+            turn *= stiffness[h, 0]
+            A[TX + row + a] -= turn * one
+            A[TX + row + b] += turn * (one + two)
+            A[TX + row + c] -= turn * two
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -198,7 +188,8 @@ def kick_contact_and_drift(A: Any, count: int, level: float, time: float, move: 
 def kick_rub_and_drift(A: Any, count: int, level: float, friction: float, time: float, move: float) -> None:
     """Do the same on a rough bed: Coulomb friction that sticks.
 
-    The body is repeated from :func:`kick_contact_and_drift`: a shared function in the loop would hinder the compiler, and the
+    The body is repeated from :func:`kick_contact_and_drift`: a shared function in the loop would hinder the compiler,
+    and the
     roots and divisions of friction cost as much as all the rest.
     """
     for i in range(count):
@@ -232,7 +223,7 @@ def kick_rub_and_drift(A: Any, count: int, level: float, friction: float, time: 
         A[Z + i] += move * w
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath=FAST)
 def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float, now: float, time: float) -> None:
     """Put driven nodes at their place at ``now``; their velocity is the mean over the last ``time``."""
     last = tables.shape[1] - 1
@@ -243,6 +234,7 @@ def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float
     # cubic through displacement and velocity at both ends of the interval
     h1 = s * s * (3.0 - 2.0 * s)
     h2, h3 = s * (1.0 - s) * (1.0 - s) * step, s * s * (s - 1.0) * step
+    per = 1.0 / time if time > 0.0 else 0.0
     for d in range(driven.shape[0]):
         node, table = driven[d, 0], driven[d, 1]
         for axis in range(3):
@@ -250,7 +242,7 @@ def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float
             v0, v1 = tables[table, row, 3 + axis], tables[table, row + 1, 3 + axis]
             target = rest[d, axis] + p0 + h1 * (p1 - p0) + h2 * v0 + h3 * v1
             if time > 0.0:
-                A[U + axis * ROW + node] = (target - A[X + axis * ROW + node]) / time
+                A[U + axis * ROW + node] = (target - A[X + axis * ROW + node]) * per
             A[X + axis * ROW + node] = target
 
 
@@ -483,12 +475,10 @@ def elastic_energy(A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, stif
                 elastic += A[LENGTH + k] * (area + rest * (curves[curve, 1, j] + 0.5 * curves[curve, 2, j] * rest))
     for h in range(hinges.shape[0]):
         a, b, c = hinges[h, 0], hinges[h, 1], hinges[h, 2]
-        dot = one = two = 0.0
         for axis in range(3):
             p = A[X + axis * ROW + b] - A[X + axis * ROW + a]
             q = A[X + axis * ROW + c] - A[X + axis * ROW + b]
-            dot, one, two = dot + p * q, one + p * p, two + q * q
-        elastic += stiffness[h] * (1.0 - dot / math.sqrt(one * two))
+            elastic += 0.5 * stiffness[h, 0] * (q * stiffness[h, 2] - p * stiffness[h, 1]) ** 2
     for i in range(sizes[0]):
         depth = level - A[Z + i]
         if depth > 0.0 and A[FREE_Z + i] > 0.0:
@@ -523,7 +513,7 @@ def _load_work(A: Any, count: int, sign: float) -> float:
     return sign * work
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath=FAST)
 def march(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, waves: Any,
     driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any,

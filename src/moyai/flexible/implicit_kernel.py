@@ -150,20 +150,14 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
 
 
 @njit(cache=True, error_model="numpy")
-def _bend(x: Any, a: int, b: int, c: int, stiffness: float, force: Any) -> None:
-    """Add the force of one hinge of energy EI/l (1 - t1 . t2) [eq:flexible-bending]."""
-    one = two = dot = 0.0
+def _bend(x: Any, a: int, b: int, c: int, stiffness: Any, force: Any) -> None:
+    """Add the force of one hinge [eq:flexible-bending]."""
+    one, two = stiffness[1], stiffness[2]
     for axis in range(3):
-        p, q = x[b, axis] - x[a, axis], x[c, axis] - x[b, axis]
-        one, two, dot = one + p * p, two + q * q, dot + p * q
-    one, two = math.sqrt(one), math.sqrt(two)
-    cosine = dot / (one * two)
-    for axis in range(3):
-        p, q = (x[b, axis] - x[a, axis]) / one, (x[c, axis] - x[b, axis]) / two
-        first, second = stiffness / one * (q - cosine * p), stiffness / two * (p - cosine * q)
-        force[a, axis] -= first
-        force[b, axis] += first - second
-        force[c, axis] += second
+        turn = stiffness[0] * ((x[c, axis] - x[b, axis]) * two - (x[b, axis] - x[a, axis]) * one)
+        force[a, axis] -= turn * one
+        force[b, axis] += turn * (one + two)
+        force[c, axis] -= turn * two
 
 
 @njit(cache=True, error_model="numpy")
@@ -256,7 +250,7 @@ def tangent(
         block[2, 2] += by_place * steep * fluid[0] * fluid[1] * nodes[2, i]
         _add(band, rank, i, i, block, 1.0)
     for h in range(hinges.shape[0]):
-        _bend_tangent(x, hinges[h, 0], hinges[h, 1], hinges[h, 2], bending[h] * by_place, rank, band)
+        _bend_tangent(hinges[h, 0], hinges[h, 1], hinges[h, 2], bending[h], by_place, rank, band)
     if bed[3] > 0.0:
         for i in range(x.shape[0]):
             depth = bed[0] - x[i, 2]
@@ -283,27 +277,15 @@ def tangent(
 
 
 @njit(cache=True, error_model="numpy")
-def _bend_tangent(x: Any, a: int, b: int, c: int, stiffness: float, rank: Any, band: Any) -> None:
-    """Add the positive part of the stiffness of a hinge: that of a stiffness against the turn, k (dt2 - dt1)^2 / 2."""
-    one = two = 0.0
-    p, q = np.empty(3), np.empty(3)
-    for axis in range(3):
-        p[axis], q[axis] = x[b, axis] - x[a, axis], x[c, axis] - x[b, axis]
-        one, two = one + p[axis] ** 2, two + q[axis] ** 2
-    one, two = math.sqrt(one), math.sqrt(two)
-    left, right = np.empty((3, 3)), np.empty((3, 3))
-    for i in range(3):
-        for j in range(3):
-            same = 1.0 if i == j else 0.0
-            left[i, j] = (same - p[i] * p[j] / one**2) / one
-            right[i, j] = (same - q[i] * q[j] / two**2) / two
-    # dt1 = left (xb - xa), dt2 = right (xc - xb): the turn is left xa - (left + right) xb + right xc
+def _bend_tangent(a: int, b: int, c: int, stiffness: Any, scale: float, rank: Any, band: Any) -> None:
+    """Add the stiffness of a hinge, which does not change."""
     nodes = (a, b, c)
-    parts = (left, -(left + right), right)
+    parts = (stiffness[1], -stiffness[1] - stiffness[2], stiffness[2])
+    same = np.eye(3)
     for m in range(3):
         for n in range(3):
             if rank[nodes[m]] > rank[nodes[n]] or m == n:
-                _add(band, rank, nodes[m], nodes[n], parts[m].T @ parts[n], stiffness)
+                _add(band, rank, nodes[m], nodes[n], same, scale * stiffness[0] * parts[m] * parts[n])
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
@@ -598,12 +580,10 @@ def _energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
             rest = strain - table[0, j]
             elastic += bars[0, k] * (area + rest * (table[1, j] + 0.5 * table[2, j] * rest))
     for h in range(hinges.shape[0]):
-        one = two = dot = 0.0
         for axis in range(3):
             p = x[hinges[h, 1], axis] - x[hinges[h, 0], axis]
             q = x[hinges[h, 2], axis] - x[hinges[h, 1], axis]
-            one, two, dot = one + p * p, two + q * q, dot + p * q
-        elastic += bending[h] * (1.0 - dot / math.sqrt(one * two))
+            elastic += 0.5 * bending[h, 0] * (q * bending[h, 2] - p * bending[h, 1]) ** 2
     return kinetic, elastic
 
 

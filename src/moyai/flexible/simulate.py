@@ -108,7 +108,7 @@ def simulate(
         for
         the implicit methods, what ``tolerance`` asks for.
     safety : float, optional
-        Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.7 where bars may go slack with
+        Part of the largest stable step, above 0, at most 1. When left out 0.95, or 0.5 where bars may go slack with
         hardly any
         viscosity. 1 is the pace of the elastic wave: along equal bars wave fronts then travel without error.
     load_steps : int

@@ -71,11 +71,9 @@ def _limit(
             damp[a, row] += viscous[k] * part
             damp[b, row] += viscous[k] * part
     for h in range(hinges.shape[0]):
-        a, b = hinges[h, 0], hinges[h, 1]
-        size = 0.0
-        for axis in range(3):
-            size += (place[axis, b] - place[axis, a]) ** 2
-        bend[b] += 16.0 * bending[h] / size * max(inverse[0, b], inverse[3, b], inverse[5, b])
+        b, turn = hinges[h, 1], bending[h, 1] + bending[h, 2]
+        # 16 k / l^2 for equal bars: the highest mode of a fourth difference
+        bend[b] += 4.0 * bending[h, 0] * turn * turn * max(inverse[0, b], inverse[3, b], inverse[5, b])
     least, worst = math.inf, 0
     share = np.empty(6)
     for i in range(count):
