@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -174,7 +175,8 @@ def _stiffness(row: _Row, folder: Path, faults: _Faults) -> float | StiffnessTab
     if not place.is_file():
         faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file beside the deck", path="stiffness")
         return math.nan
-    strain, tension = [], []
+    strain: list[float] = []
+    tension: list[float] = []
     for number, line in enumerate(read_lines(place), start=1):
         values = [parse_number(token) for token in line.replace(",", " ").split()]
         if not values or (not strain and values[0] is None):
@@ -184,9 +186,7 @@ def _stiffness(row: _Row, folder: Path, faults: _Faults) -> float | StiffnessTab
             return math.nan
         strain.append(values[0])
         tension.append(values[1])
-    rising = all(b > a for a, b in zip(strain, strain[1:], strict=False)) and all(
-        b > a for a, b in zip(tension, tension[1:], strict=False)
-    )
+    rising = all(b > a for series in (strain, tension) for a, b in pairwise(series))
     if len(strain) < 2 or strain[0] != 0.0 or tension[0] != 0.0 or not rising:
         faults.found.append(
             Fault(
@@ -224,15 +224,14 @@ def _line_types(names: list[str], rows: list[_Row], folder: Path, faults: _Fault
                 _stiffness(row, folder, faults),
                 parse_number(damping) or 0.0,
                 faults.number(row, "bending_stiffness", least=0.0),
-                *(faults.number(row, key, least=0.0) for key in LINE_COEFFICIENTS),
-                line=row.line,
+                faults.number(row, "drag_normal", least=0.0),
+                faults.number(row, "added_mass_normal", least=0.0),
+                faults.number(row, "drag_axial", least=0.0),
+                faults.number(row, "added_mass_axial", least=0.0),
+                row.line,
             )
         )
     return tuple(found)
-
-
-#: Coefficients of a line type in the order of the record.
-LINE_COEFFICIENTS = ("drag_normal", "added_mass_normal", "drag_axial", "added_mass_axial")
 
 
 def _points(rows: list[_Row], faults: _Faults) -> tuple[DeckPoint, ...]:
@@ -253,11 +252,11 @@ def _points(rows: list[_Row], faults: _Faults) -> tuple[DeckPoint, ...]:
         if number and any(point.number == number for point in found):
             faults.add(row.line, f"two points have the ID {number}", path="points")
         place = tuple(faults.number(row, axis) for axis in "xyz")
-        values = [
+        mass, volume, area, added = (
             faults.number(row, key, least=0.0) for key in ("mass", "volume", "drag_area", "added_mass_coefficient")
-        ]
+        )
         choice: Any = kind or "fixed"
-        found.append(DeckPoint(number, choice, (place[0], place[1], place[2]), *values, line=row.line))
+        found.append(DeckPoint(number, choice, (place[0], place[1], place[2]), mass, volume, area, added, row.line))
     return tuple(found)
 
 
