@@ -81,7 +81,7 @@ class PolygonMember(Block):
 
     shape: Literal["polygon"] = Field(description="Closed outline through given points.")
     points: Annotated[tuple[tuple[Length, Length], ...], Field(min_length=3, max_length=500)] = Field(
-        description="Corners along the first and second axis, in order around the section, either way.",
+        description="Corners [first axis, second axis] from the axis of the member, in order around it, either way.",
         examples=[[["-1 m", "0 m"], ["1 m", "0 m"], ["0 m", "1.5 m"]]],
     )
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.member.march import WaveForces
@@ -153,5 +151,4 @@ def _law_notices(problem: MemberProblem, number: float, where: str) -> list[Noti
 
 def orbit_ratio(found: WaveForces) -> float:
     """Return smaller over larger axis of the orbit at the governing strip."""
-    first, second = (float(found.strip[f"velocity_{axis}"][found.governing]) for axis in ("first", "second"))
-    return min(first, second) / max(first, second, 1e-300) if np.isfinite(first + second) else math.nan
+    return float(found.strip["orbit_ratio"][found.governing])

@@ -89,6 +89,7 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
         "orbit_ratio": ("wave", np.array([orbit_ratio(found) for _, found in runs])),
         "velocity_amplitude": (("wave", "axis"), speeds),
         "inertia_coefficient": (("wave", "axis"), governing("inertia")),
+        "plain_inertia_coefficient": (("wave", "axis"), governing("plain_inertia")),
         "effective_inertia_coefficient": (("wave", "axis"), governing("effective_inertia")),
         "drag_coefficient": (("wave", "axis"), governing("drag")),
         "circulation": ("wave", governing("circulation")),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,9 +39,10 @@ class WaveForces:
         At the governing strip [m2/s].
     strip : dict of str to ndarray, shape (strips, ...)
         ``velocity_first``, ``velocity_second`` [m/s], ``keulegan_carpenter``, ``reynolds``, ``beta``, ``frequency``
-        [rad/s], ``inertia`` and ``effective_inertia`` (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2)
-        largest force per length along both axes [N/m], ``wet`` mean wetted share, ``circulation`` mean [m2/s],
-        ``orbit_product`` mean [m2/s2].
+        [rad/s], ``orbit_ratio`` smaller over larger axis of the orbit, ``inertia``, ``effective_inertia`` and, without
+        the circulation, ``plain_inertia`` (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2)
+        largest force per length along both axes [N/m], ``wet`` mean wetted share, ``circulation`` and
+        ``settled_circulation`` mean [m2/s].
     governing : int
         Strip of the largest Keulegan-Carpenter number among those that are wet.
     notices : tuple of Notice
@@ -93,7 +94,7 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
     notices: dict[str, Notice] = {}
     middle = 0.5 * (np.asarray(member.start) + np.asarray(member.end))
     for first in range(0, count, size):
-        part = Strips(strips.centres[first : first + size], strips.length, strips.half_height)
+        part = replace(strips, centres=strips.centres[first : first + size])
         block = _sample(problem, member, wave, part)
         gammas, per_length, numbers, told = _block_forces(problem, member, wave, block, time)
         for notice in told:
@@ -143,7 +144,7 @@ def _repeated(values: Array, time: Array, wave: Wave) -> Array:
 def _sample(problem: MemberProblem, member: StraightMember, wave: Wave, part: Strips) -> _Block:
     axes = member.axes[:2]
     flow = wave.flow.sample(wave.time, part.centres)
-    current = problem.environment.current
+    current = wave.current
     steady = np.zeros((1, len(part.centres), 2))
     if current is not None:
         level = np.minimum(part.centres[:, 2], 0.0)
@@ -221,6 +222,7 @@ def _block_forces(
     numbers["inertia"] = np.stack([np.diagonal(inertia[n]) for n in range(len(inertia))])
     numbers["drag"] = drag
     numbers["effective_inertia"] = _effective(problem, section.area, block, forces.inertia, magnus, wave)
+    numbers["plain_inertia"] = _effective(problem, section.area, block, forces.inertia, np.zeros_like(magnus), wave)
     return gammas, per_length, numbers, told
 
 
@@ -284,10 +286,13 @@ def _coefficients(
     fluctuation = relative - relative.mean(axis=0)
     if regular:
         first, second = (0.5 * np.ptp(fluctuation[..., axis], axis=0) for axis in (0, 1))
-        major = orbit_amplitudes(relative, rate, omega)[0].max(axis=0)
+        axes = orbit_amplitudes(relative, rate, omega)
+        major = axes[0].max(axis=0)
     else:
         first, second = (math.sqrt(2.0) * fluctuation[..., axis].std(axis=0) for axis in (0, 1))
-        major = np.sqrt(np.mean(orbit_amplitudes(fluctuation, rate, omega)[0] ** 2, axis=0))
+        axes = orbit_amplitudes(fluctuation, rate, omega)
+        major = np.sqrt(np.mean(axes[0] ** 2, axis=0))
+    large, small = (np.sqrt(np.mean(part**2, axis=0)) for part in axes)
     speed = major + np.linalg.norm(block.steady[0], axis=-1)
     number = major * 2.0 * math.pi / omega / width
     reynolds = speed * width / problem.kinematic_viscosity
@@ -313,6 +318,7 @@ def _coefficients(
     numbers = {
         "velocity_first": first,
         "velocity_second": second,
+        "orbit_ratio": np.divide(small, large, out=np.full_like(large, math.nan), where=large > 0.0),
         "keulegan_carpenter": number,
         "reynolds": reynolds,
         "beta": beta,

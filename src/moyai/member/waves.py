@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from moyai.member.model import MemberProblem, RegularWaves
 from moyai.morison.flow import Flow, LinearFlow, NonlinearFlow
 from moyai.sea.components import WaveComponents
+from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
 from moyai.sea.nonlinear import nonlinear_wave
@@ -38,6 +39,8 @@ class Wave:
     time : ndarray
         Uniform grid [s]; one whole period for regular waves (the last point repeats the first).
     regular : bool
+    current : CurrentProfile or None
+        That of the case at the water level of the wave.
     """
 
     name: str
@@ -48,6 +51,7 @@ class Wave:
     heading: float
     time: Array
     regular: bool
+    current: CurrentProfile | None = None
 
 
 def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
@@ -56,9 +60,9 @@ def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
     In infinite depth the mean over the upper part that waves of the longest period reach cannot be known beforehand;
     the surface value is taken.
     """
-    current = problem.environment.current
-    if current is None:
+    if problem.environment.current is None:
         return 0.0, 0.0
+    current = problem.environment.current.in_depth(water.depth)
     found = current.velocity(0.0) if math.isinf(water.depth) else current.depth_mean(-water.depth, 0.0)
     return float(found[0]), float(found[1])
 
@@ -66,6 +70,7 @@ def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
 def waves_of(problem: MemberProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
     """Return every wave of a sea state at a water depth."""
     current = mean_current(problem, water)
+    profile = None if problem.environment.current is None else problem.environment.current.in_depth(water.depth)
     if isinstance(sea, IrregularSea):
         period = float(sea.spectrum.peak_period)
         step = period / problem.settings.irregular_steps
@@ -85,10 +90,10 @@ def waves_of(problem: MemberProblem, sea: RegularWaves | IrregularSea, water: Wa
         flow = LinearFlow(parts, problem.settings.stretching)
         number = _wave_number(period, water, current, sea.heading)
         height = float(sea.spectrum.significant_height)
-        return (
-            Wave("sea", flow, height, period, number, sea.heading, np.asarray(time[keep], dtype=np.float64), False),
-        )
-    return tuple(_regular(problem, sea, height, period, water, current) for height, period in sea.waves())
+        grid = np.asarray(time[keep], dtype=np.float64)
+        return (Wave("sea", flow, height, period, number, sea.heading, grid, False, profile),)
+    waves = (_regular(problem, sea, height, period, water, current) for height, period in sea.waves())
+    return tuple(replace(wave, current=profile) for wave in waves)
 
 
 def _wave_number(period: float, water: Water, current: tuple[float, float], heading: float) -> float:

@@ -132,6 +132,18 @@ class Contour:
         return _area(self.vertices, np.asarray(self.bulges))
 
     @cached_property
+    def centroid(self) -> tuple[float, float]:
+        """Centroid of the enclosed area [m], arcs included."""
+        edge = np.arange(len(self.vertices))
+        t, weight = 0.5 * (_NODES + 1.0), 0.5 * _WEIGHTS
+        # Green's theorem about the first corner, so that a distant origin costs no digits
+        place = self.positions(edge[:, None], t[None, :]) - self.corners[0]
+        slope = self.slopes(edge[:, None], t[None, :])
+        first = float(np.sum(0.5 * place.real**2 * slope.imag * weight)) / self.area
+        second = -float(np.sum(0.5 * place.imag**2 * slope.real * weight)) / self.area
+        return float(self.corners[0].real) + first, float(self.corners[0].imag) + second
+
+    @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
         """Smallest and largest x, smallest and largest z [m], arcs included."""
         line = [self.corners]

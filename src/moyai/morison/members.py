@@ -91,12 +91,21 @@ class StraightMember:
             raise InputError(f"{count} strips", path="strips", allowed="at least 1")
         share = (np.arange(count) + 0.5) / count
         start, end = np.asarray(self.start), np.asarray(self.end)
-        centres = start + share[:, None] * (end - start)
-        width, height = self.placed_section.extents
         first, second, along = self.axes
-        across = 0.5 * (abs(first[2]) * width + abs(second[2]) * height)
-        half = 0.5 * abs(along[2]) * self.length / count + across
-        return Strips(centres, self.length / count, half)
+        aside = self.placed_section.contour.centroid
+        # the outline of a section need not be drawn about its centroid, where the water pushes
+        centres = start + share[:, None] * (end - start) + aside[0] * first + aside[1] * second
+        low, high = self._reach
+        half = 0.5 * abs(along[2]) * self.length / count + 0.5 * (high - low)
+        return Strips(centres, self.length / count, half, 0.5 * (high + low) - float(aside[1] * second[2]))
+
+    @property
+    def _reach(self) -> tuple[float, float]:
+        """Heights of the lowest and the highest point of the section above the axis [m]."""
+        # the first axis is level; of an upright member the second one is too
+        _, _, low, high = self.placed_section.contour.bounds
+        rise = max(0.0, float(self.axes[1][2]))
+        return rise * low, rise * high
 
     def shifted(self, height: float) -> StraightMember:
         """Return the member moved upwards by ``height`` [m]."""
@@ -110,15 +119,12 @@ class StraightMember:
     @property
     def highest(self) -> float:
         """Highest point, section included [m]."""
-        _, height = self.placed_section.extents
-        width = self.placed_section.extents[0]
-        first, second, _ = self.axes
-        return max(self.start[2], self.end[2]) + 0.5 * (abs(first[2]) * width + abs(second[2]) * height)
+        return max(self.start[2], self.end[2]) + self._reach[1]
 
     @property
     def lowest(self) -> float:
         """Lowest point, section included [m]."""
-        return min(self.start[2], self.end[2]) - (self.highest - max(self.start[2], self.end[2]))
+        return min(self.start[2], self.end[2]) + self._reach[0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,16 +134,19 @@ class Strips:
     Parameters
     ----------
     centres : ndarray, shape (strips, 3)
-        [m].
+        Centroids of the section in the middle of each strip [m].
     length : float
         Of one strip [m].
     half_height : float
         Half of the vertical extent of a strip, section included [m].
+    middle : float
+        Height of the middle of that extent above the centroid [m].
     """
 
     centres: Array
     length: float
     half_height: float
+    middle: float = 0.0
 
     def wet_share(self, elevation: ArrayLike) -> Array:
         """Return the share of each strip below the momentary surface, 0 to 1 [eq:morison-wet-share].
@@ -148,7 +157,8 @@ class Strips:
             Surface above each strip [m].
         """
         eta = np.asarray(elevation, dtype=float)
+        level = self.centres[:, 2] + self.middle
         if self.half_height <= 0.0:
-            return (eta >= self.centres[:, 2]).astype(float)
-        share = (eta - self.centres[:, 2] + self.half_height) / (2.0 * self.half_height)
+            return (eta >= level).astype(float)
+        share = (eta - level + self.half_height) / (2.0 * self.half_height)
         return np.asarray(np.clip(share, 0.0, 1.0))

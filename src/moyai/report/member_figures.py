@@ -232,7 +232,7 @@ def coefficient_table(level: Group, sea: Group) -> Table | None:
         *_WAVE,
         ("Re", "reynolds", "", {}),
         ("β", "beta", "", {}),
-        *((f"C_M, {axis}", "inertia_coefficient", "", {"axis": axis}) for axis in AXES),
+        *((f"C_M, {axis}", "plain_inertia_coefficient", "", {"axis": axis}) for axis in AXES),
         *((f"with Γ, {axis}", "effective_inertia_coefficient", "", {"axis": axis}) for axis in AXES),
         *((f"C_D, {axis}", "drag_coefficient", "", {"axis": axis}) for axis in AXES),
         ("Γ counted", "circulation", "m2/s", {}),

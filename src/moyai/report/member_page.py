@@ -110,7 +110,7 @@ def _summary(result: Result, levels: tuple[Group, ...], purpose: str) -> tuple[B
             )
         )
     for axis in figures.AXES:
-        plain = sea.real("inertia_coefficient", "wave", axis=axis)
+        plain = sea.real("plain_inertia_coefficient", "wave", axis=axis)
         shown = sea.real("effective_inertia_coefficient", "wave", axis=axis)
         if plain is not None and shown is not None and math.isfinite(shown[at]):
             detail = f"without circulation {format_number(float(plain[at]), 4)}"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +37,16 @@ class CurrentProfile(ABC):
     def component(self, z: ArrayLike, heading: float) -> Array:
         """Return the component along ``heading`` [rad] [m/s]: for a structure, the heading of its normal."""
         return np.asarray(self.velocity(z) @ np.array([math.cos(heading), math.sin(heading)]))
+
+    def in_depth(self, water_depth: float) -> CurrentProfile:
+        """Return the current at another water level: the same heights below the surface; a power law reaches the bed.
+
+        Parameters
+        ----------
+        water_depth : float
+            [m].
+        """
+        return self
 
     def _panels(self, z_bottom: float, z_top: float) -> tuple[Array, Array]:
         _check_range(z_bottom, z_top)
@@ -98,6 +108,10 @@ class PowerLawCurrent(CurrentProfile):
     exponent: float
     heading: float
     water_depth: float
+
+    def in_depth(self, water_depth: float) -> CurrentProfile:
+        """Return the same power law over another depth [m]."""
+        return replace(self, water_depth=float(water_depth))
 
     def _relative(self, z: ArrayLike) -> Array:
         level = np.asarray(z, dtype=np.float64)

@@ -363,3 +363,79 @@ def test_interrupt_hands_back_what_is_there():
     result = run(case, listener)
     assert result.status == "interrupted"
     assert result.tree["/SWL/waves/a"].sizes["wave"] == 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_forces_do_not_depend_on_where_the_outline_of_a_section_is_drawn(seed):
+    """Moving the points of a polygon and the axis the other way leaves the body, and its loads, where they were."""
+    rng = np.random.default_rng(700 + seed)
+    points = rng.uniform(-0.5, 0.5, (3, 2))
+    shift = rng.uniform(-1.0, 1.0, 2)
+    ends = np.array([[-1.0, -4.0, -0.4], [2.0, 3.0, rng.uniform(-0.6, 0.1)]])
+    plain = StraightMember(tuple(ends[0]), tuple(ends[1]), sections.polygon(points), rng.uniform(-1, 1))
+    turn = plain.section_angle
+    turned = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]]) @ shift
+    moved = ends - (turned[:, None] * plain.axes[:2]).sum(axis=0)
+    other = StraightMember(tuple(moved[0]), tuple(moved[1]), sections.polygon(points + shift), turn)
+    seas = (RegularWaves("a", (0.5,), (4.0,), 0.3),)
+    options = {"rule": CoefficientRule((1.1, 0.9)), "circulation": CirculationLaw(purpose="response")}
+    first, second = (forces(problem(one, seas, Water(6.0, 1000.0, 9.81), **options)) for one in (plain, other))
+    assert 0.0 < first.strip["wet"].min() < first.strip["wet"].max() <= 1.0
+    assert second.strip["wet"] == pytest.approx(first.strip["wet"], abs=1e-12)
+    assert np.abs(second.force - first.force).max() < 1e-6 * np.abs(first.force).max()
+    assert other.highest == pytest.approx(plain.highest) and other.lowest == pytest.approx(plain.lowest)
+
+
+def test_a_section_drawn_above_its_axis_reaches_the_surface():
+    """A triangle of three metres on an axis two metres down stands a metre out of the water."""
+    member = horizontal(sections.polygon([(-1, 0), (1, 0), (0, 3)]), depth=2.0)
+    assert member.highest == pytest.approx(1.0) and member.lowest == pytest.approx(-2.0)
+    assert member.strips(1).centres[0, 2] == pytest.approx(-1.0)
+    assert member.strips(1).wet_share(np.array([[-2.0, 1.0, -0.5]]).T)[:, 0] == pytest.approx([0.0, 1.0, 0.5])
+    arc = sections.polygon([(1, 0), (-1, 0)], [1.0, 0.0])
+    assert arc.contour.centroid == pytest.approx((0.0, 4.0 / (3.0 * math.pi)))
+
+
+def test_a_power_law_current_reaches_the_bed_at_every_water_level():
+    """Above datum the profile stretches with the depth: its mean is U / (1 + exponent) at each level."""
+    water = Water(12.0, 1025.0, 9.81)
+    member = StraightMember((0, 0, -12.0), (0, 0, 3.0), sections.circle(1.0))
+    case = problem(member, (RegularWaves("a", (1e-6,), (8.0,)),), water, rule=CoefficientRule((1.0, 1.0)))
+    environment = Environment(water, (("HWL", 2.0), ("LWL", -1.0)), (), None, currents.power_law(0.8, 0.2, 0.0, water))
+    case = replace(case, environment=environment, settings=Settings(("forces",), 600))
+    for level in (2.0, -1.0):
+        depth = 12.0 + level
+        exact = 0.5 * 1025.0 * 0.8**2 * depth / 1.4
+        cut = replace(case, member=StraightMember((0, 0, -12.0), (0, 0, level), sections.circle(1.0)))
+        found = forces(cut, level)
+        # the midpoint rule near the bed, where the square of the current has a steep end
+        assert found.force[1, 0, 0] == pytest.approx(exact, rel=2e-3)
+
+
+def test_a_flat_orbit_is_told_whatever_its_tilt():
+    """Waves along a brace leaning at 45 degrees to them: both components equal, the orbit a line."""
+    member = StraightMember((0, 0, -3.0), (0.4, 0.4, 0.2), sections.circle(0.1))
+    case = problem(
+        member,
+        (RegularWaves("a", (0.05,), (2.0,), math.radians(60)),),
+        Water(1.2e3, 1000.0, 9.81),
+        circulation=CirculationLaw(purpose="response"),
+    )
+    found = forces(case)
+    axes = member.axes[:2]
+    # circular orbits in the vertical plane of the waves, projected: the ratio of the singular values
+    plane = np.array([[math.cos(math.radians(60)), math.sin(math.radians(60)), 0.0], [0.0, 0.0, 1.0]])
+    sizes = np.linalg.svd(axes @ plane.T, compute_uv=False)
+    assert found.strip["orbit_ratio"][found.governing] == pytest.approx(sizes[1] / sizes[0], rel=1e-2)
+
+
+def test_what_is_shown_without_circulation_is_what_the_inertia_force_shows():
+    """Of a turned rectangle both axes are coupled: without circulation both coefficients agree, coupling included."""
+    section = sections.rectangle(1.0, 0.3)
+    member = StraightMember((0, -2.0, -3.0), (0, 2.0, -3.0), section, 0.6)
+    seas = (RegularWaves("a", (0.3,), (4.0,)),)
+    still = forces(problem(member, seas, Water(8.0, 1000.0, 9.81)))
+    assert still.strip["effective_inertia"] == pytest.approx(still.strip["plain_inertia"], rel=1e-12)
+    turned = problem(member, seas, Water(8.0, 1000.0, 9.81), circulation=CirculationLaw(purpose="response"))
+    fall = forces(turned).strip["plain_inertia"] - forces(turned).strip["effective_inertia"]
+    assert (fall > 0.0).all()
