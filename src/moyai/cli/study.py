@@ -58,7 +58,7 @@ def study(
         count = workers if workers is not None else max(1, min(os.cpu_count() or 1, len(plan.cases)))
         if not quiet and not as_json:
             points = " x ".join(f"{len(axis.points)} {axis.name}" for axis in plan.axes)
-            tell(f"{plan.title}: {len(plan.cases)} cases ({points})")
+            tell(f"{plan.title}: {_count(len(plan.cases), 'case')}" + (f" ({points})" if points else ""))
         teller = _Teller(plan, quiet or as_json)
         with progress_bars(quiet or as_json) as progress:
             result = run_study(
@@ -132,25 +132,33 @@ def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any
     import json
 
     from moyai.cli.runner import run as run_case
+    from moyai.study.plan import case_at
+    from moyai.study.trial import require_responses, runs_of_search
     from moyai.study.work import Task
     from moyai.study.work import run_case as run_one
 
     task = Task(plan.base, plan.base_path.resolve(), plan.wanted, None, run_case)
     middle = plan.cases[len(plan.cases) // 2]
-    # The first run of a process loads and compiles; the second tells what a case costs
-    run_one(task, middle)
-    record = run_one(task, middle)
-    assert record is not None
+    first = case_at(plan, middle)
+    # The first run of a process loads and compiles; the ones after it tell what a case costs, and must be other cases,
+    # since a case of its own hydrodynamics finds nothing in memory
+    require_responses(plan, run_case(first, progress).tree)
+    others = [case for case in (plan.cases[0], plan.cases[-1]) if case is not middle] or [middle]
+    records = [record for case in others if (record := run_one(task, case)) is not None]
+    record = max(records, key=lambda one: (one.status == "failed", len(one.values)))
+    seconds = sum(one.seconds for one in records) / len(records)
+    runs = runs_of_search(plan)
     count = workers or os.cpu_count() or 1
-    size = len(json.dumps(record.values)) + 200
+    size = len(json.dumps(record.values)) + 200 if plan.search is None else 2000
     return {
         "title": plan.title,
         "base": str(plan.base_path),
         "cases": len(plan.cases),
         "axes": [{"name": axis.name, "points": len(axis.points)} for axis in plan.axes],
-        "seconds_per_case": record.seconds,
+        "seconds_per_case": seconds * runs,
+        "runs_per_case": runs,
         "workers": count,
-        "expected_seconds": record.seconds * len(plan.cases) / count,
+        "expected_seconds": seconds * runs * len(plan.cases) / min(count, len(plan.cases)),
         "expected_megabytes": size * len(plan.cases) / 1e6,
         "trial_status": record.status,
         "trial_message": record.message,
@@ -161,12 +169,18 @@ def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any
 def _print_plan(file: Path, record: dict[str, Any]) -> None:
     say(f"{file}: no faults")
     for axis in record["axes"]:
-        say(f"  {axis['name']}: {axis['points']} points")
-    say(f"  {record['cases']} cases, {record['seconds_per_case']:.2f} s each as tried now ({record['trial_status']})")
+        say(f"  {axis['name']}: {_count(axis['points'], 'point')}")
+    runs = f", a search of up to {record['runs_per_case']} runs" if record["runs_per_case"] > 1 else ""
+    each = f"{record['seconds_per_case']:.2f} s each as tried now ({record['trial_status']})"
+    say(f"  {_count(record['cases'], 'case')}, {each}{runs}")
     if record["trial_message"]:
         say(f"  the trial said: {record['trial_message']}")
-    say(f"  about {_duration(record['expected_seconds'])} on {record['workers']} workers")
+    say(f"  about {_duration(record['expected_seconds'])} on {_count(record['workers'], 'worker')}")
     say(f"  about {record['expected_megabytes']:.2g} MB of results")
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"
 
 
 def _duration(seconds: float) -> str:

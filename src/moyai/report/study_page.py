@@ -273,7 +273,7 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
             ("design_value", "Design value"),
             ("lower", "Lower"),
             ("upper", "Upper"),
-            ("location", "Mode"),
+            ("location", "Most probable maximum"),
         ):
             columns.append(Column(label, [float(group[name].values[place]) for place in places], units))
         blocks.append(

@@ -1,14 +1,14 @@
 """What all cases say together: lines and anchors against codes, extremes over seeds, return levels over a scatter.
 
 Works on the dataset of the study, whatever the structure: lines are found by their ``maximum_tension``,
-``mean_tension`` and ``breaking_load``.
+``mean_tension`` and ``breaking_load``, or where the study file says that their tensions stand.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,13 +22,15 @@ from moyai.design.extremes import check_fit, fit, maximum_interval
 from moyai.design.long_term import YEAR, return_level
 from moyai.study import schema
 from moyai.study.plan import Study
+from moyai.study.tensions import Tensions, has, tensions, variable
+from moyai.study.tensions import response as response_of
 from moyai.tables.design_codes import CodeRule, endurance_data, holding_data
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_MAXIMA = ("maximum_tension", "most_probable_maximum_tension", "fairlead_tension_maximum")
-_UPLIFTS = ("maximum_anchor_vertical_tension", "anchor_vertical_tension")
+_WAVES = 1000.0
+"""Waves of a sea state whose most probable maximum alone is known, unless the study file says how many."""
 
 
 def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Result:
@@ -58,9 +60,9 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
     notices: list[Notice] = []
     parts: list[tuple[str, Callable[[], tuple[xr.Dataset, list[Notice]]]]] = []
     if (lines := wanted.lines) is not None:
-        parts.append(("lines", lambda: _lines(study, result, lines)))
+        parts.append(("lines", lambda: _lines(study, lines, tensions(study, result, wanted.tensions))))
     if wanted.anchors:
-        parts.append(("anchors", lambda: _anchors(study, result, wanted.anchors)))
+        parts.append(("anchors", lambda: _anchors(study, wanted.anchors, tensions(study, result, wanted.tensions))))
     for number, one in enumerate(wanted.extremes):
         parts.append((f"extremes {number + 1}", lambda one=one: _extremes(study, result, one)))  # type: ignore[misc]
     for number, other in enumerate(wanted.long_term):
@@ -83,53 +85,6 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
     return replace(result, tree=tree).with_notices(*notices)
 
 
-@dataclass(frozen=True)
-class _Tensions:
-    """Tensions of the lines in one group of the results, over the axes of the study."""
-
-    group: str
-    maximum: xr.DataArray
-    mean: xr.DataArray
-    breaking: xr.DataArray
-    uplift: xr.DataArray | None
-
-
-def _tensions(study: Study, result: Result) -> list[_Tensions]:
-    axes = {axis.name for axis in study.axes}
-    found = []
-    for node in result.tree.subtree:
-        held = node.to_dataset(inherit=False)
-        name = next((one for one in _MAXIMA if one in held), None)
-        if node.path.startswith("/assessment") or name is None or "mean_tension" not in held:
-            continue
-        maximum = held[name]
-        if "line" not in maximum.dims or not axes.issubset(map(str, maximum.dims)):
-            continue
-        level = node.path.strip("/").split("/")[0]
-        known = _has(result, f"/{level}/statics", "breaking_load")
-        breaking = _variable(result, f"/{level}/statics", "breaking_load") if known else maximum * math.nan
-        uplift = next((held[one] for one in _UPLIFTS if one in held), None)
-        found.append(_Tensions(node.path.strip("/"), maximum, held["mean_tension"], breaking, uplift))
-    if not found:
-        raise InputError(
-            "no case tells tensions of lines", path="assess.lines", remedy="let the cases run 'frequency' or 'time'"
-        )
-    return found
-
-
-def _has(result: Result, group: str, name: str) -> bool:
-    try:
-        return name in result.tree[group].data_vars
-    except KeyError:
-        return False
-
-
-def _variable(result: Result, group: str, name: str) -> xr.DataArray:
-    held: Any = result.tree[group]
-    found: xr.DataArray = held.to_dataset(inherit=False)[name]
-    return found
-
-
 def _codes(wanted: schema.LineChecks) -> list[DesignCode]:
     codes = []
     for one in wanted.codes:
@@ -145,23 +100,22 @@ def _codes(wanted: schema.LineChecks) -> list[DesignCode]:
     return codes
 
 
-def _lines(study: Study, result: Result, wanted: schema.LineChecks) -> tuple[xr.Dataset, list[Notice]]:
+def _lines(study: Study, wanted: schema.LineChecks, found: list[Tensions]) -> tuple[xr.Dataset, list[Notice]]:
     import xarray as xr
 
     codes = _codes(wanted)
-    tensions = _tensions(study, result)
     dims = [axis.name for axis in study.axes]
     lost = _lost_labels(study)
-    lines = [str(one) for one in tensions[0].maximum.coords["line"].values]
+    lines = [str(one) for one in found[0].maximum.coords["line"].values]
     for given in (*wanted.component, *wanted.diameter):
         if given not in lines:
             raise InputError(f"there is no line '{given}'", path="assess.lines", allowed=", ".join(lines))
-    shape = (len(codes), len(tensions), *study.shape, len(lines))
+    shape = (len(codes), len(found), *study.shape, len(lines))
     utilisation = np.full(shape, math.nan)
     notices = [notice for code in codes for notice in check_confirmation(code)]
     skipped: set[str] = set()
     for c, code in enumerate(codes):
-        for t, item in enumerate(tensions):
+        for t, item in enumerate(found):
             maximum, mean, breaking = (
                 one.transpose(*dims, "line").values for one in (item.maximum, item.mean, item.breaking)
             )
@@ -210,7 +164,7 @@ def _lines(study: Study, result: Result, wanted: schema.LineChecks) -> tuple[xr.
     attributes = {"units": "1", "long_name": "utilisation of the line under the code"}
     coordinates: dict[str, Any] = {
         "code": [code.name for code in codes],
-        "sea": [item.group for item in tensions],
+        "sea": [item.group for item in found],
         "line": lines,
         "confirmed": ("code", [float(all(rule.confirmed for rule in code.rules)) for code in codes], {"units": "1"}),
     }
@@ -226,18 +180,20 @@ def _lost_labels(study: Study) -> tuple[int, list[str]] | None:
     return None
 
 
-def _anchors(study: Study, result: Result, wanted: dict[str, schema.AnchorOfLine]) -> tuple[xr.Dataset, list[Notice]]:
+def _anchors(
+    study: Study, wanted: dict[str, schema.AnchorOfLine], found: list[Tensions]
+) -> tuple[xr.Dataset, list[Notice]]:
     import xarray as xr
 
-    tensions = [item for item in _tensions(study, result) if item.uplift is not None]
-    if not tensions:
+    pulls = [item for item in found if item.uplift is not None]
+    if not pulls:
         raise InputError("no case tells the pull at the anchors", path="assess.anchors")
     dims = [axis.name for axis in study.axes]
-    lines = [str(one) for one in tensions[0].maximum.coords["line"].values]
+    lines = [str(one) for one in pulls[0].maximum.coords["line"].values]
     for line in wanted:
         if line not in lines:
             raise InputError(f"there is no line '{line}'", path="assess.anchors", allowed=", ".join(lines))
-    values = np.full((len(tensions), *study.shape, len(wanted)), math.nan)
+    values = np.full((len(pulls), *study.shape, len(wanted)), math.nan)
     notices: dict[str, Notice] = {}
     for n, (line, given) in enumerate(wanted.items()):
         coefficient, sure, source = given.coefficient, True, "user"
@@ -247,7 +203,7 @@ def _anchors(study: Study, result: Result, wanted: dict[str, schema.AnchorOfLine
         if not sure:
             message = f"the holding of {given.name} on {given.bed} ({coefficient:g}) was not held against its source"
             notices[message] = Notice("anchor-unconfirmed", message, remedy="give 'coefficient'", source=source)
-        for t, item in enumerate(tensions):
+        for t, item in enumerate(pulls):
             assert item.uplift is not None
             pull = item.maximum.sel(line=line).transpose(*dims).values
             up = item.uplift.sel(line=line).transpose(*dims).values
@@ -273,20 +229,10 @@ def _anchors(study: Study, result: Result, wanted: dict[str, schema.AnchorOfLine
             "anchors-fail", f"the largest utilisation of an anchor is {worst:.2f} (limit 1)", worst, 1.0, "error"
         )
     attributes = {"units": "1", "long_name": "utilisation of the anchor"}
-    coordinates = {"sea": [item.group for item in tensions], "line": list(wanted)}
+    coordinates = {"sea": [item.group for item in pulls], "line": list(wanted)}
     return xr.Dataset({"utilisation": (("sea", *dims, "line"), values, attributes)}, coords=coordinates), list(
         notices.values()
     )
-
-
-def _response(result: Result, name: str) -> xr.DataArray:
-    group, _, variable = name.rpartition("/")
-    if not _has(result, f"/{group}", variable):
-        same = sorted(
-            f"{node.path.strip('/')}/{one}" for node in result.tree.subtree for one in node.data_vars if one == variable
-        )
-        raise InputError(f"the study has no response '{name}'", path="assess", allowed=", ".join(same[:6]))
-    return _variable(result, f"/{group}", variable)
 
 
 def _require_axis(array: xr.DataArray, name: str, study: Study) -> None:
@@ -298,7 +244,7 @@ def _require_axis(array: xr.DataArray, name: str, study: Study) -> None:
 def _extremes(study: Study, result: Result, wanted: schema.ExtremesOfSeeds) -> tuple[xr.Dataset, list[Notice]]:
     import xarray as xr
 
-    response = _response(result, wanted.response)
+    response = response_of(result, wanted.response)
     _require_axis(response, wanted.over, study)
     moved = response.transpose(..., wanted.over)
     values = moved.values
@@ -337,7 +283,7 @@ def _extremes(study: Study, result: Result, wanted: schema.ExtremesOfSeeds) -> t
         "design_value": f"level that the maximum stays below with probability {wanted.probability:g}",
         "lower": f"lower end of its {100 * wanted.confidence:g} % interval",
         "upper": f"upper end of its {100 * wanted.confidence:g} % interval",
-        "location": "mode of the Gumbel distribution of the maxima",
+        "location": "most probable maximum: mode of the Gumbel distribution of the maxima",
         "scale": "scale of the Gumbel distribution of the maxima",
     }
     dims = moved.dims[:-1]
@@ -351,7 +297,7 @@ def _extremes(study: Study, result: Result, wanted: schema.ExtremesOfSeeds) -> t
 def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[xr.Dataset, list[Notice]]:
     import xarray as xr
 
-    response = _response(result, wanted.response)
+    response = response_of(result, wanted.response)
     _require_axis(response, wanted.over, study)
     axis = next(one for one in study.axes if one.name == wanted.over)
     share = np.array([point.probability for point in axis.points])
@@ -371,7 +317,8 @@ def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[x
         table = moved.values[place]
         if not np.isfinite(table).all():
             continue
-        short = [_short_term(row if wanted.seeds else float(row)) for row in table]
+        waves = wanted.waves or _WAVES
+        short = [_short_term(row if wanted.seeds else float(row), waves) for row in table]
         largest = float(np.max(table))
         for number, years in enumerate(wanted.years):
             levels[(*place, number)] = return_level(
@@ -383,7 +330,20 @@ def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[x
     coords["return_period"] = ("return_period", list(map(float, wanted.years)), {"units": "year"})
     out = xr.Dataset({"return_level": ((*dims, "return_period"), levels, attributes)}, coords=coords)
     out.attrs.update({"response": wanted.response, "over": wanted.over})
-    return out, []
+    if wanted.seeds:
+        return out, []
+    message = (
+        f"'{wanted.response}' is taken as the most probable maximum of each sea state, of Rayleigh peaks in "
+        f"{wanted.waves or _WAVES:g} waves"
+    )
+    return out, [
+        Notice(
+            "long-term-rayleigh",
+            message,
+            severity="information",
+            remedy="say how many 'waves', or run seeds and name their axis",
+        )
+    ]
 
 
 def _fatigue(study: Study, result: Result, wanted: schema.Fatigue) -> tuple[xr.Dataset, list[Notice]]:
@@ -398,17 +358,17 @@ def _fatigue(study: Study, result: Result, wanted: schema.Fatigue) -> tuple[xr.D
             remedy="choose a curve in ratios to breaking load",
         )
     name = f"{wanted.response}_rainflow_{curve.exponent:g}"
-    sums = _response(result, name)
+    sums = response_of(result, name)
     if "line" not in sums.dims:
         raise InputError(f"'{wanted.response}' is no series of lines", path="assess.fatigue.response")
     level = wanted.response.split("/")[0]
-    if not _has(result, f"/{level}/statics", "breaking_load"):
+    if not has(result, f"/{level}/statics", "breaking_load"):
         raise InputError("the breaking loads of the lines are not known", path="assess.fatigue")
-    breaking = _variable(result, f"/{level}/statics", "breaking_load")
+    breaking = variable(result, f"/{level}/statics", "breaking_load")
     capacity = np.full(sums.shape, curve.capacity)
     notices: list[Notice] = []
     if curve.mean_term:
-        mean = _response(result, wanted.response.rsplit("/", 2)[0] + "/mean_tension")
+        mean = response_of(result, wanted.response.rsplit("/", 2)[0] + "/mean_tension")
         share = (mean / breaking).transpose(*sums.dims).values
         capacity = curve.capacity * 10.0 ** (-curve.mean_term * share)
     rate = sums / breaking.transpose(*sums.dims) ** curve.exponent / capacity
@@ -437,19 +397,24 @@ def _fatigue(study: Study, result: Result, wanted: schema.Fatigue) -> tuple[xr.D
     return out, notices
 
 
-def _short_term(maxima: Any) -> Any:
-    """Return the exceedance of a sea state's maximum: Gumbel of its seeds, or of a most probable maximum.
+def _short_term(maxima: Any, waves: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Return the exceedance of a sea state's maximum: Gumbel of its seeds, or Rayleigh peaks of a known mode.
 
-    A single value is taken as the mode of Rayleigh peaks in about a thousand waves, whose Gumbel scale is that mode
-    over ``2 ln 1000``.
+    The mode ``m`` of the maximum of ``N`` Rayleigh peaks is the level that one of them exceeds, so that any level
+    ``x`` is exceeded by ``N^(1 - (x/m)^2)`` of them in the mean [eq:extremes-weibull].
     """
     from moyai.design.extremes import Fit
 
     data = np.atleast_1d(np.asarray(maxima, dtype=float))
     if data.size == 1:
         mode = max(float(data[0]), 1e-300)
-        fitted = Fit("gumbel", mode, mode / (2.0 * math.log(1000.0)), 0.0, 1, math.nan)
-    elif np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
+
+        def exceeds(level: np.ndarray) -> np.ndarray:
+            peaks = np.exp(math.log(waves) * (1.0 - (np.asarray(level, dtype=float) / mode) ** 2))
+            return np.asarray(-np.expm1(-peaks))
+
+        return exceeds
+    if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
         fitted = Fit("gumbel", float(data[0]), 1e-6 * max(abs(float(data[0])), 1e-300), 0.0, data.size, math.nan)
     else:
         fitted = fit(data, "gumbel")
@@ -469,9 +434,9 @@ def governing(study: Study, result: Result, most: int) -> list[tuple[str, int, f
     """
     found: list[tuple[str, int, float]] = []
     for group, what in (("lines", "line"), ("anchors", "anchor of")):
-        if not _has(result, f"/assessment/{group}", "utilisation"):
+        if not has(result, f"/assessment/{group}", "utilisation"):
             continue
-        table = _variable(result, f"/assessment/{group}", "utilisation")
+        table = variable(result, f"/assessment/{group}", "utilisation")
         dims = [axis.name for axis in study.axes]
         for line in table.coords["line"].values:
             one = table.sel(line=line)
@@ -482,7 +447,7 @@ def governing(study: Study, result: Result, most: int) -> list[tuple[str, int, f
                 found.append((f"{what} {line}", index, float(flat[index])))
     if not found and study.watch:
         try:
-            response = _response(result, study.watch)
+            response = response_of(result, study.watch)
         except InputError:
             return []
         dims = [axis.name for axis in study.axes]

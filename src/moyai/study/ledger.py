@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,7 @@ from moyai.core.errors import InputError
 
 FORMAT = 1
 NAME = "study.jsonl"
+LOCK = ".study.lock"
 
 
 @dataclass(frozen=True)
@@ -73,14 +75,16 @@ class Ledger:
     Raises
     ------
     InputError
-        When the folder holds another study, or cannot be written.
+        When the folder holds another study, another run is at work in it, or it cannot be written.
     """
 
     def __init__(self, folder: Path, key: str, title: str) -> None:
         self.path = folder / NAME
         self._file: IO[str] | None = None
+        self._lock: IO[str] | None = None
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            self._lock = _locked(folder)
             complete = self._mend(key)
             self._file = self.path.open("a", encoding="utf-8", newline="\n")
             if not complete:
@@ -91,6 +95,9 @@ class Ledger:
                 path="output",
                 remedy="choose a folder that can be written",
             ) from error
+        except InputError:
+            self._free()
+            raise
 
     def _mend(self, key: str) -> bool:
         """Cut off a damaged last line; return whether the diary has its heading already."""
@@ -141,6 +148,13 @@ class Ledger:
             # A full disk may refuse the last flush again; every record was flushed on its own
             with contextlib.suppress(OSError):
                 self._file.close()
+        self._free()
+
+    def _free(self) -> None:
+        """Let other runs into the folder."""
+        if self._lock is not None:
+            self._lock.close()
+            self._lock = None
 
     def records(self) -> Iterator[Record]:
         """Return what was recorded so far, the last word on every case."""
@@ -148,6 +162,35 @@ class Ledger:
         for record in read_records(self.path):
             latest[record.index] = record
         return iter([latest[index] for index in sorted(latest)])
+
+
+def _locked(folder: Path) -> IO[str]:
+    """Return a file that is locked as long as it is open; the system frees it however the process ends.
+
+    Raises
+    ------
+    InputError
+        When another process holds it.
+    """
+    file = (folder / LOCK).open("a", encoding="utf-8")
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        file.close()
+        raise InputError(
+            f"another run is at work in {folder}", path="output", remedy="wait for its end, or choose another folder"
+        ) from None
+    except OSError:
+        # Some network file systems know no locks; the diary itself stands two writers, at the price of double work
+        pass
+    return file
 
 
 def read_heading(path: Path) -> dict[str, Any]:

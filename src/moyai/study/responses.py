@@ -111,28 +111,58 @@ def read_response(tree: xr.DataTree, name: str, sign: int = 1) -> float:
     InputError
         When there is no such variable, dimension or label, or it is NaN.
     """
-    found = re.fullmatch(r"(?P<name>[^\[\]]+?)\s*(?:\[(?P<labels>[^\[\]]*)\])?", name.strip())
-    if found is None:
-        raise InputError(f"'{name}' is no response", path="response", allowed="group/name or group/name[line=seaward]")
-    group, _, last = found["name"].rpartition("/")
-    variable = _variable(tree, group, last)
-    for pair in filter(None, (part.strip() for part in (found["labels"] or "").split(","))):
-        dim, _, label = (part.strip() for part in pair.partition("="))
-        if dim not in variable.dims:
-            raise InputError(
-                f"'{found['name']}' has no '{dim}'", path="response", allowed=", ".join(map(str, variable.dims))
-            )
-        labels = [str(item) for item in variable.coords[dim].values] if dim in variable.coords else []
-        if label not in labels:
-            raise InputError(
-                f"'{found['name']}' has no {dim} '{label}'", path="response", allowed=", ".join(labels[:12])
-            )
-        variable = variable.isel({dim: labels.index(label)})
+    variable = find_response(tree, name)
     values = np.asarray(variable.values)
     values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
     if np.isnan(values).all():
         raise InputError(f"the response '{name}' is not known in this case (NaN)", path="response")
     return float(np.nanmax(values) if sign > 0 else np.nanmin(values))
+
+
+def find_response(tree: xr.DataTree, name: str) -> xr.DataArray:
+    """Return a response of a case, at the labels that stand in its name.
+
+    Raises
+    ------
+    InputError
+        When there is no such variable, dimension or label.
+    """
+    group, last, labels = split_response(name)
+    return picked(_variable(tree, group, last), labels, name)
+
+
+def split_response(text: str) -> tuple[str, str, tuple[tuple[str, str], ...]]:
+    """Return group, name and labels of a response such as ``SWL/frequency/waves/motion_ratio[dof=roll]``.
+
+    Raises
+    ------
+    InputError
+        When the text is no response.
+    """
+    found = re.fullmatch(r"(?P<name>[^\[\]]+?)\s*(?:\[(?P<labels>[^\[\]]*)\])?", text.strip())
+    if found is None:
+        raise InputError(f"'{text}' is no response", path="response", allowed="group/name or group/name[line=seaward]")
+    group, _, last = found["name"].rpartition("/")
+    pairs = [part.partition("=") for part in (found["labels"] or "").split(",") if part.strip()]
+    return group, last, tuple((dim.strip(), label.strip()) for dim, _, label in pairs)
+
+
+def picked(variable: xr.DataArray, labels: Sequence[tuple[str, str]], text: str) -> xr.DataArray:
+    """Return a variable at labels of its dimensions.
+
+    Raises
+    ------
+    InputError
+        When it has no such dimension or label.
+    """
+    for dim, label in labels:
+        if dim not in variable.dims:
+            raise InputError(f"'{text}' has no '{dim}'", path="response", allowed=", ".join(map(str, variable.dims)))
+        known = [str(item) for item in variable.coords[dim].values] if dim in variable.coords else []
+        if label not in known:
+            raise InputError(f"'{text}' has no {dim} '{label}'", path="response", allowed=", ".join(known[:12]))
+        variable = variable.isel({dim: known.index(label)}, drop=True)
+    return variable
 
 
 def _variable(tree: xr.DataTree, group: str, name: str) -> xr.DataArray:

@@ -269,6 +269,9 @@ class LongTerm(Block):
     seeds: Annotated[str, Field(description="Axis of the repetitions; the response is exact without one.")] = ""
     duration: Annotated[Duration, Field(description="Of a sea state.")]
     years: Annotated[tuple[PositiveNumber, ...], Field(min_length=1)]
+    waves: Annotated[
+        PositiveNumber | None, Field(gt=1.0, description="In a sea state, without seeds; 1000 when absent.")
+    ] = None
 
 
 class Fatigue(Block):
@@ -281,9 +284,22 @@ class Fatigue(Block):
     confirmed: Annotated[Truth, Field(description="You have held the curve against the standard.")] = False
 
 
+class TensionOfLine(Block):
+    """Where the results tell the tension of a line, for structures that do not list lines by name."""
+
+    maximum: Annotated[str, Field(description="Response; the largest entry of an array counts.")]
+    mean: Annotated[str, Field(description="Response, for codes that part mean and dynamic tension.")] = ""
+    uplift: Annotated[str, Field(description="Response: vertical pull at the anchor.")] = ""
+    breaking_load: PositiveForce
+
+
 class Assessment(Block):
     """What is made of all cases together."""
 
+    tensions: Annotated[
+        dict[str, TensionOfLine],
+        Field(default_factory=dict, description="By a name for the line; found by themselves when absent."),
+    ]
     lines: LineChecks | None = None
     anchors: Annotated[dict[str, AnchorOfLine], Field(default_factory=dict, description="By line.")]
     extremes: Annotated[tuple[ExtremesOfSeeds, ...], OneOrMany()] = ()

@@ -19,11 +19,15 @@ from moyai.core.progress import Progress
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result
 from moyai.study.plan import RunCase, varied
-from moyai.study.responses import read_response
+from moyai.study.responses import find_response, read_response
 from moyai.study.variations import Combination, common_unit
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+_INSIDE = 5e-4
+"""Distance from a limit that an optimum keeps, relative to the limit."""
 
 
 @dataclass(frozen=True)
@@ -172,6 +176,7 @@ class OptimiseRun:
         if self.trade_off:
             limits = (*limits, Limit(self.trade_off, float(self.options["@at_most"]), 1))
         seen: dict[tuple[float, ...], tuple[float, float]] = {}
+        units = ["1"]
 
         def evaluate(place: np.ndarray) -> tuple[float, float]:
             """Return objective and worst excess at a place of the unit cube."""
@@ -183,6 +188,7 @@ class OptimiseRun:
                     tree = _tree(self.run, case, change, progress)
                     excess = max((one.excess(tree) for one in limits), default=-1.0)
                     seen[key] = (read_response(tree, self.minimise), excess)
+                    units[0] = str(find_response(tree, self.minimise).attrs.get("units", "1"))
                 except CaseError:
                     # A refused combination (a line that cannot reach) lies outside; the search turns back from it
                     seen[key] = (math.inf, math.inf)
@@ -196,8 +202,9 @@ class OptimiseRun:
             return value / scale[0] if math.isfinite(value) else 1e3
 
         def margin(place: np.ndarray) -> float:
+            # A little more than asked: the search settles on either side by its own tolerance
             excess = evaluate(place)[1]
-            return -excess if math.isfinite(excess) else -1e3
+            return -excess - _INSIDE if math.isfinite(excess) else -1e3
 
         points = qmc.LatinHypercube(len(ranges), seed=self.seed).random(self.starts)
         points[0] = 0.5
@@ -210,18 +217,18 @@ class OptimiseRun:
                 objective, point, method="COBYLA", constraints=[*bounds, {"type": "ineq", "fun": margin}],
                 options={"maxiter": self.evaluations, "rhobeg": 0.25, "tol": 1e-3},
             )  # fmt: skip
-        return self._result(ranges, seen, limits)
+        return self._result(ranges, seen, limits, units[0])
 
     def _result(
         self,
         ranges: Sequence[tuple[str, float, float, str]],
         seen: dict[tuple[float, ...], tuple[float, float]],
         limits: tuple[Limit, ...],
+        objective_unit: str,
     ) -> Result:
         import xarray as xr
 
-        # COBYLA may leave a limit by its own tolerance
-        holding = {key: value for key, value in seen.items() if value[1] <= 1e-3 and math.isfinite(value[0])}
+        holding = {key: value for key, value in seen.items() if value[1] <= 0.0 and math.isfinite(value[0])}
         if not holding:
             nearest = min(value[1] for value in seen.values())
             raise InputError(
@@ -231,16 +238,20 @@ class OptimiseRun:
             )
         best = min(holding, key=lambda key: holding[key][0])
         data: dict[str, Any] = {
-            "objective": ((), holding[best][0], {"units": "1", "long_name": f"least {self.minimise}"}),
+            "objective": (
+                (),
+                holding[best][0],
+                {"units": objective_unit, "long_name": f"least {self.minimise}"},
+            ),
             "margin": ((), -holding[best][1], {"units": "1", "long_name": "least relative distance from the limits"}),
             "runs": ((), float(len(seen)), {"units": "1", "long_name": "cases run"}),
             "best": (
                 ("variable",),
                 [(low + at * (high - low)) * _si_factor(unit) for (_, low, high, unit), at in zip(ranges, best)],
-                {"units": "SI", "long_name": "best values"},
+                {"units": "1", "long_name": "best values, in the units of their names"},
             ),
         }
-        names = [path for path, *_ in ranges]
+        names = [f"{path} [{_si_name(unit)}]" if unit else path for path, _, _, unit in ranges]
         return Result(
             xr.DataTree.from_dict({"/": xr.Dataset(), "/optimum": xr.Dataset(data, coords={"variable": names})}),
             message=f"best of {len(seen)} runs, {len(limits)} limits",

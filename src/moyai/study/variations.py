@@ -145,6 +145,9 @@ def _short_names(paths: list[str]) -> dict[str, str]:
 def _spread(values: schema.Spread, path: str) -> tuple[Any, ...]:
     first, last, unit = common_unit(values.first, values.last, path)
     numbers = values.spread(first, last, values.count)
+    if all(isinstance(end, int) for end in (values.first, values.last)) and all(one.is_integer() for one in numbers):
+        # Whole numbers stay whole: the case may ask for them (seeds, numbers of lines)
+        return tuple(int(one) for one in numbers)
     return tuple(f"{number!r} {unit}" if unit else number for number in numbers)
 
 

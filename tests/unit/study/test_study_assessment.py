@@ -41,6 +41,42 @@ def test_lines_are_held_against_intact_and_damaged_factors(tmp_path):
     assert study.cases[index].labels[0] == "1 m"
 
 
+def test_lines_of_any_structure_are_told_by_their_responses(tmp_path):
+    study, result = assessed(
+        tmp_path,
+        GRID,
+        "{tensions: {rope: {maximum: SWL/time/storm/worst, mean: 'SWL/time/storm/mean_tension[line=seaward]',"
+        " uplift: SWL/time/storm/maximum_anchor_vertical_tension, breaking_load: 400 kN}},"
+        " lines: {codes: {name: DNV-OS-E301, analysis: dynamic, consequence: '2'}},"
+        " anchors: {rope: {kind: sinker, weight: 900 kN, coefficient: 0.6, safety_factor: 1.2}}}",
+    )
+    worst = result.tree["SWL/time/storm"]["worst"].values
+    used = result.tree["assessment/lines"]["utilisation"].sel(line="rope").values.ravel()
+    assert np.allclose(used, (1.4 * 0.3 + 2.1 * 0.7) * worst / (0.95 * 4e5), rtol=1e-12)
+    pull, up = worst * math.sqrt(0.99), 0.1 * worst
+    anchor = result.tree["assessment/anchors"]["utilisation"].values.ravel()
+    assert np.allclose(anchor, 1.2 * pull / (0.6 * (9e5 - 1.2 * up)), rtol=1e-12)
+    assert governing(study, result, 3)[0][0] in ("line rope", "anchor of rope")
+
+
+def test_the_long_term_of_rayleigh_peaks_is_exact(tmp_path):
+    (tmp_path / "scatter.csv").write_text(
+        "significant_height,period,probability\n0.1,5,0.97\n1.0,5,0.03\n", encoding="utf-8"
+    )
+    _, result = assessed(
+        tmp_path,
+        "- scatter: {file: scatter.csv, significant_height: 'waves[0].significant_height',"
+        " period: 'waves[0].peak_period'}",
+        "{long_term: {response: SWL/time/storm/worst, duration: 3 h, years: [1, 100], waves: 2200}}",
+    )
+    mode = float(result.tree["SWL/time/storm"]["worst"].values[1])
+    level = result.tree["assessment/long term 1"]["return_level"].values
+    states = 0.03 * np.array([1.0, 100.0]) * YEAR / 10800.0
+    # The calm sea adds nothing; one in 2200 peaks of each of the storms exceeds the mode
+    assert np.allclose(level, mode * np.sqrt(np.log(2200 * states) / math.log(2200)), rtol=1e-6)
+    assert any("2200 waves" in notice.message for notice in result.notices)
+
+
 def test_own_factors_and_corrosion(tmp_path):
     _, result = assessed(
         tmp_path,
@@ -113,6 +149,12 @@ def test_return_levels_over_a_scatter_diagram(tmp_path):
         ("{extremes: {response: SWL/time/storm/none}}", "no response"),
         ("{extremes: {response: SWL/time/storm/worst}}", "no axis 'seed'"),
         ("{lines: {codes: {name: none, analysis: dynamic}}}", "API RP 2SK"),
+        ("{extremes: {response: 'SWL/time/storm/mean_tension[line=east]'}}", "no line 'east'"),
+        (
+            "{tensions: {rope: {maximum: SWL/none, breaking_load: 1 kN}}, lines: {codes: {name: API RP 2SK,"
+            " analysis: dynamic}}}",
+            "no response 'SWL/none'",
+        ),
         ("{lines: {codes: {name: DNV-OS-E301, analysis: dynamic}}}", "class"),
         ("{lines: {codes: {name: OCIMF, analysis: dynamic}}}", "rope"),
         ("{lines: {codes: {name: API RP 2SK, analysis: dynamic}, component: {east: rope}}}", "no line 'east'"),

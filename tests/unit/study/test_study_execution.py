@@ -166,6 +166,23 @@ def test_a_folder_of_another_study_is_refused_and_left_alone(tmp_path):
     assert (tmp_path / "out" / "study.jsonl").read_bytes() == before
 
 
+def test_a_second_run_in_the_same_folder_is_refused_while_the_first_is_at_work(tmp_path):
+    study = load_study(study_cases.write_study(tmp_path, heights=2, seeds=2))
+    told = []
+
+    def meddle(standing):
+        if standing.done == 2:
+            with pytest.raises(InputError, match="another run is at work"):
+                run_study(study, tmp_path / "out", study_cases.fast_case, workers=1)
+            told.append(standing.done)
+
+    run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, watch=meddle)
+    assert told == [2]
+    assert len((tmp_path / "out" / "study.jsonl").read_text(encoding="utf-8").splitlines()) == 1 + 4
+    # The folder is free again afterwards
+    assert run_study(study, tmp_path / "out", study_cases.fast_case, workers=1).status == "converged"
+
+
 def test_a_changed_base_case_is_another_study(tmp_path):
     path = study_cases.write_study(tmp_path, heights=1, seeds=2)
     first = load_study(path)

@@ -87,6 +87,20 @@ def test_a_grid_runs_every_value_with_every_other_the_last_fastest(tmp_path):
     assert study.axes[0].coordinates() == {"waves[storm].significant_height": ([0.5, 0.6], "m")}
 
 
+def test_whole_numbers_between_whole_ends_stay_whole(tmp_path):
+    study = load_study(
+        study_cases.write_text(
+            tmp_path,
+            "- grid: {'waves[storm].seed': {from: 3, to: 11, count: 5},"
+            " 'structure.damping.fraction_of_critical': {from: 0, to: 1, count: 3}}",
+            set="{structure.damping: {fraction_of_critical: 0.1, modes: [roll]}}",
+        )
+    )
+    seeds = [point.assignments[0][1] for point in study.axes[0].points]
+    assert seeds == [3, 5, 7, 9, 11] and all(isinstance(seed, int) for seed in seeds)
+    assert [point.assignments[0][1] for point in study.axes[1].points] == [0.0, 0.5, 1.0]
+
+
 def test_a_list_sets_several_values_and_leaves_out_others(tmp_path):
     study = load_study(
         study_cases.write_text(

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 import study_cases
 
-from moyai.core.errors import CaseError
+from moyai.core.errors import CaseError, InputError
 from moyai.study.execute import run_study
-from moyai.study.plan import load_study
+from moyai.study.plan import case_at, load_study
+from moyai.study.trial import require_responses, runs_of_search
 
 LIMIT = """{path: 'waves[storm].significant_height', from: 0.1 m, to: 150 cm,
              conditions: [{response: SWL/tension, at_most: 250}], tolerance: 0.002}"""
@@ -48,7 +49,21 @@ def test_the_shortest_line_that_holds_its_tension_is_found_along_a_trade_off(tmp
     exact = 55.0 * (1000.0 / np.array([950.0, 1000.0, 1040.0])) ** 0.25
     found = result.tree["optimum"]["objective"].values
     assert np.allclose(found, exact, rtol=2e-3)
-    assert (result.tree["optimum"]["margin"].values > -2e-3).all()
+    assert (result.tree["optimum"]["margin"].values >= 0.0).all(), "an optimum lies within its limits"
+    assert list(result.tree["optimum"]["best"].coords["variable"].values) == ["lines[*].segments[0].length [m]"]
+    assert np.allclose(result.tree["optimum"]["best"].values.ravel(), found, rtol=1e-12)
+
+
+def test_a_trial_tells_runs_and_missing_responses_before_the_study_runs(tmp_path):
+    path = study_cases.write_text(tmp_path, "- grid: {'waves[storm].peak_period': [4 s, 5 s]}", limit=LIMIT)
+    study = load_study(path)
+    # 500 steps of tolerance: both ends and nine halvings
+    assert runs_of_search(study) == 11
+    tree = study_cases.linear_case(case_at(study, study.cases[0]), lambda *_: None).tree
+    require_responses(study, tree)
+    path = study_cases.write_text(tmp_path, "[]", limit=LIMIT.replace("SWL/tension", "'SWL/tension[line=east]'"))
+    with pytest.raises(InputError, match="no line 'east'"):
+        require_responses(load_study(path), tree)
 
 
 def test_what_cannot_be_reached_is_a_failed_row_that_says_so(tmp_path):

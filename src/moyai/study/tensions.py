@@ -1,0 +1,137 @@
+"""Responses of a study by name, and the tensions that its lines are held against."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.results import Result
+from moyai.study import schema
+from moyai.study.plan import Study
+from moyai.study.responses import picked, split_response
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_MAXIMA = ("maximum_tension", "most_probable_maximum_tension", "fairlead_tension_maximum")
+_UPLIFTS = ("maximum_anchor_vertical_tension", "anchor_vertical_tension")
+
+
+@dataclass(frozen=True)
+class Tensions:
+    """Tensions of the lines in one group of the results, over the axes of the study and ``line``.
+
+    Parameters
+    ----------
+    group : str
+        Where they stand in the results.
+    maximum, mean, breaking : xarray.DataArray
+        [N]
+    uplift : xarray.DataArray or None
+        Largest vertical pull at the anchor [N].
+    """
+
+    group: str
+    maximum: xr.DataArray
+    mean: xr.DataArray
+    breaking: xr.DataArray
+    uplift: xr.DataArray | None
+
+
+def has(result: Result, group: str, name: str) -> bool:
+    """Whether a group of a study's result holds a variable."""
+    try:
+        return name in result.tree[group].data_vars
+    except KeyError:
+        return False
+
+
+def variable(result: Result, group: str, name: str) -> xr.DataArray:
+    """Return a variable of a group."""
+    held: Any = result.tree[group]
+    found: xr.DataArray = held.to_dataset(inherit=False)[name]
+    return found
+
+
+def response(result: Result, text: str) -> xr.DataArray:
+    """Return a response of a study: ``group/name``, or ``group/name[line=seaward]``.
+
+    Raises
+    ------
+    InputError
+        When the study has none of that name, or the label is not there.
+    """
+    group, name, labels = split_response(text)
+    if not has(result, f"/{group}", name):
+        same = sorted(
+            f"{node.path.strip('/')}/{one}" for node in result.tree.subtree for one in node.data_vars if one == name
+        )
+        raise InputError(f"the study has no response '{text}'", path="assess", allowed=", ".join(same[:6]))
+    return picked(variable(result, f"/{group}", name), labels, text)
+
+
+def tensions(study: Study, result: Result, named: Mapping[str, schema.TensionOfLine]) -> list[Tensions]:
+    """Return the tensions of the lines: as the study file names them, or as the results tell them.
+
+    Raises
+    ------
+    InputError
+        When there are none.
+    """
+    return [_named(study, result, named)] if named else _told(study, result)
+
+
+def _named(study: Study, result: Result, named: Mapping[str, schema.TensionOfLine]) -> Tensions:
+    import xarray as xr
+
+    axes = [axis.name for axis in study.axes]
+    lines = xr.IndexVariable("line", list(named))
+
+    def stacked(texts: list[str]) -> xr.DataArray:
+        return xr.concat([_largest(response(result, text), axes) if text else missing for text in texts], lines)
+
+    missing = xr.DataArray(np.full(study.shape, math.nan), dims=axes)
+    maximum = stacked([one.maximum for one in named.values()])
+    mean = stacked([one.mean for one in named.values()])
+    uplift = stacked([one.uplift for one in named.values()]) if any(one.uplift for one in named.values()) else None
+    strength = xr.DataArray([one.breaking_load for one in named.values()], coords={"line": lines})
+    return Tensions("as named", maximum, mean, xr.ones_like(maximum) * strength, uplift)
+
+
+def _largest(found: xr.DataArray, axes: list[str]) -> xr.DataArray:
+    """Return the largest entry of every case."""
+    absent = [axis for axis in axes if axis not in found.dims]
+    if absent:
+        raise InputError(f"'{found.name}' is not told for every case", path="assess.tensions")
+    rest = [dim for dim in found.dims if dim not in axes]
+    return (found.max(rest) if rest else found).transpose(*axes).drop_vars(set(found.coords), errors="ignore")
+
+
+def _told(study: Study, result: Result) -> list[Tensions]:
+    axes = {axis.name for axis in study.axes}
+    found = []
+    for node in result.tree.subtree:
+        held = node.to_dataset(inherit=False)
+        name = next((one for one in _MAXIMA if one in held), None)
+        if node.path.startswith("/assessment") or name is None or "mean_tension" not in held:
+            continue
+        maximum = held[name]
+        if "line" not in maximum.dims or not axes.issubset(map(str, maximum.dims)):
+            continue
+        level = node.path.strip("/").split("/")[0]
+        known = has(result, f"/{level}/statics", "breaking_load")
+        breaking = variable(result, f"/{level}/statics", "breaking_load") if known else maximum * math.nan
+        uplift = next((held[one] for one in _UPLIFTS if one in held), None)
+        found.append(Tensions(node.path.strip("/"), maximum, held["mean_tension"], breaking, uplift))
+    if not found:
+        raise InputError(
+            "no case tells tensions of lines",
+            path="assess.lines",
+            remedy="let the cases run 'frequency' or 'time', or name the responses under 'assess.tensions'",
+        )
+    return found
