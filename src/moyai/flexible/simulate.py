@@ -181,6 +181,7 @@ def simulate(
                     f"stopped at t = {start.time + done * interval:g} s: "
                     + ("values are no longer finite" if good < count else f"energy of {gain:.3g} J came from nowhere")
                     + f", fastest at node {worst}; step {run.step:.3g} s, stable below {_limit(run):.3g} s"
+                    + _advice(network)
                 )
                 break
             progress("network", done * interval, duration)
@@ -188,6 +189,18 @@ def simulate(
         status, message = "interrupted", f"interrupted at t = {start.time + done * interval:g} s"
     last = done + 1
     return _history(network, run, saved, last, start.time, interval, steps, smallest, status, message, throughput)  # type: ignore[arg-type]
+
+
+def _advice(network: Network) -> str:
+    """Return what helps where bars without viscosity go slack and taut: the energy of the mesh has nowhere to go."""
+    bars = network.bars
+    if not len(bars) or not np.any(bars.of_type("tension_only") > 0.0):
+        return ""
+    wanted = 0.05 * float(
+        np.max(bars.length * np.sqrt(bars.of_type("axial_stiffness") * bars.of_type("mass_per_length")))
+    )
+    lacking = bars.of_type("viscosity") < 0.5 * wanted
+    return f"; a viscosity of {wanted:.2g} N s calms bars that go slack on this mesh" if lacking.any() else ""
 
 
 def _limit(run: ExplicitRun | ImplicitRun) -> float:
