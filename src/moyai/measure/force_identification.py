@@ -16,10 +16,16 @@ from moyai.measure.force_identification_fit import (
     Coefficient,
     Fit,
     Setup,
+    beside_columns,
     fit_component,
-    fit_notices,
     force_columns,
+)
+from moyai.measure.force_identification_notices import (
+    collinear_notices,
     harmonic_notices,
+    implausible_notices,
+    periodicity_notices,
+    unknown_notices,
 )
 from moyai.measure.force_identification_record import ForceRecord, acceleration_of, period_of
 
@@ -41,6 +47,8 @@ class Identification:
         Period, or mean period of an irregular record [s].
     acceleration : ndarray
         [m/s2].
+    velocity_amplitude : ndarray, shape (components,)
+        [m/s].
     keulegan_carpenter : tuple of float
         u T / b of every component, b its width.
     fits : tuple of Fit
@@ -53,6 +61,7 @@ class Identification:
     setup: Setup
     period: float
     acceleration: Array
+    velocity_amplitude: Array
     keulegan_carpenter: tuple[float, ...]
     fits: tuple[Fit, ...]
     blocks: int
@@ -100,7 +109,8 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     Raises
     ------
     InputError
-        When the record is shorter than a period or too coarse, or the widths do not match its components.
+        When the record is shorter than a period, too coarse or does not repeat itself with its period, or the widths
+        do not match its components.
     """
     if len(setup.widths) != record.components:
         raise InputError(
@@ -116,27 +126,24 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
     omega = 2.0 * math.pi / period
     per_period = period / used.step
     rate = used.acceleration
+    orders = int(min(6, max(1, (per_period - 1) // 2)))
+    notices: list[Notice] = periodicity_notices(used, period, orders) if setup.regular else []
     if rate is None:
-        orders = int(min(6, max(1, (per_period - 1) // 2)))
         rate = acceleration_of(used.velocity, used.step, omega if setup.regular else None, orders)
     blocks = _blocks(used, period, setup.regular)
     rng = np.random.default_rng(setup.seed)
     fits: list[Fit] = []
-    notices: list[Notice] = []
     for component in range(used.components):
         columns = force_columns(used, rate, setup, component)
         for method in setup.methods:
             fit = fit_component(used, columns, rate, setup, component, method, omega, blocks, rng)
             fits.append(fit)
-            notices.extend(fit_notices(fit))
+            notices.extend(collinear_notices(fit))
             if setup.regular and method != "fourier":
                 notices.extend(harmonic_notices(fit, used, omega))
-    numbers = tuple(
-        float(0.5 * np.ptp(used.velocity[:, c]) * period / setup.widths[c])
-        if setup.regular
-        else float(math.sqrt(2.0) * used.velocity[:, c].std() * period / setup.widths[c])
-        for c in range(used.components)
-    )
+    notices += unknown_notices(fits) + implausible_notices(fits, setup)
+    speeds = velocity_amplitudes(used, period, orders if setup.regular else None)
+    numbers = tuple(float(speed * period / width) for speed, width in zip(speeds, setup.widths))
     if len(blocks) < 8:
         notices.append(
             Notice(
@@ -148,7 +155,26 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
             )
         )
     unique = {notice.message: notice for notice in notices}
-    return Identification(used, setup, period, rate, numbers, tuple(fits), len(blocks), tuple(unique.values()))
+    return Identification(used, setup, period, rate, speeds, numbers, tuple(fits), len(blocks), tuple(unique.values()))
+
+
+def velocity_amplitudes(record: ForceRecord, period: float, orders: int | None) -> Array:
+    """Return the amplitude of every velocity component [m/s], shape (components,).
+
+    Parameters
+    ----------
+    record : ForceRecord
+    period : float
+        [s].
+    orders : int or None
+        Harmonics of a periodic record: half of the way between the extremes of its mean and harmonics, so that noise
+        does not add to it. None: that of the harmonic motion of equal variance.
+    """
+    if orders is None:
+        return np.asarray(math.sqrt(2.0) * record.velocity.std(axis=0))
+    design = beside_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
+    fit, *_ = np.linalg.lstsq(design, record.velocity, rcond=None)
+    return np.asarray(0.5 * np.ptp(design @ fit, axis=0))
 
 
 def _mean_period(record: ForceRecord) -> float:

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
-from moyai.core.validity import Notice
 from moyai.measure.force_identification_record import ForceRecord
 
 Array = NDArray[np.float64]
@@ -26,8 +25,6 @@ COEFFICIENTS = ("inertia", "drag")
 
 #: Half width of an interval over its coefficient above which the coefficient is called unknown
 UNKNOWN_SHARE = 0.5
-#: Condition number of the scaled equations above which inertia and drag cannot be told apart
-LARGEST_CONDITION = 1e7
 _HUBER = 1.345
 
 
@@ -207,7 +204,7 @@ def force_columns(record: ForceRecord, rate: Array, setup: Setup, component: int
     )
 
 
-def _beside(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
+def beside_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
     """Return what is fitted beside Morison's equation: mean and harmonics."""
     angle = omega * (record.time - record.time.mean())
     parts = [np.ones_like(angle)] if mean else []
@@ -230,7 +227,7 @@ def fit_component(
     force = record.force[:, component]
     scale = np.linalg.norm(columns, axis=0)
     condition = float(np.linalg.cond(columns / scale)) if (scale > 0.0).all() else math.inf
-    beside = _beside(record, setup.harmonics, setup.mean, omega)
+    beside = beside_columns(record, setup.harmonics, setup.mean, omega)
     stretch = 1.0
     if method == "fourier":
         gain = _fourier_gain(record, columns, omega)
@@ -293,7 +290,7 @@ def _fourier_gain(record: ForceRecord, columns: Array, omega: float) -> Array:
     8/(3 pi) of a sine.
     """
     orders = range(1, 1 + int(min(6, max(1, 2.0 * math.pi / (omega * record.step) // 2 - 1))))
-    design = _beside(record, orders, True, omega)
+    design = beside_columns(record, orders, True, omega)
     inverse = np.linalg.pinv(design)[1:3]
     harmonic = inverse @ columns
     size = np.linalg.norm(harmonic, axis=0)
@@ -367,55 +364,4 @@ def _coefficients(
             rounding=float(rounding[k]),
         )
         for k in range(2)
-    ]
-
-
-def fit_notices(fit: Fit) -> list[Notice]:
-    notices = []
-    place = f"component {fit.component + 1}, {fit.method.replace('_', ' ')}"
-    if fit.condition > LARGEST_CONDITION:
-        notices.append(
-            Notice(
-                "identification-collinear",
-                f"{place}: inertia and drag cannot be told apart, condition number {fit.condition:.2g}",
-                value=fit.condition,
-                limit=LARGEST_CONDITION,
-                severity="error",
-            )
-        )
-    for name, coefficient, other in (("C_M", fit.inertia, "smaller"), ("C_D", fit.drag, "larger")):
-        if coefficient.known:
-            continue
-        share = coefficient.uncertainty / abs(coefficient.value) if coefficient.value else math.inf
-        notices.append(
-            Notice(
-                "identification-unknown",
-                f"{place}: {name} cannot be known from this record, its uncertainty is {100.0 * share:.0f} % of it",
-                value=share,
-                limit=UNKNOWN_SHARE,
-                remedy=f"use a longer record, a {other} Keulegan-Carpenter number, or a smaller phase error",
-            )
-        )
-    return notices
-
-
-def harmonic_notices(fit: Fit, record: ForceRecord, omega: float) -> list[Notice]:
-    """Tell of harmonics in the residual: they repeat in every period, so that no interval shows what they do."""
-    orders = (2, 3)
-    design = _beside(record, orders, False, omega)
-    part, *_ = np.linalg.lstsq(design, fit.residual, rcond=None)
-    share = float(np.var(design @ part)) / max(float(np.var(fit.residual)), 1e-300)
-    size = float(np.std(design @ part)) / max(float(np.std(fit.force)), 1e-300)
-    # noise alone leaves a share of about twice the number of fitted terms over that of samples
-    if share < max(0.1, 8.0 * design.shape[1] / len(design)) or size < 1e-6:
-        return []
-    return [
-        Notice(
-            "identification-harmonics",
-            f"component {fit.component + 1}, {fit.method.replace('_', ' ')}: second and third harmonic make "
-            f"{100.0 * share:.0f} % of the residual; they may shift C_D beyond its interval",
-            value=share,
-            limit=0.1,
-            remedy="give 'harmonics: [2, 3]', or trust the Fourier method",
-        )
     ]

@@ -136,8 +136,9 @@ def _refuse_clipped(values: Array, name: str) -> None:
     span = float(np.ptp(values))
     if span == 0.0:
         return
-    jumps = np.abs(np.diff(values))
-    quantum = float(jumps[jumps > 0.0].min())
+    # the step of the gauge: no two different readings lie closer; rounding of the text is not a step
+    gaps = np.diff(np.sort(values))
+    quantum = float(gaps[gaps > 1e-9 * span].min())
     centred = values - values.mean()
     crossings = int(np.count_nonzero(np.diff(np.signbit(centred))))
     period = 2.0 * values.size / max(crossings, 1)

@@ -38,6 +38,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "keulegan_carpenter": ("1", "Keulegan-Carpenter number u T / b"),
     "inertia_reduction": ("1", "ideal less found inertia coefficient"),
     "equivalent_gamma": ("1", "gamma of the circulation that the reduction stands for"),
+    "equivalent_gamma_half_width": ("1", "half width of that gamma, from that of C_M"),
     "residual_deviation": ("N/m", "standard deviation of the residual"),
 }
 
@@ -71,7 +72,7 @@ def identification_dataset(found: Identification) -> xr.Dataset:
         **{name: (dims[:2], values) for name, values in scalars.items()},
         "sample": ((*dims, "draw"), samples),
         "keulegan_carpenter": ("component", np.asarray(found.keulegan_carpenter)),
-        **_reduction(found, arrays["value"][:, :, 0]),
+        **_reduction(found, arrays["value"][:, :, 0], (arrays["high"] - arrays["value"])[:, :, 0]),
     }
     dataset = xr.Dataset(
         data,
@@ -98,7 +99,9 @@ def _numbers(item: Coefficient) -> tuple[float, ...]:
     )
 
 
-def _reduction(found: Identification, inertia: np.ndarray) -> dict[str, tuple[tuple[str, ...], np.ndarray]]:
+def _reduction(
+    found: Identification, inertia: np.ndarray, spread: np.ndarray
+) -> dict[str, tuple[tuple[str, ...], np.ndarray]]:
     """Return the fall of C_M and the gamma that it stands for [eq:identification-gamma]."""
     ideal = found.setup.ideal_inertia
     if ideal is None:
@@ -106,11 +109,13 @@ def _reduction(found: Identification, inertia: np.ndarray) -> dict[str, tuple[tu
     fall = np.asarray(ideal)[None, :] - inertia
     out: dict[str, tuple[tuple[str, ...], np.ndarray]] = {"inertia_reduction": (("fit_method", "component"), fall)}
     if found.record.components == 2 and found.setup.regular:
-        speed = 0.5 * np.ptp(found.record.velocity, axis=0)
+        speed = found.velocity_amplitude
         other = speed[::-1] / speed
         # Gamma = omega A fall v_own / v_other, and Gamma = gamma v_x v_y T
-        circulation = 2.0 * math.pi / found.period * found.setup.area * fall / other[None, :]
-        out["equivalent_gamma"] = (("fit_method", "component"), circulation / (speed.prod() * found.period))
+        scale = 2.0 * math.pi / found.period * found.setup.area / other / (speed.prod() * found.period)
+        out["equivalent_gamma"] = (("fit_method", "component"), fall * scale)
+        # gamma falls with C_M in proportion: the same uncertainty, scaled
+        out["equivalent_gamma_half_width"] = (("fit_method", "component"), spread * scale)
     return out
 
 

@@ -74,8 +74,30 @@ def _text(found: Group, name: str, method: str, component: str) -> tuple[str, bo
     spread = value - low
     if not known or not math.isfinite(spread):
         return "not determined", False
+    return _digits(value, spread), True
+
+
+def _digits(value: float, spread: float) -> str:
+    """Return a value up to the first digit of its uncertainty."""
     places = max(0, min(9, -math.floor(math.log10(max(spread, 1e-12)))))
-    return f"{value:.{places}f} ± {spread:.{places}f}", True
+    return f"{value:.{places}f} ± {spread:.{places}f}"
+
+
+def _fall(found: Group, key: str, spread_key: str, at: tuple[int, int]) -> str:
+    """Return the fall of C_M or its gamma with its digits; a dash where there is none, words where it is not known."""
+    values = found.array(key, "fit_method", "component")
+    if values is None:
+        return DASH
+    if spread_key:
+        spreads = found.array(spread_key, "fit_method", "component")
+        spread = math.inf if spreads is None else float(spreads[at])
+    else:
+        place = (*at, found.labels("coefficient").index("inertia"))
+        spread = _entry(found, "value", place) - _entry(found, "low", place)
+    value = float(values[at])
+    if not math.isfinite(spread) or spread > 0.5 * abs(value):
+        return "not determined"
+    return _digits(value, spread)
 
 
 def _place(found: Group, method: str, component: str, name: str) -> tuple[int, int, int]:
@@ -150,9 +172,11 @@ def _tables(found: Group) -> list[Block]:
     for i, method in enumerate(found.labels("fit_method")):
         for c, component in enumerate(found.labels("component")):
             row: list[str | float] = [component, method.replace("_", " ")]
-            for key in ("correlation", "condition", "explained", "drag_share", "inertia_reduction", "equivalent_gamma"):
+            for key in ("correlation", "condition", "explained", "drag_share"):
                 values = found.array(key, "fit_method", "component")
                 row.append(math.nan if values is None else float(values[i, c]))
+            row.append(_fall(found, "inertia_reduction", "", (i, c)))
+            row.append(_fall(found, "equivalent_gamma", "equivalent_gamma_half_width", (i, c)))
             extra.append(row)
     names = (
         "Component",

@@ -367,3 +367,69 @@ def test_intervals_cover_and_nothing_is_biased(kind):
     for key, values in hits.items():
         assert 0.92 < np.mean(values) < 0.98, (key, np.mean(values))
         assert abs(np.mean(errors[key])) < 3.5 * np.std(errors[key]) / math.sqrt(600), key
+
+
+@pytest.mark.parametrize("level", [0.6, 0.9])
+def test_clipping_is_seen_where_samples_repeat_in_every_period(level):
+    """A whole number of samples a period leaves few different values: their spacing is not the step of the gauge."""
+    angle = 2 * math.pi * np.arange(1200) / 60 + 0.7
+    force = np.clip(np.cos(angle), -level, level)
+    with pytest.raises(InputError, match="clipped"):
+        ForceRecord(angle / 6.0, force, np.sin(angle))
+    assert ForceRecord(angle / 6.0, np.cos(angle), np.sin(angle)).components == 1
+
+
+def two_components(rng, *, ratio=0.9, gamma=0.936, noise=0.0):
+    """Return an elliptic orbit with Morison's force of a C_M that a circulation lowered, and the set-up."""
+    period, speed = 1.05, 0.06
+    omega = 2 * math.pi / period
+    angle = 2 * math.pi * np.arange(1200) / 60 + rng.uniform(0, 6)
+    velocity = speed * np.column_stack([np.cos(angle), -ratio * np.sin(angle)])
+    rate = -speed * omega * np.column_stack([np.sin(angle), ratio * np.cos(angle)])
+    fall = gamma * speed**2 * period / (omega * AREA) * np.array([ratio**2, 1.0])
+    force = 1000 * AREA * (2.0 - fall) * rate + 500 * DIAMETER * 1.2 * velocity * np.abs(velocity)
+    force += noise * force.std() * rng.standard_normal(force.shape)
+    setup = Setup(1000.0, AREA, (DIAMETER, DIAMETER), period=period, bootstrap=100, ideal_inertia=(2.0, 2.0))
+    return ForceRecord(angle / omega, force, velocity), setup
+
+
+def test_wrong_periods_and_irregular_records_are_refused_or_told():
+    record, setup = two_components(np.random.default_rng(1))
+    with pytest.raises(InputError, match=r"does not repeat itself every 0\.93 s"):
+        identify(record, replace(setup, period=0.93))
+    near = identify(record, replace(setup, period=1.05 * 1.01))
+    assert "identification-aperiodic-velocity" in {notice.code for notice in near.notices}
+    assert identify(record, setup).notices == ()
+    rng = np.random.default_rng(2)
+    time = 0.02 * np.arange(4000)
+    waves = np.cos(rng.uniform(4, 9, 30) * time[:, None] + rng.uniform(0, 6, 30)).sum(axis=1)
+    with pytest.raises(InputError, match="regular: false"):
+        identify(ForceRecord(time, waves, waves), Setup(1000.0, AREA, (DIAMETER,)))
+
+
+def test_exchanged_columns_and_signs_are_called_implausible():
+    record, setup = two_components(np.random.default_rng(3), noise=0.01)
+    for force, velocity in ((record.velocity, record.force), (-record.force, record.velocity)):
+        codes = [notice.code for notice in identify(ForceRecord(record.time, force, velocity), setup).notices]
+        assert "identification-implausible" in codes
+    whole = identify(ForceRecord(record.time, 79.0 * record.force, record.velocity), setup)
+    assert "identification-implausible" in {notice.code for notice in whole.notices}
+
+
+def test_one_message_a_coefficient_not_one_a_method():
+    record, setup = two_components(np.random.default_rng(4), noise=1.0)
+    found = identify(record, replace(setup, phase_error=0.2))
+    unknown = [notice.message for notice in found.notices if notice.code == "identification-unknown"]
+    assert len(unknown) == 2 and all("C_D" in message for message in unknown)
+
+
+def test_noise_of_the_velocity_does_not_enter_kc_and_gamma():
+    """Extremes of a noisy record lie outside the orbit; mean and harmonics do not."""
+    rng = np.random.default_rng(5)
+    record, setup = two_components(rng, noise=0.02)
+    rough = ForceRecord(record.time, record.force, record.velocity + 0.004 * rng.standard_normal((1200, 2)))
+    found = identify(rough, replace(setup, methods=("fourier",)))
+    assert found.keulegan_carpenter == pytest.approx((1.4, 1.26), rel=0.01)
+    tree = identification_result(found, title="t").tree["coefficients"]
+    gamma, spread = tree["equivalent_gamma"].values[0], tree["equivalent_gamma_half_width"].values[0]
+    assert gamma == pytest.approx(0.936, abs=0.03) and (spread > 0.001).all() and (spread < 0.03).all()
