@@ -74,7 +74,6 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
 
     curtain, water, given = unit.curtain, unit.water, unit.statics
     deep = math.isinf(water.depth)
-    below = _speed_below(unit, given)
     rows: dict[str, list[float]] = {
         "drag_coefficient": [case.section.drag_coefficient for case in cases],
         "blockage": [case.section.blockage for case in cases],
@@ -84,7 +83,7 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
         "toe_depth": [case.section.toe_depth for case in cases],
         "toe_gap": [math.nan if deep else case.toe_gap for case in cases],
         "toe_speed": [case.toe_speed for case in cases],
-        "toe_speed_ratio": [case.toe_speed / below if below > 0.0 else math.nan for case in cases],
+        "toe_speed_ratio": [case.toe_speed_ratio for case in cases],
         "section_load": [case.section.load for case in cases],
         "top_load": [case.section.top_load for case in cases],
         "toe_hold": [case.section.toe_hold for case in cases],
@@ -144,16 +143,6 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
     data = labelled(data)
     data["anchor_spacing"].attrs["governing"] = spacing.governing
     return data
-
-
-def _speed_below(unit: LevelCurtain, statics: CurtainStatics) -> float:
-    """Return the undisturbed mean speed between toe and bed along the flow [m/s]."""
-    if not statics.toe_gap > 0.0 or math.isinf(unit.water.depth):
-        return math.nan
-    current = unit.site.current(unit.surface_speed)
-    mean = current.depth_mean(-unit.water.depth, -statics.section.toe_depth)
-    heading = unit.site.flow_heading
-    return float(mean @ np.array([math.cos(heading), math.sin(heading)]))
 
 
 def _anchor_spacing(unit: LevelCurtain) -> Limit:
@@ -379,7 +368,7 @@ def _section_miss(unit: LevelCurtain, current: CurrentProfile) -> float:
     section = unit.statics.section
     x, z = section.x, section.z
     pressure = section.drag_coefficient * sample_pressure(
-        current, unit.site.flow_heading, np.maximum(0.5 * (z[1:] + z[:-1]), -unit.water.depth), unit.water.density
+        current, unit.statics.section_heading, np.maximum(0.5 * (z[1:] + z[:-1]), -unit.water.depth), unit.water.density
     )
     step = np.hypot(np.diff(x), np.diff(z))
     down = -np.diff(z) / step

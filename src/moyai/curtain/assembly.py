@@ -81,6 +81,12 @@ class LevelCurtain:
         return self.site.statics(self.hanging, self.surface_speed)
 
     @cached_property
+    def facing(self) -> Site:
+        """The site with what of its currents goes along the normal: so the water of waves loads an oblique curtain."""
+        site, normal = self.site, self.curtain.normal
+        return replace(site, current=lambda speed: _across(site.current(speed), normal), flow_heading=normal)
+
+    @cached_property
     def drowning_speed(self) -> float:
         """Surface speed that uses up the float reserve [m/s], infinite where none up to 10 m/s does."""
         return drowning_speed(self.hanging, self.site, highest=_FASTEST)
@@ -166,6 +172,20 @@ def scaled_current(profile: CurrentProfile, factor: float) -> CurrentProfile:
     if isinstance(profile, TabulatedCurrent):
         return replace(profile, components=factor * profile.components)
     raise TypeError(f"a current of kind {type(profile).__name__} cannot be scaled")
+
+
+def _across(profile: CurrentProfile, normal: float) -> CurrentProfile:
+    """Return the part of a current along a heading."""
+    if isinstance(profile, TabulatedCurrent):
+        direction = np.array([math.cos(normal), math.sin(normal)])
+        return replace(profile, components=np.outer(profile.components @ direction, direction))
+    if isinstance(profile, UniformCurrent):
+        share = math.cos(profile.heading - normal)
+        return replace(profile, current_speed=share * profile.current_speed, heading=normal)
+    if isinstance(profile, PowerLawCurrent):
+        share = math.cos(profile.heading - normal)
+        return replace(profile, surface_speed=share * profile.surface_speed, heading=normal)
+    raise TypeError(f"a current of kind {type(profile).__name__} has no part along a heading")
 
 
 def _in_water(profile: CurrentProfile, water: Water) -> CurrentProfile:

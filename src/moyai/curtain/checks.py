@@ -111,7 +111,7 @@ def check_statics(statics: CurtainStatics, speed: float, water: Water) -> tuple[
     if statics.toe_gap < 0.3:
         text = f"toe {statics.toe_gap:.3g} m above the bed; practice keeps 0.3 to 0.6 m"
         notices.append(Notice("curtain-toe-gap", text, statics.toe_gap, 0.3, "warning", "shorten the skirt", _TOE))
-    ratio = statics.toe_speed / speed if speed > 0.0 else 0.0
+    ratio = statics.toe_speed_ratio
     if ratio > 5.0:
         text = (
             f"by continuity {statics.toe_speed:.3g} m/s go under the toe, {ratio:.3g} times the current: through so "

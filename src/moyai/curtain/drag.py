@@ -135,6 +135,21 @@ def under_toe_speed(
     return below + passing_fraction * held / (water.depth - toe_depth)
 
 
+def under_toe_flow(
+    current: CurrentProfile, heading: float, toe_depth: float, water: Water, passing_fraction: float
+) -> tuple[float, float]:
+    """Return the mean speed under the toe [m/s] and its ratio to that of the undisturbed current there [-].
+
+    Only the flow across the curtain is held up: what flows along it goes on as it was. Arguments and errors as
+    :func:`under_toe_speed`; the ratio is NaN where nothing flows.
+    """
+    across = under_toe_speed(current, heading, toe_depth, water, passing_fraction)
+    below = current.depth_mean(-water.depth, -toe_depth)
+    along = float(below @ np.array([-math.sin(heading), math.cos(heading)]))
+    speed, undisturbed = math.hypot(across, along), float(np.hypot(*below))
+    return speed, speed / undisturbed if undisturbed > 0.0 else math.nan
+
+
 def sample_pressure(current: CurrentProfile, heading: float, z: ArrayLike, density: float) -> Array:
     """Return rho/2 u|u| [N/m2] of the component along ``heading`` [rad] at heights ``z`` [m]."""
     u = current.component(z, heading)

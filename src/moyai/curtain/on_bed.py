@@ -66,9 +66,11 @@ def solve_on_bed(
     return CurtainStatics(
         curtain=curtain,
         section=section,
+        section_heading=flow_heading,
         plan=plan,
         toe_gap=0.0,
         toe_speed=0.0,
+        toe_speed_ratio=math.nan,
         upper_tension=plan.tension,
         lower_tension=0.0,
         anchor_force=inner,

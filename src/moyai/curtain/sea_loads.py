@@ -78,7 +78,7 @@ def drag_curve(unit: LevelCurtain, highest: float) -> DragCurve:
     speeds, rows = [0.0], [_still(unit)]
     for speed in highest * (np.arange(1, _CURVE_POINTS) / (_CURVE_POINTS - 1.0)) ** 2:
         try:
-            statics = unit.site.statics(unit.hanging, float(speed) / unit.unit_normal_speed)
+            statics = unit.facing.statics(unit.hanging, float(speed) / unit.unit_normal_speed)
         except (InputError, ConvergenceError):
             break
         speeds.append(float(speed))

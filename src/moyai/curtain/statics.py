@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from moyai.core.errors import InputError
-from moyai.curtain.drag import DragLaw, under_toe_speed
+from moyai.curtain.drag import DragLaw, under_toe_flow
 from moyai.curtain.plan import PlanShape, section_load, solve_plan
 from moyai.curtain.section import LoadLaw, SectionShape, Skirt, solve_section
 from moyai.sea.current import CurrentProfile
@@ -103,13 +105,17 @@ class CurtainStatics:
     curtain : HangingCurtain
         What was solved.
     section : SectionShape
-        Across the current, at the middle of the span.
+        Where the curtain faces the current most: at the middle of the span in a current along its normal.
+    section_heading : float
+        Of the curtain's normal at that section [rad].
     plan : PlanShape
         Between the supports.
     toe_gap : float
         Clearance between toe and bed [m].
     toe_speed : float
-        Mean speed under the toe [m/s]; NaN in infinite depth.
+        Mean speed under the toe [m/s], what flows along the curtain included; NaN in infinite depth.
+    toe_speed_ratio : float
+        Over that of the undisturbed current there [-]; NaN in infinite depth, or where nothing flows there.
     upper_tension, lower_tension : float
         Of the two cables [N].
     anchor_force : float
@@ -124,9 +130,11 @@ class CurtainStatics:
 
     curtain: HangingCurtain
     section: SectionShape
+    section_heading: float
     plan: PlanShape
     toe_gap: float
     toe_speed: float
+    toe_speed_ratio: float
     upper_tension: float
     lower_tension: float
     anchor_force: float
@@ -197,21 +205,28 @@ def solve_statics(
         **settings,  # type: ignore[arg-type]
     )
     plan = solve_plan(curtain.span, curtain.length, curtain.axial_stiffness, load)
+    local = plan.angle + load.flow_angle
+    turn = float(np.clip(0.0, local.min(), local.max()))
+    if turn != 0.0:
+        # no part of the span lies across so oblique a current
+        section = solve_section(curtain.skirt, current, flow_heading - turn, water, curtain.drag, **settings)  # type: ignore[arg-type]
     share = section.toe_hold / section.load
     first, second = plan.downstream_end_forces
     lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])
     inner = math.hypot(first + second, lean)
     lone = max(math.hypot(down, along) for down, along in zip((first, second), plan.inward_end_forces))
-    finite = math.isfinite(water.depth)
+    under, ratio = math.nan, math.nan
+    if math.isfinite(water.depth):
+        under, ratio = under_toe_flow(current, chord_normal, section.toe_depth, water, passing_fraction)
     down_pull = section.top_pull + inner * math.tan(curtain.anchor_slope) / curtain.span
     return CurtainStatics(
         curtain=curtain,
         section=section,
+        section_heading=flow_heading - turn,
         plan=plan,
         toe_gap=water.depth - section.toe_depth,
-        toe_speed=under_toe_speed(current, flow_heading, section.toe_depth, water, passing_fraction)
-        if finite
-        else math.nan,
+        toe_speed=under,
+        toe_speed_ratio=ratio,
         upper_tension=plan.tension * (1.0 - share),
         lower_tension=plan.tension * share,
         anchor_force=inner,

@@ -265,6 +265,20 @@ def test_drag_curve_is_the_statics_between_its_points(small):
         assert found.anchor_line == pytest.approx(statics.anchor_line_tension, rel=3e-3)
 
 
+def test_waves_along_the_normal_load_a_curtain_in_an_oblique_current_by_their_own_direction(tmp_path):
+    """The drag curve of an oblique current is that of the current's normal component alone."""
+    units = []
+    for angle, speed in ((65.0, 0.2), (0.0, 0.2 * math.cos(math.radians(65.0)))):
+        text = SMALL.replace("speed: 0.2 m/s, heading_deg: 0", f"speed: {speed!r}, heading_deg: {angle}")
+        units.append(assemble(problem_of(tmp_path, text), "SWL", 0.0))
+    oblique, square = (drag_curve(unit, 1.5) for unit in units)
+    rng = np.random.default_rng(17)
+    for speed in rng.uniform(0.05, 1.5, 6):
+        one, other = oblique.at(float(speed)), square.at(float(speed))
+        assert one.upper_cable == pytest.approx(other.upper_cable, rel=1e-9)
+        assert one.anchor_line == pytest.approx(other.anchor_line, rel=1e-9)
+
+
 def test_cycle_table_is_the_oscillator(small):
     """At a height that was run the table is the run itself, and it never falls with the height."""
     from moyai.curtain.analysis_impact import drag_coefficient, solve_impact
