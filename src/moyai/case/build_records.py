@@ -92,6 +92,12 @@ class _Builder:
             self.fault(("waves", "detrend"), "'high_pass' needs 'cutoff'", remedy="give the cut-off period")
         if spectrum is not None and spectrum.lowest >= spectrum.highest:
             self.fault(("spectrum", "lowest"), "the band is empty", allowed="'lowest' below 'highest'")
+        if spectrum is not None and spectrum.segment is not None and spectrum.segment > model.blocks.length:
+            self.fault(
+                ("spectrum", "segment"),
+                f"segments of {spectrum.segment:g} s do not fit into blocks of {model.blocks.length:g} s",
+                remedy="take shorter segments or longer blocks",
+            )
         bearing = site.x_axis_bearing_deg if site is not None else None
         if (
             model.current is not None
@@ -206,6 +212,12 @@ class _Builder:
         if time.columns is not None and time.format is None:
             self.fault((*path, "time"), "two columns of date and time need 'format'")
         start = self._date(time.start, (*path, "time", "start"))
+        if time.start is not None and time.utc_offset != 0.0:
+            self.fault(
+                (*path, "time", "utc_offset"),
+                "'utc_offset' belongs to stamps, not to seconds after 'start'",
+                remedy="write the offset into 'start': 1999-09-23T00:00:00+09:00",
+            )
         reference = self._date(entry.clock.reference, (*path, "clock", "reference"))
         delimiter = {"tab": "\t", "space": "whitespace", " ": "whitespace"}.get(entry.delimiter, entry.delimiter)
         if len(delimiter) > 1 and delimiter not in ("auto", "whitespace"):

@@ -73,6 +73,9 @@ def fit_decay(
     inner = motion[1:-1]
     turning = np.flatnonzero((inner - motion[:-2]) * (motion[2:] - inner) <= 0.0) + 1
     turning = turning[motion[turning] * (2.0 * motion[turning] - motion[turning - 1] - motion[turning + 1]) > 0.0]
+    # Noise or steps of the resolution turn the record twice on one side of rest: the largest is the extreme
+    sides = np.split(turning, np.flatnonzero(np.diff(np.sign(motion[turning])) != 0.0) + 1)
+    turning = np.array([part[np.argmax(np.abs(motion[part]))] for part in sides if part.size], dtype=np.int64)
     if turning.size < 3:
         raise InputError(f"{turning.size} extremes in the record", path="position", allowed="3 or more")
     # Parabola through three rows: the extreme lies between them

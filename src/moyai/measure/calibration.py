@@ -90,7 +90,7 @@ class Calibration:
     condition : float
         Condition number of the scaled sensitivities.
     interval : ndarray, shape (parameters, 2)
-        95 % interval of the bootstrap; of the covariance where there was none.
+        95 % interval of the bootstrap, widened for few observations; of the covariance (Student) where there was none.
     samples : ndarray, shape (draws, parameters)
         Bootstrap estimates.
     left_out : tuple of LeftOut
@@ -277,10 +277,7 @@ def calibrate(
     covariance, condition = _covariance(sensitivity, residual * weight, values, fitter.scale, error is not None)
     errors = np.sqrt(np.diag(covariance))
     samples = _draws(fitter, values, groups, bootstrap, seed, progress)
-    if samples.shape[0] >= 20:
-        interval = np.quantile(samples, (0.025, 0.975), axis=0).T
-    else:
-        interval = np.column_stack([values - 1.96 * errors, values + 1.96 * errors])
+    interval = _interval(values, errors, samples, _independent(count, groups) - size, error is not None)
     left_out = _leave_out(fitter, values, groups, progress)
     progress("calibration", 1, 1)
     return Calibration(
@@ -299,6 +296,36 @@ def calibrate(
         fitter.calls,
         _notices(parameters, values, errors, covariance, condition, left_out),
     )
+
+
+_WHOLE_GROUPS = 8
+"""From so many groups on the bootstrap draws whole ones."""
+
+
+def _independent(count: int, groups: Sequence[str] | None) -> int:
+    """Return how many observations, or groups drawn whole, the bootstrap chooses from."""
+    names = len(set(groups)) if groups is not None else 0
+    return names if names >= _WHOLE_GROUPS else count
+
+
+def _interval(
+    values: FloatArray, errors: FloatArray, samples: FloatArray, freedom: int, known_error: bool
+) -> FloatArray:
+    """Return 95 % intervals: of the draws where there are enough, else of the covariance.
+
+    A scatter found from few observations is uncertain itself, for which Student's distribution allows; draws from few
+    observations scatter too little besides, by the root of the share of the degrees of freedom.
+    """
+    from scipy.special import stdtrit
+
+    reach = 1.959964 if known_error else (float(stdtrit(freedom, 0.975)) if freedom > 0 else math.nan)
+    if samples.shape[0] < 20:
+        return np.column_stack([values - reach * errors, values + reach * errors])
+    bounds = np.asarray(np.quantile(samples, (0.025, 0.975), axis=0).T, dtype=np.float64)
+    if freedom <= 0:
+        return bounds
+    wider = math.sqrt((freedom + values.size) / freedom) * float(stdtrit(freedom, 0.975)) / 1.959964
+    return np.asarray(values[:, None] + wider * (bounds - values[:, None]))
 
 
 def _covariance(
@@ -330,7 +357,7 @@ def _draws(
     names = list(dict.fromkeys(groups)) if groups is not None else []
     out = []
     for draw in range(draws):
-        if len(names) >= 8:
+        if len(names) >= _WHOLE_GROUPS:
             picked = random.integers(0, len(names), len(names))
             times = np.bincount(picked, minlength=len(names))
             assert groups is not None

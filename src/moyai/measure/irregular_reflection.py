@@ -170,6 +170,7 @@ def separate_irregular(
     mean = power.mean(axis=0)
     mean[:, ~used] = np.nan
     notices = _condition_notices(frequency, condition, used, largest_condition)
+    notices = (*notices, *_delay_notices(frequency[used], k[used], x, size * step))
     if energy[:, 1].mean() < 0.0:
         message = "the reflected energy is not above the noise of the gauges: reflection is shown as 0"
         notices = (*notices, Notice("reflection-noise", message, ratio, 0.0))
@@ -222,6 +223,25 @@ def _segment_error(energy: FloatArray, size: int, shift: int, seed: int) -> floa
     starts = random.integers(0, count - run + 1, (400, math.ceil(count / run)))
     picks = (starts[:, :, None] + np.arange(run)).reshape(400, -1)[:, :count]
     return float(np.std([_ratio(energy[pick].mean(axis=0)) for pick in picks]))
+
+
+LARGEST_DELAY = 0.05
+"""Share of a segment that energy may take from the first to the last gauge."""
+
+
+def _delay_notices(frequency: FloatArray, k: FloatArray, x: FloatArray, length: float) -> tuple[Notice, ...]:
+    """Return a notice where the energy takes so long past the gauges that they see different stretches of the sea."""
+    if frequency.size < 2:
+        return ()
+    slowest = float(np.max(np.gradient(k, 2.0 * math.pi * frequency)))  # inverse of the group velocity
+    delay = slowest * float(np.ptp(x))
+    if delay <= LARGEST_DELAY * length:
+        return ()
+    message = (
+        f"energy takes up to {delay:.3g} s past the gauges, {100.0 * delay / length:.2g} % of a segment: the "
+        "waves they share are blurred, and small reflections come out too high"
+    )
+    return (Notice("gauge-delay", message, delay / length, LARGEST_DELAY, remedy="take longer segments"),)
 
 
 def _condition_notices(

@@ -431,6 +431,11 @@ def find_drift(moments: Sequence[BlockMoments], channel: str) -> Drift | None:
     return Drift(channel, rate, error, change, abs(change) / typical if typical > 0.0 else math.inf)
 
 
+def _percent(count: int, samples: int) -> str:
+    share = 100.0 * count / max(samples, 1)
+    return f"{share:.3g} %" if share >= 10.0 else f"{share:.2g} %"
+
+
 def quality_notices(
     quality: Mapping[str, Mapping[str, int]], samples: int, gaps: Sequence[tuple[float, float]], dated: bool
 ) -> tuple[Notice, ...]:
@@ -450,7 +455,7 @@ def quality_notices(
             notices.append(
                 Notice(
                     "record-quality",
-                    f"{channel}: {count} samples ({100.0 * count / max(samples, 1):.2g} %) flagged as {kind}; values "
+                    f"{channel}: {count} samples ({_percent(count, samples)}) flagged as {kind}; values "
                     "were left as they are",
                     float(count),
                 )

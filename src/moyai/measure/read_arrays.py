@@ -38,18 +38,23 @@ def _entry(column: str) -> tuple[str, tuple[int, ...]]:
 # ---------------------------------------------------------------------------------------------------- NetCDF
 
 
+def _netcdf(path: Path) -> Any:
+    import xarray as xr
+
+    try:
+        return xr.open_dataset(path, decode_times=False, cache=False)
+    except (OSError, ValueError, KeyError) as error:
+        # xarray's own words go on about engines
+        told = str(error).splitlines()[0][:120] if isinstance(error, OSError) and str(error) else "it holds none"
+        raise InputError(f"{path.name} cannot be read as NetCDF: {told}", path="file") from None
+
+
 def read_netcdf(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]:
     """Yield chunks of NetCDF variables, with fill value, scale and offset applied.
 
     Time with CF units (``seconds since ...``) comes as seconds since 1970 UTC.
     """
-    import xarray as xr
-
-    try:
-        dataset = xr.open_dataset(path, decode_times=False, cache=False)
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path.name} cannot be read as NetCDF: {error}", path="file") from None
-    with dataset:
+    with _netcdf(path) as dataset:
         dimension, size = _time_dimension(dataset, path, wanted)
         for first in range(0, size, rows):
             window = slice(first, min(first + rows, size))
@@ -95,8 +100,6 @@ def _time_dimension(dataset: Any, path: Path, wanted: Sequence[str]) -> tuple[st
 
 def _epoch(values: NDArray[np.float64], units: str) -> NDArray[np.float64]:
     """Return CF time in seconds since 1970, other values unchanged."""
-    from datetime import UTC, datetime
-
     match = re.match(r"^\s*(\w+)\s+since\s+(.+?)\s*$", units)
     if match is None:
         return values
@@ -105,22 +108,38 @@ def _epoch(values: NDArray[np.float64], units: str) -> NDArray[np.float64]:
                "nanosecond": 1e-9, "d": 86400.0}  # fmt: skip
     unit = match[1].lower()
     factor = factors.get(unit, factors.get(unit.rstrip("s")))
-    text = match[2].replace("UTC", "").replace("Z", "").strip()
-    try:
-        start = datetime.fromisoformat(text)
-    except ValueError:
-        start = None  # type: ignore[assignment]
+    start = _reference(match[2])
     if factor is None or start is None:
         raise InputError(f"the time unit '{units}' is not understood", path="time", allowed="seconds since 1970-01-01")
-    start = start if start.tzinfo else start.replace(tzinfo=UTC)
-    return values * factor + start.timestamp()
+    return values * factor + start
+
+
+_REFERENCE = re.compile(
+    r"^(\d{1,4})-(\d{1,2})-(\d{1,2})(?:[T\s]+(\d{1,2})(?::(\d{1,2}))?(?::(\d{1,2}(?:\.\d*)?))?)?"
+    r"\s*(?:UTC|GMT|Z|([+-])(\d{1,2}):?(\d{2})?)?$"
+)
+
+
+def _reference(text: str) -> float | None:
+    """Return the reference of a CF time in seconds since 1970; figures need no leading zeros there."""
+    from datetime import UTC, datetime
+
+    match = _REFERENCE.match(text.strip())
+    if match is None:
+        return None
+    hours, minutes, seconds = int(match[4] or 0), int(match[5] or 0), float(match[6] or 0.0)
+    try:
+        day = datetime(int(match[1]), int(match[2]), int(match[3]), tzinfo=UTC)
+    except ValueError:
+        return None
+    offset = 3600.0 * int(match[8] or 0) + 60.0 * int(match[9] or 0)
+    zone = -offset if match[7] == "-" else offset
+    return day.timestamp() + 3600.0 * hours + 60.0 * minutes + seconds - zone
 
 
 def netcdf_unit(path: Path, column: str) -> str:
     """Return the unit attribute of a variable, empty where there is none."""
-    import xarray as xr
-
-    with xr.open_dataset(path, decode_times=False, cache=False) as dataset:
+    with _netcdf(path) as dataset:
         name = _entry(column)[0]
         return str(dataset.variables[name].attrs.get("units", "")) if name in dataset.variables else ""
 
@@ -142,7 +161,7 @@ def _parquet(path: Path) -> Any:
 
 
 def read_parquet(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]:
-    """Yield chunks of Parquet columns; stamps come as seconds since 1970 (as written, without their zone)."""
+    """Yield chunks of Parquet columns; stamps come as seconds since 1970, in UTC where they know their zone."""
     import pyarrow as pa
 
     file = _parquet(path)
@@ -189,14 +208,13 @@ def parquet_unit(path: Path, column: str) -> str:
     return split_heading(name)[1]
 
 
-def parquet_has_stamps(path: Path, column: str) -> bool:
-    """Whether a Parquet column holds time stamps."""
+def parquet_stamps(path: Path, column: str) -> tuple[bool, str]:
+    """Return whether a Parquet column holds time stamps, and the time zone they know (then stored in UTC)."""
     import pyarrow as pa
 
-    file = _parquet(path)
-    return bool(
-        pa.types.is_timestamp(file.schema_arrow.field(_parquet_name(path, column, file.schema_arrow.names)).type)
-    )
+    schema = _parquet(path).schema_arrow
+    kind = schema.field(_parquet_name(path, column, schema.names)).type
+    return (True, str(kind.tz or "")) if pa.types.is_timestamp(kind) else (False, "")
 
 
 # --------------------------------------------------------------------------------------------------- MATLAB
@@ -214,6 +232,11 @@ def read_mat(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]
         raise InputError(f"{path.name} has no samples", path="file")
     for first in range(0, size, rows):
         yield RawChunk({column: array[first : first + rows] for column, array in arrays.items()}, first)
+
+
+def check_mat(path: Path, column: str) -> None:
+    """Say what is wrong where a MATLAB file has no such column of numbers."""
+    _mat_column(path, column)
 
 
 def _mat_column(path: Path, column: str) -> NDArray[np.float64]:
@@ -248,7 +271,7 @@ def _mat_variable(path: Path, name: str) -> Any:
         content = {key: value for key, value in content.items() if not key.startswith("__")}
     except NotImplementedError:
         return _mat_hdf5(path, parts)
-    except (OSError, ValueError, MatReadError, TypeError) as error:
+    except (OSError, ValueError, MatReadError, TypeError, IndexError) as error:
         raise InputError(f"{path.name} cannot be read as a MATLAB file: {error}", path="file") from None
     found: Any = content.get(parts[0])
     if found is None:

@@ -81,7 +81,9 @@ def find_encoding(path: Path, wanted: str) -> str:
             continue
         return name
     raise InputError(
-        f"{path.name} is neither UTF-8 nor Shift-JIS", path="encoding", remedy="give 'encoding', for instance latin-1"
+        f"{path.name} is neither UTF-8 nor Shift-JIS",
+        path="encoding",
+        remedy="give 'encoding', for instance euc_jp or latin-1",
     )
 
 
@@ -146,19 +148,27 @@ def find_layout(path: Path, source: LoggerSource) -> TextLayout:
         header = next((number for number, line in enumerate(lines, 1) if is_text(line)), 0)
     first = source.first_row or header + 1
     body = [line for line in lines[first - 1 :] if is_text(line)]
+    heading = lines[header - 1] if 0 < header <= len(lines) else ""
     if not body:
         raise InputError(f"{path.name} has no samples from line {first} on", path="file")
     delimiter = source.delimiter
     if delimiter == "auto":
-        delimiter = _sniff(body, source.decimal)
+        delimiter = _sniff(body, source.decimal, heading)
     elif delimiter == "whitespace":
         delimiter = r"\s+"
     headings: tuple[str, ...] = ()
     if header:
         if header > len(lines):
             raise InputError(f"{path.name} has no line {header}", path="header_row")
-        headings = tuple(cell.strip().strip('"') for cell in _cells(lines[header - 1], delimiter))
+        headings = tuple(cell.strip().strip('"') for cell in _heading_cells(heading, delimiter))
     return TextLayout(encoding, delimiter, headings, first - 1, len(_cells(body[0], delimiter)))
+
+
+def _heading_cells(line: str, delimiter: str) -> list[str]:
+    """Return the cells of the headings; between spaces a unit in brackets belongs to the name before it."""
+    if delimiter == r"\s+":
+        return re.split(r"\s+(?![\[\(（])", line.strip())
+    return _cells(line, delimiter)
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
@@ -170,16 +180,20 @@ def _cells(line: str, delimiter: str) -> list[str]:
     return next(csv.reader(io.StringIO(line), delimiter=delimiter), [])
 
 
-def _sniff(lines: Sequence[str], decimal: str) -> str:
-    """Return the delimiter that cuts most lines into the same, largest number of cells."""
-    best, most = r"\s+", 1
+def _sniff(lines: Sequence[str], decimal: str, heading: str) -> str:
+    """Return the delimiter that cuts most lines into the same, largest number of cells.
+
+    One that cuts the headings into as many goes before: commas may be decimal signs.
+    """
+    best, most, best_fits = r"\s+", 1, False
     for mark in ("\t", ";", ",", "|"):
         if mark == decimal:
             continue
         counts = sorted(line.count(mark) for line in lines)
         usual = counts[(len(counts) - 1) // 2]
-        if counts.count(usual) > 0.5 * len(counts) - 1e-9 and usual + 1 > most:
-            best, most = mark, usual + 1
+        fits = bool(heading) and heading.count(mark) == usual > 0
+        if counts.count(usual) > 0.5 * len(counts) - 1e-9 and (fits, usual + 1) > (best_fits, most):
+            best, most, best_fits = mark, usual + 1, fits
     return best
 
 
@@ -293,11 +307,16 @@ def _numbers(
     if bad.any():
         row = int(np.flatnonzero(bad.to_numpy())[0])
         line = _line_of(path, layout, source.comment, first + row)
+        remedy = "name the signs that mean 'no value' under 'missing', or check 'decimal' and 'first_row'"
+        if column in source.time.columns:
+            remedy = "dates need 'time.format': iso, or a pattern such as '%Y/%m/%d %H:%M:%S'"
+        elif source.decimal == "." and re.fullmatch(r"\s*[-+]?\d+,\d+\s*", str(text.iloc[row])):
+            remedy = "give 'decimal: \",\"' where a comma is the decimal sign"
         shown = layout.headings[place_of(column, layout.headings, layout.width, path.name)] if layout.headings else ""
         raise InputError(
             f"{path.name} line {line}, column '{shown or column}': '{str(text.iloc[row])[:40]}' is not a number",
             path=str(column),
-            remedy="name the signs that mean 'no value' under 'missing', or check 'decimal' and 'first_row'",
+            remedy=remedy,
         )
     return np.asarray(numbers.to_numpy(dtype=np.float64))
 
@@ -324,7 +343,7 @@ def line_of_row(path: Path, source: LoggerSource, row: int) -> int:
 def stated_unit(path: Path, source: LoggerSource, column: str | int) -> str:
     """Return the unit that the heading of a column states, empty where it states none."""
     layout = find_layout(path, source)
-    if not layout.headings:
+    if not layout.headings and isinstance(column, int):
         return ""
     place = place_of(column, layout.headings, layout.width, path.name)
     return split_heading(layout.headings[place])[1] if place < len(layout.headings) else ""

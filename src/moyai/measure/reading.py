@@ -6,6 +6,7 @@ Memory stays bounded by the length of a chunk, so that weeks at 10 Hz pass throu
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -169,6 +170,8 @@ def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Un
             )
         return unit, si_symbol(unit)
     if own is None:
+        if form == "mat":  # which states no units: is the variable there at all?
+            read_arrays.check_mat(path, str(column.column))
         told = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
         raise InputError(f"{place} {told}", path=f"channels.{column.name}.unit", remedy="give 'unit'")
     return own, si_symbol(own)
@@ -223,7 +226,13 @@ class _Clock:
         if form == "netcdf":
             self.file_has_epoch = " since " in read_arrays.netcdf_unit(path, column)
         elif form == "parquet":
-            self.file_has_epoch = read_arrays.parquet_has_stamps(path, column)
+            self.file_has_epoch, zone = read_arrays.parquet_stamps(path, column)
+            if zone and self.time.utc_offset != 0.0:
+                raise InputError(
+                    f"{path.name}, column '{column}' knows its time zone ({zone})",
+                    path="time.utc_offset",
+                    remedy="leave 'utc_offset' out: it would count twice",
+                )
         self.dated = self.dated or self.file_has_epoch
 
     def instants(self, raw: RawChunk) -> tuple[FloatArray, NDArray[np.bool_] | None, tuple[Notice, ...]]:
@@ -263,6 +272,14 @@ class _Clock:
         for further in columns[1:]:
             text = text + " " + pd.Series(further, dtype="object").astype(str)
         form = "ISO8601" if self.time.form == "iso" else self.time.form
+        zoned = self.time.form == "iso" or "%z" in self.time.form
+        own_zone = re.search(r":[\d.,]+\s*(Z|[+-]\d\d:?(\d\d)?)\s*$", text.iloc[0]) if zoned and len(text) else None
+        if self.time.utc_offset != 0.0 and own_zone is not None:
+            raise InputError(
+                f"{self._place(raw, 0)}: '{text.iloc[0][:40]}' states its own offset from UTC ({own_zone[1]})",
+                path="time.utc_offset",
+                remedy="leave 'utc_offset' out: it would count twice",
+            )
         try:
             found = pd.to_datetime(text, format=form, utc=True)
         except (ValueError, TypeError):

@@ -267,14 +267,19 @@ def cross_spectra(step: float, channels: ArrayLike, options: WelchOptions) -> Cr
     if size % 2 == 0:
         density[-1] *= 0.5
     frequency = np.asarray(np.fft.rfftfreq(size, step), dtype=np.float64)
-    freedom = degrees_of_freedom(window, shift, used)
+    freedom = degrees_of_freedom(window, shift, used, options.bands)
+    if options.bands >= frequency.size:
+        raise InputError(
+            f"{options.bands} bands of {frequency.size - 1} frequencies",
+            path="bands",
+            allowed=f"1 to {(frequency.size - 1) // 2}",
+        )
     if options.bands > 1:
         # The mean value is no wave: bands begin above zero frequency
         count = (frequency.size - 1) // options.bands
         kept = slice(1, 1 + count * options.bands)
         density = np.asarray(density[kept].reshape(count, options.bands, *density.shape[1:]).mean(axis=1))
         frequency = np.asarray(frequency[kept].reshape(count, options.bands).mean(axis=1), dtype=np.float64)
-        freedom *= options.bands * _band_efficiency(window, options.bands)
     notices = []
     left_out = starts.size - used
     if left_out:
@@ -290,22 +295,29 @@ def spectrum_of(step: float, values: ArrayLike, options: WelchOptions) -> Measur
     return cross_spectra(step, values, options).spectrum()
 
 
-def degrees_of_freedom(window: FloatArray, shift: int, segments: int) -> float:
-    """Return the equivalent degrees of freedom of overlapping segments; equation [eq:records-freedom]."""
+def degrees_of_freedom(window: FloatArray, shift: int, segments: int, bands: int = 1) -> float:
+    """Return the equivalent degrees of freedom of overlapping segments; equation [eq:records-freedom].
+
+    Parameters
+    ----------
+    window : ndarray
+        Taper of a segment.
+    shift : int
+        Samples from the start of one segment to that of the next.
+    segments : int
+        Number of segments.
+    bands : int
+        Neighbouring frequencies averaged. Under overlap neighbours of different segments go together too, so that their
+        shares do not simply multiply.
+    """
     size, power = window.size, float(np.sum(window**2))
-    shares = 1.0
-    for lag in range(1, segments):
+    shares = 0.0
+    for lag in range(segments):
         if lag * shift >= size:
             break
-        product = float(np.sum(window[lag * shift :] * window[: size - lag * shift])) / power
-        shares += 2.0 * (1.0 - lag / segments) * product**2
-    return 2.0 * segments / shares
-
-
-def _band_efficiency(window: FloatArray, bands: int) -> float:
-    """Return how independent neighbouring estimates are under a window: 1 for none."""
-    square = window**2
-    transform = np.fft.fft(square)[:bands]
-    correlation = np.abs(transform / transform[0]) ** 2
-    shares = 1.0 + 2.0 * float(np.sum((1.0 - np.arange(1, bands) / bands) * correlation[1:]))
-    return 1.0 / shares
+        product = np.zeros(size)
+        product[: size - lag * shift] = window[lag * shift :] * window[: size - lag * shift]
+        correlation = np.abs(np.fft.fft(product)[:bands] / power) ** 2
+        together = float(correlation[0] + 2.0 * np.sum((1.0 - np.arange(1, bands) / bands) * correlation[1:]))
+        shares += (1.0 if lag == 0 else 2.0) * (1.0 - lag / segments) * together
+    return 2.0 * segments * bands / shares

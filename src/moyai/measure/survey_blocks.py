@@ -157,7 +157,7 @@ def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record
         cut,
         _spectra(survey, data, notices),
         _directions(survey, data, notices),
-        _current(survey, data),
+        _current(survey, data, notices),
         _reflection(survey, data, notices),
         _tensions(survey, data, cut, notices),
         _responses(survey, data, notices),
@@ -191,7 +191,9 @@ def _waves(
     figures: dict[str, dict[str, float]] = {}
     for name in survey.waves:
         found = _surface(survey, data, name, notices)
-        if found is None or np.count_nonzero(np.isfinite(found[1])) < 3:
+        number = 0 if found is None else int(np.count_nonzero(np.isfinite(found[1])))
+        if found is None or number < 3:
+            notices.append(Notice("waves-skipped", f"{name}: a block holds {number} sound samples: no waves"))
             figures[name] = dict.fromkeys(STATISTICS, math.nan)
             continue
         try:
@@ -216,11 +218,37 @@ def _even(time: FloatArray, *values: FloatArray) -> tuple[float, FloatArray]:
     return step, out
 
 
-def _fitting(options: WelchOptions, samples: int, step: float) -> WelchOptions | None:
-    """Return the options where a segment fits the block, ``None`` where it does not."""
-    if math.isinf(options.segment):
+def _together(
+    data: _Samples, names: Sequence[str], notices: list[Notice], code: str
+) -> tuple[FloatArray, list[FloatArray]] | None:
+    """Return channels on one clock, the coarsest of their loggers; ``None``, and a notice, where one is silent."""
+    found = [data.get(name) for name in names]
+    silent = [name for name, entry in zip(names, found) if entry is None or entry[0].size < 8]
+    if silent:
+        notices.append(Notice(f"{code}-skipped", f"{', '.join(silent)}: no samples in a block: no {code}"))
+        return None
+    known = [entry for entry in found if entry is not None]
+    clock = max((time for time, _ in known), key=_step)
+    if all(time.size == clock.size and np.array_equal(time, clock) for time, _ in known):
+        return clock, [values for _, values in known]
+    clock = clock[
+        (clock >= max(float(time[0]) for time, _ in known)) & (clock <= min(float(time[-1]) for time, _ in known))
+    ]
+    if clock.size < 8:
+        notices.append(Notice(f"{code}-skipped", f"{', '.join(names)} share no time in a block: no {code}"))
+        return None
+    words = f"{code}: channels of several loggers joined by straight lines at {_step(clock):.4g} s"
+    notices.append(Notice(f"{code}-joined", words, severity="information"))
+    return clock, [interpolate(*entry, clock, largest_gap=1.5 * _step(entry[0])) for entry in known]
+
+
+def _fitting(options: WelchOptions, samples: int, step: float, notices: list[Notice], code: str) -> WelchOptions | None:
+    """Return the options where a segment fits the block; ``None``, and a notice, where it does not."""
+    if math.isinf(options.segment) or round(options.segment / step) <= samples:
         return options
-    return options if round(options.segment / step) <= samples else None
+    words = f"a block of {samples * step:.4g} s is shorter than a segment of {options.segment:g} s: no {code}"
+    notices.append(Notice(f"{code}-skipped", words))
+    return None
 
 
 def _spectra(
@@ -234,7 +262,7 @@ def _spectra(
         if found is None or found[0].size < 8:
             continue
         step, columns = _even(*found)
-        options = _fitting(survey.spectral.options, columns.shape[0], step)
+        options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "spectrum")
         if options is None:
             continue
         try:
@@ -253,8 +281,8 @@ def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     if survey.directions is None or survey.spectral is None or survey.water is None:
         return {}
     names = survey.directions.channels
-    record = data.record_of(names[0])
-    if record is None or any(name not in record.names for name in names) or len(record) < 8:
+    shared = _together(data, names, notices, "directions")
+    if shared is None:
         return {}
     sensors: list[Sensor] = []
     for name in names:
@@ -262,8 +290,8 @@ def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         if sensor is None:
             raise InputError(f"'{name}' is no quantity of waves", path="directions.channels")
         sensors.append(sensor)
-    step, columns = _even(record.time, *(record.sound(name) for name in names))
-    options = _fitting(survey.spectral.options, columns.shape[0], step)
+    step, columns = _even(shared[0], *shared[1])
+    options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "directions")
     if options is None:
         return {}
     try:
@@ -280,19 +308,23 @@ def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     return {key: value for key, value in spectrum.figures().items() if key != "spectral_height"}
 
 
-def _current(survey: Survey, data: _Samples) -> dict[str, float]:
+def _current(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[str, float]:
     if survey.current is None:
         return {}
     use = survey.current
-    first, second = data.get(use.x), data.get(use.y)
-    if first is None or second is None or first[0].size != second[0].size:
+    shared = _together(data, (use.x, use.y), notices, "current")
+    if shared is None:
         return {}
-    x, y = first[1], second[1]
+    time, (x, y) = shared
     if use.polar:
+        if data.record_of(use.x) is not data.record_of(use.y):
+            words = f"'{use.x}' and '{use.y}' come from two loggers: a direction cannot be interpolated"
+            notices.append(Notice("current-skipped", words))
+            return {}
         heading = heading_of_bearing(y, survey.x_axis_bearing, coming_from=False) if use.bearing else y
         x, y = components(x, heading)
-    length = float(first[0][-1] - first[0][0]) + 1.0
-    mean = block_means(first[0], x, y, length=2.0 * length)
+    length = float(time[-1] - time[0]) + 1.0
+    mean = block_means(time, x, y, length=2.0 * length)
     out = {
         "current_x": float(mean.x[0]),
         "current_y": float(mean.y[0]),
@@ -309,12 +341,14 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     use: ReflectionUse | None = survey.reflection
     if use is None or survey.spectral is None or survey.water is None:
         return {}
-    record = data.record_of(use.front[0])
-    if record is None or any(name not in record.names for name in (*use.front, *use.rear)):
+    shared = _together(data, (*use.front, *use.rear), notices, "reflection")
+    if shared is None:
         return {}
-    step, columns = _even(record.time, *(record.sound(name) for name in (*use.front, *use.rear)))
-    options = _fitting(survey.spectral.options, columns.shape[0], step)
-    if options is None or not np.isfinite(columns).all():
+    step, columns = _even(shared[0], *shared[1])
+    options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "reflection")
+    if options is None:
+        return {}
+    if not np.isfinite(columns).all():
         notices.append(Notice("reflection-skipped", "a block with missing samples has no reflection analysis"))
         return {}
     low, high = survey.spectral.lowest, survey.spectral.highest
@@ -396,7 +430,7 @@ def _responses(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[st
     out = {}
     for name in use.channels:
         found = data.get(name)
-        options = _fitting(survey.spectral.options, columns.shape[0], step)
+        options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "response")
         if found is None or options is None:
             continue
         same = found[0].size == wave[0].size and np.array_equal(found[0], wave[0])

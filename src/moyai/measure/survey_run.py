@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_FINDINGS = 5000
+MOST_SLIPS = 10
+"""Slips of a unit told one by one; more are told together and stand in the table."""
 
 LONG_NAMES = {
     "count": ("number of waves", ""),
@@ -395,13 +397,23 @@ def _quality(
     notices = list(quality_notices(totals, samples, gaps, dated))
     for name in names:
         moments = [block.moments[name] for block in found if name in block.moments]
-        for slip in find_slips(moments, name):
+        slips = find_slips(moments, name) if survey.use_of(name).quality.unit_slips else ()
+        if len(slips) > MOST_SLIPS:
+            words = (
+                f"{name}: {len(slips)} stretches of blocks differ from their neighbours by a factor near a unit's; "
+                "that many are rather blocks too short to hold waves than wrong units"
+            )
+            notices.append(
+                Notice("unit-slips", words, float(len(slips)), float(MOST_SLIPS), remedy="take longer blocks")
+            )
+        for slip in slips:
             first = next(block.start for block in found if block.index == slip.first)
             last = next(block.start for block in found if block.index == slip.last) + survey.block_length
             detail = f"scale {slip.factor:.3g} times that before and after, near a unit's factor {slip.unit_factor:.4g}"
             rows.append((name, "unit slip", first, last, 0, detail))
             words = f"{name}: from {instant_text(first, dated)} to {instant_text(last, dated)} {detail}"
-            notices.append(Notice("unit-slip", words, slip.factor, 1.0, remedy="check the unit of these blocks"))
+            if len(slips) <= MOST_SLIPS:
+                notices.append(Notice("unit-slip", words, slip.factor, 1.0, remedy="check the unit of these blocks"))
         share = survey.use_of(name).quality.drift_share
         drift = find_drift(moments, name)
         if drift is not None and drift.significant and drift.share > share:

@@ -91,7 +91,7 @@ class WaveTensions:
     Parameters
     ----------
     maximum : ndarray
-        [N], in the order of the waves; NaN where a wave has no sample.
+        [N], in the order of the waves; NaN where a wave has no sample, or lacks more than a tenth of them.
     time : ndarray
         When [s].
     double : ndarray of bool
@@ -138,12 +138,16 @@ def wave_maxima(
         raise InputError(f"delay is {delay:g} s", path="delay", allowed="finite")
     low, high = np.searchsorted(t, first + delay), np.searchsorted(t, last + delay)
     count = first.size
+    usual = float(np.median(np.diff(t))) if t.size > 1 else math.inf
     maximum, when = np.full(count, np.nan), np.full(count, np.nan)
     double = np.zeros(count, dtype=bool)
     for i in range(count):
         part = values[low[i] : high[i]]
         # a wave whose window is cut by the end of the record is no wave of this record
         if part.size < 2 or last[i] + delay > t[-1] or first[i] + delay < t[0] - 1e-9:
+            continue
+        # where samples lack, the largest may be among them
+        if part.size < 0.9 * (last[i] - first[i]) / usual - 2.0:
             continue
         place = int(np.argmax(part))
         maximum[i], when[i] = part[place], t[low[i] + place]

@@ -119,6 +119,13 @@ def load_fit(path: str | os.PathLike[str]) -> Fit:
         rows = _rows(block.observations, base.data, folder, set(block.parameters))
     except InputError as error:
         tell(error, "observations")
+    original = read_yaml(base_path)
+    for name in block.parameters:
+        try:
+            for place in resolve(original.data, name):
+                _replace(original.text.splitlines(), original, place, "0")
+        except InputError as error:
+            tell(error, "parameters", name)
     if faults:
         raise CaseError(faults)
     file = folder / block.observations.file
