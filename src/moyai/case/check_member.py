@@ -21,6 +21,12 @@ if TYPE_CHECKING:
     from moyai.member.model import MemberProblem
 
 
+#: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
+_WATER_VISCOSITY = (2e-7, 3e-6)
+#: Roughness over width above which it is no roughness any more
+_LARGEST_ROUGHNESS = 0.1
+
+
 def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a member case in ``findings``."""
     check_surroundings(model, findings, folder)
@@ -100,6 +106,20 @@ def _check_place(problem: MemberProblem, findings: Findings) -> None:
 def _check_section(problem: MemberProblem, findings: Findings) -> None:
     from moyai.morison.coefficients import Conditions
 
+    if not _WATER_VISCOSITY[0] <= problem.kinematic_viscosity <= _WATER_VISCOSITY[1]:
+        findings.warn(
+            ("structure", "kinematic_viscosity"),
+            f"{problem.kinematic_viscosity:.3g} m2/s is not the kinematic viscosity of water",
+            remedy="water has 0.3e-6 to 2e-6 m2/s",
+        )
+    width = problem.member.placed_section.breadth
+    if problem.roughness > _LARGEST_ROUGHNESS * width:
+        findings.fault(
+            ("structure", "drag", "roughness"),
+            f"{problem.roughness:g} m is no roughness of a member {width:.3g} m wide",
+            allowed=f"at most {_LARGEST_ROUGHNESS * width:.3g} m",
+            remedy="add growth to the diameter; the roughness is the height of what stands out of it",
+        )
     try:
         problem.rule.at(problem.member.section, Conditions(1.0, 1e6, 1e5))
     except (InputError, ConvergenceError) as error:
@@ -170,7 +190,18 @@ def _check_law(model: schema.MemberCase, problem: MemberProblem, findings: Findi
         findings.warn((*path, "purpose"), "no measurement tells how a current changes the circulation")
     if law.gamma() > 3.0:
         findings.warn((*path, "strength"), f"gamma = {law.gamma():g} exceeds the laminar 3", remedy="measured: about 1")
+    section = problem.member.placed_section
+    smallest = section.inertia.principal[0]
     for index, number in enumerate(largest_numbers(problem)):
+        reached = np.linspace(0.0, min(number, law.largest), 81)[1:]
+        fall = float(np.max(law.reduction(reached, section.breadth, section.area, law.gamma()), initial=0.0))
+        if fall > smallest:
+            findings.warn(
+                path,
+                f"the reduction reaches {fall:.3g} in '{problem.seas[index].name}', more than the inertia coefficient "
+                f"{smallest:.3g} of the section",
+                remedy="check 'table'; the law was measured on sections of proportions up to 1.9",
+            )
         inside = law.table and law.table[0][0] <= number <= law.table[-1][0]
         if number > 2.0 and not inside:
             what = "the reduction of KC = 2 is held" if number <= 3.0 else "no reduction is counted there"

@@ -108,6 +108,7 @@ def wave_notices(problem: MemberProblem, member: StraightMember, wave: Wave, fou
         return tuple(notices)
     number = float(found.strip["keulegan_carpenter"][found.governing])
     notices.extend(_law_notices(problem, number, where))
+    notices.extend(_reduction_notices(found, where))
     minor_major = orbit_ratio(found)
     if minor_major < FLAT_ORBIT:
         notices.append(
@@ -145,6 +146,27 @@ def _law_notices(problem: MemberProblem, number: float, where: str) -> list[Noti
             value=number,
             limit=law.largest,
             remedy="give a table of the reduction for KC 2 to 4, or use 'purpose: extreme'",
+        )
+    ]
+
+
+def _reduction_notices(found: WaveForces, where: str) -> list[Notice]:
+    """Tell where the law takes more than the whole inertia force: no slender section was ever measured."""
+    left = found.strip["effective_inertia"][found.governing]
+    plain = found.strip["plain_inertia"][found.governing]
+    lost = [axis for axis in (0, 1) if left[axis] < 0.0 < plain[axis]]
+    if not lost:
+        return []
+    axis = lost[0]
+    return [
+        Notice(
+            "circulation-exceeds-inertia",
+            f"{where}: the reduction of {plain[axis] - left[axis]:.3g} exceeds the inertia coefficient "
+            f"{plain[axis]:.3g} along the {('first', 'second')[axis]} axis; the law was measured on sections of "
+            "proportions up to 1.9",
+            value=float(plain[axis] - left[axis]),
+            limit=float(plain[axis]),
+            remedy="use 'purpose: extreme', or give a table measured on this section",
         )
     ]
 

@@ -68,9 +68,8 @@ def sweep(problem: MemberProblem, frequency: float) -> xr.Dataset:
         fall = settled_circulation(strength, speed, speed, period) / (2.0 * math.pi * frequency * area)
         return ideal[None, :] - fall[:, None]
 
-    share = law.share(number, breadth, area, gamma)
-    share = np.where(number > law.largest, np.nan, share)
-    own = share * settled_circulation(gamma, speed, speed, period)
+    counted = np.where(number > law.largest, np.nan, law.strength_at(number, breadth, area, gamma))
+    own = counted * settled_circulation(1.0, speed, speed, period)
     axes = ("keulegan_carpenter", "axis")
     arrays: dict[str, Any] = {
         "inertia_coefficient": (axes, ideal[None, :] - own[:, None] / (2.0 * math.pi * frequency * area)),

@@ -95,6 +95,15 @@ class CirculationLaw:
             )
         _check_rows("table", self.table, 2)
         _check_rows("beta_table", self.beta_table, 1)
+        for beta, gamma in self.beta_table:
+            if not 0.0 <= gamma <= LAMINAR_EDGE_LAGRANGIAN:
+                raise InputError(
+                    f"gamma is {gamma:g} at beta {beta:g}",
+                    path="beta_table",
+                    allowed=f"0 to {LAMINAR_EDGE_LAGRANGIAN:g}, the laminar ceiling of particles",
+                )
+        if any(fall < 0.0 for _, fall in self.table):
+            raise InputError("table holds a reduction below 0", path="table", allowed="at least 0")
 
     @property
     def counted(self) -> bool:
@@ -129,6 +138,25 @@ class CirculationLaw:
             share = np.where(inside, np.interp(number, rows[:, 0], rows[:, 1]) / law, share)
             share = np.where(number > rows[-1, 0], 0.0, share)
         return np.asarray(share)
+
+    def strength_at(self, keulegan_carpenter: ArrayLike, breadth: float, area: float, gamma: float) -> Array:
+        """Return the gamma that is counted at a Keulegan-Carpenter number: the law's by its share, or the table's.
+
+        Unlike :meth:`share` it also knows the table of a law whose own strength is zero.
+        """
+        number = np.asarray(keulegan_carpenter, dtype=float)
+        if gamma > 0.0 or not self.table:
+            return np.asarray(gamma * self.share(number, breadth, area, gamma))
+        # any strength stands in: the table replaces it, and outside the table the law gives nothing
+        rows = self.table
+        inside = (number >= rows[0][0]) & (number <= rows[-1][0])
+        return np.asarray(np.where(inside, self.share(number, breadth, area, 1.0), 0.0))
+
+    def reduction(self, keulegan_carpenter: ArrayLike, breadth: float, area: float, gamma: float) -> Array:
+        """Return the fall of C_M in a circular orbit, gamma KC^2 B^2 / (2 pi A) with the gamma that is counted."""
+        number = np.asarray(keulegan_carpenter, dtype=float)
+        counted = self.strength_at(number, breadth, area, gamma)
+        return np.asarray(counted * number**2 * breadth**2 / (2.0 * math.pi * area))
 
 
 def _check_rows(name: str, rows: tuple[tuple[float, float], ...], least: int) -> None:
@@ -208,8 +236,8 @@ def target_circulation(
     strength = law.gamma() if gamma is None else gamma
     period = 2.0 * math.pi / np.asarray(omega, dtype=float)
     major, _ = orbit_amplitudes(velocity, acceleration, omega)
-    share = law.share(major * period / breadth, breadth, area, strength)
-    return np.asarray(strength * share * orbit_product(velocity, acceleration, omega) * period)
+    counted = law.strength_at(major * period / breadth, breadth, area, strength)
+    return np.asarray(counted * orbit_product(velocity, acceleration, omega) * period)
 
 
 def relaxed(target: ArrayLike, step: float, relaxation: ArrayLike, start: ArrayLike) -> Array:

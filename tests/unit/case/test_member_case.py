@@ -66,6 +66,7 @@ SLIPS = {
     "motion without period": (("# motion: {x: 0.1 m, phase_x_deg: 90}", "motion: {x: 0.1 m}"), "no period of its own"),
     "water level": ((SETTINGS, "settings: {water_levels: [HWL]}"), "no water level 'HWL'"),
     "strips": ((SETTINGS, "settings: {strips: 0}"), "strips"),
+    "roughness of a member's size": (("roughness: 1 mm", "roughness: 1 m"), "roughness: 1 m is no roughness"),
     "no unit": (("1.19e-6 m2/s", "1.19e-6 m/s"), "kinematic viscosity"),
 }  # fmt: skip
 
@@ -88,6 +89,21 @@ def test_waves_beyond_the_law_are_told_at_once():
     assert sum("beyond the law's 2" in str(fault) for fault in found) == 2
     quiet = case(("purpose: extreme", "purpose: response\n    table: [[1.5, 0.4], [6, 0.1]]")).warnings
     assert not any("beyond the law" in str(fault) for fault in quiet)
+
+
+def test_tables_that_leave_no_inertia_and_odd_viscosities_are_warned_about():
+    found = case(("purpose: extreme", "purpose: response\n    table: [[1, 2.5], [6, 3]]")).warnings
+    assert sum("more than the inertia coefficient 2" in str(fault) for fault in found) == 2
+    found = case(("1.19e-6 m2/s", "1.19 m2/s")).warnings
+    assert any("not the kinematic viscosity of water" in str(fault) for fault in found)
+
+
+def test_power_law_currents_stand_at_every_water_level():
+    changes = (
+        ("# water_levels: {HWL: 1.5 m, LWL: 0 m}", "water_levels: {HWL: 1.5 m, LWL: -1 m}"),
+        (CURRENT, "current: {speed: 0.5 m/s, heading_deg: 0, profile: {power_law: 0.143}}"),
+    )
+    assert case(*changes).warnings == ()
 
 
 def test_current_with_a_counted_circulation_is_warned_about():

@@ -439,3 +439,15 @@ def test_what_is_shown_without_circulation_is_what_the_inertia_force_shows():
     turned = problem(member, seas, Water(8.0, 1000.0, 9.81), circulation=CirculationLaw(purpose="response"))
     fall = forces(turned).strip["plain_inertia"] - forces(turned).strip["effective_inertia"]
     assert (fall > 0.0).all()
+
+
+def test_a_reduction_larger_than_the_inertia_is_told():
+    """On a plate standing in the waves the law takes more than the coefficient of 1.1 along its thin side."""
+    case = problem(
+        StraightMember((0, -2.0, -3.0), (0, 2.0, -3.0), sections.rectangle(0.5, 0.04)),
+        (RegularWaves("a", (0.4,), (4.0,)),),
+        Water(30.0, 1000.0, 9.81),
+        circulation=CirculationLaw(purpose="response"),
+    )
+    notices = {notice.code: notice for notice in run(case).notices}
+    assert "first axis" in notices["circulation-exceeds-inertia"].message

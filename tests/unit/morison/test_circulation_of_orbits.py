@@ -172,3 +172,24 @@ def test_field_around_a_circle_slips_circulates_and_fades(seed):
     assert force == pytest.approx(law.magnus_force(1.0, gamma, stream[None])[0])
     with pytest.raises(InputError, match="inside"):
         circle_velocity([[0.0, 0.0]], radius, stream, gamma)
+
+
+def test_a_table_speaks_beside_a_law_of_no_strength():
+    rule = law.CirculationLaw(0.0, "response", table=((1.0, 0.2), (4.0, 0.5)))
+    assert rule.reduction([0.5, 1.0, 2.5, 4.0, 4.1], 1.3, 0.7, 0.0) == pytest.approx([0.0, 0.2, 0.35, 0.5, 0.0])
+    other = law.CirculationLaw("otsuka", "response", table=((1.0, 0.2), (4.0, 0.5)))
+    assert other.reduction([1.0, 2.5, 4.0], 1.3, 0.7, 1.0) == pytest.approx([0.2, 0.35, 0.5])
+    angle, omega = np.linspace(0, 6, 7), 1.3
+    velocity = np.column_stack([np.cos(angle), -np.sin(angle)])
+    rate = -omega * np.column_stack([np.sin(angle), np.cos(angle)])
+    breadth = 2 * math.pi / omega / 2.5
+    found = law.target_circulation(rule, velocity, rate, omega, breadth=breadth, area=0.7 * breadth**2)
+    # a fall of 0.35 in a circular orbit is Gamma = 0.35 omega A
+    assert found == pytest.approx(0.35 * omega * 0.7 * breadth**2)
+
+
+def test_tables_of_gamma_stay_below_the_ceiling():
+    with pytest.raises(InputError, match="gamma is 50 at beta 1000"):
+        law.CirculationLaw(beta_table=((1000.0, 50.0),))
+    with pytest.raises(InputError, match="below 0"):
+        law.CirculationLaw(table=((1.0, -0.2), (2.0, 0.5)))
