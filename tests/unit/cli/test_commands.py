@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from moyai.case.schema import STRUCTURE_KINDS
+from moyai.case.templates import FURTHER
 from moyai.case.templates import template
 from moyai.cli import main as command_line
 from moyai.cli.main import app
@@ -72,7 +73,7 @@ def test_new_prints_the_template_and_writes_it(tmp_path):
 def test_new_of_an_unknown_kind():
     found = runner.invoke(app, ["new", "breakwatr"])
     assert found.exit_code == 2
-    allowed = ", ".join(STRUCTURE_KINDS)
+    allowed = ", ".join((*STRUCTURE_KINDS, *FURTHER))
     assert found.stderr.strip() == (
         f"KIND: there is no structure 'breakwatr'; allowed: {allowed}; did you mean 'breakwater'?"
     )

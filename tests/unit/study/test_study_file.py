@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import study_cases
 
+from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.study.paths import resolve, value_of
@@ -265,3 +266,10 @@ def test_spectra_of_a_file_replace_a_sea_state_and_keep_its_seed(tmp_path):
     told = faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', direction: true}")
     assert "tells no direction" in told
     assert "0 to 1" in faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', records: [5]}")
+
+
+def test_the_template_of_a_study_runs_on_the_template_of_a_breakwater(tmp_path):
+    for kind in ("breakwater", "study"):
+        (tmp_path / f"{kind}.yaml").write_text(template(kind), encoding="utf-8")
+    study = load_study(tmp_path / "study.yaml")
+    assert len(study.cases) == 2 * 3
