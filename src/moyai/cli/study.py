@@ -67,6 +67,8 @@ def study(
         from moyai.study.assess import assess, governing
 
         result = assess(plan, result, plan.assessment)
+        if report and plan.search is None and not plan.watch:
+            plan = _watching(plan, result)
         governs = governing(plan, result, max(plan.replays, 1))
         if report:
             result = _with_replays(plan, result, governs, folder, quiet or as_json)
@@ -99,6 +101,17 @@ def study(
         raise typer.Exit(OK if result.status == "converged" else FAILED)
 
 
+def _watching(plan: Study, result: Result) -> Study:
+    """Return the study watching the response that varies most, where the file names none."""
+    from dataclasses import replace
+
+    from moyai.report.study_page import interesting
+    from moyai.report.study_reading import read_study
+
+    names = interesting(read_study(result))
+    return replace(plan, watch=names[0]) if names else plan
+
+
 def _with_replays(
     plan: Study, result: Result, governs: list[tuple[str, int, float]], folder: Path, silent: bool
 ) -> Result:
@@ -108,6 +121,7 @@ def _with_replays(
 
     from moyai.cli.runner import run as run_case
     from moyai.report.writer import write_report
+    from moyai.study.assess import utilised
     from moyai.study.plan import case_at
 
     folders: dict[int, str] = {}
@@ -121,7 +135,7 @@ def _with_replays(
         write_report(again, folder / name)
         folders[index] = name
     told = [[component, index, value, folders.get(index, "")] for component, index, value in governs]
-    kind = "utilisation" if plan.assessment is not None else "watch"
+    kind = "utilisation" if utilised(result) else "watch"
     tree = result.tree.copy()
     tree.attrs.update({"governing": json.dumps(told), "governing_kind": kind})
     return replace(result, tree=tree)

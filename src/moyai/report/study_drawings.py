@@ -148,7 +148,7 @@ def rose(pages: StudyPages, name: str, axis: AxisLabels) -> Drawing | None:
     worst = np.where(np.isfinite(worst), worst, math.nan)
     shown = display_unit(unit, worst)
     degrees = axis.values if axis.unit in ("1", "", "deg") else np.degrees(axis.values)
-    order = np.argsort(degrees)
+    order, closed = _round(degrees)
     centre, radius = (_WIDTH / 2, 210.0), 170.0
     largest = float(np.nanmax(worst)) if np.isfinite(worst).any() else 1.0
     parts = []
@@ -169,13 +169,21 @@ def rose(pages: StudyPages, name: str, axis: AxisLabels) -> Drawing | None:
         tip = radius + 18.0
         where = (centre[0] + tip * math.cos(angle), centre[1] - tip * math.sin(angle) + 4.0)
         parts.append(_text(*where, f"{degrees[at]:g}°", "middle"))
-    closed = np.ptp(degrees) > 180.0
     shape = "polygon" if closed else "polyline"
     parts.insert(0, f'<{shape} points="{" ".join(points)}" fill="none" stroke="#0b5a8a" stroke-width="2"/>')
     svg = _svg(420.0, parts, f"{label} by heading")
     caption = f"{label}{f' [{shown.name}]' if shown.name else ''}, worst of all other axes; headings from +x to +y."
     key = f"rose-{name}".replace("/", "-").replace(" ", "-")
     return Drawing(key, f"{label} by {axis.name.replace('_', ' ')}", svg, with_colours(svg), caption)
+
+
+def _round(degrees: Array) -> tuple[NDArray[np.intp], bool]:
+    """Return the order of headings round the circle, its widest gap last, and whether that gap may be bridged."""
+    turned = np.mod(degrees, 360.0)
+    order = np.argsort(turned)
+    gaps = np.diff(np.append(turned[order], turned[order][0] + 360.0))
+    widest = int(np.argmax(gaps))
+    return np.roll(order, -(widest + 1)), bool(gaps[widest] <= 91.0)
 
 
 def _text(x: float, y: float, words: str, anchor: str, *, bold: bool = False) -> str:

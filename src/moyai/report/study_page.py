@@ -78,8 +78,9 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
             if variable.dtype.kind != "f" or not dims <= set(map(str, variable.dims)) or name == "probability":
                 continue
             full = f"{node.path.strip('/')}/{name}".strip("/")
-            values = np.asarray(variable.values, dtype=float)
-            known = values[np.isfinite(values)]
+            # What the figures show: the largest entry of every case
+            shown = pages.response(full)
+            known = shown[0][np.isfinite(shown[0])] if shown is not None else np.empty(0)
             if known.size == 0:
                 continue
             spread = float(np.ptp(known) / (np.abs(known).max() or 1.0))
@@ -105,10 +106,12 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
             text = f"{format_number(one.value, 3)}"
             items.append(KeyFigure(f"Utilisation, {one.component}", text, words, one.value, verdict))
         else:
-            found = pages.response(one.component)
+            found = pages.response(one.component.partition("[")[0])
             unit = found[1] if found is not None else "1"
             label = found[2] if found is not None else one.component
-            items.append(KeyFigure(f"Largest {label}", format_quantity(one.value, unit), words))
+            at = one.component.partition("[")[2].rstrip("]").partition("=")[2]
+            title = f"{label}, {at}" if at else f"Largest {label}"
+            items.append(KeyFigure(title, format_quantity(one.value, unit), words))
     for group in _groups(pages, "long term"):
         level = group["return_level"]
         flat = level.values.reshape(-1, level.sizes["return_period"])
@@ -224,16 +227,22 @@ def _along(pages: StudyPages, name: str) -> Figure | None:
     flat, unit, label = found
     axis = next(axis for axis in pages.axes if len(axis.labels) > 1)
     shown = display_unit(unit, flat)
+    short = _short(name, label)
     key = f"along-{name}".replace("/", "-").replace(" ", "-")
     if axis.values is None or len(set(axis.values)) < len(axis.values):
         series = Series(label, {}, flat * shown.factor, style="bar")
         if len(flat) > 40:
             return None
-        return Figure(key, label, (), (Panel(label, shown.name, from_zero=True),), (series,), categories=axis.labels)
+        return Figure(key, label, (), (Panel(short, shown.name, from_zero=True),), (series,), categories=axis.labels)
     order = np.argsort(axis.values)
     series = Series(label, {"axis": axis.values[order]}, flat[order] * shown.factor, style="line+points")
     abscissa = Abscissa("axis", axis.name.replace("_", " "), "" if axis.unit == "1" else axis.unit)
-    return Figure(key, label, (abscissa,), (Panel(label, shown.name),), (series,))
+    return Figure(key, label, (abscissa,), (Panel(short, shown.name),), (series,))
+
+
+def _short(name: str, label: str) -> str:
+    """Return words that fit beside an axis."""
+    return label if len(label) <= 40 else name.rpartition("/")[2].replace("_", " ")
 
 
 def _exceedance(pages: StudyPages, name: str) -> Figure | None:
@@ -255,7 +264,11 @@ def _exceedance(pages: StudyPages, name: str) -> Figure | None:
     series = Series(label, {"share": share}, values * shown.factor, style="line+points")
     key = f"exceedance-{name}".replace("/", "-").replace(" ", "-")
     return Figure(
-        key, f"Exceedance of {label}", (Abscissa("share", what, "", True),), (Panel(label, shown.name),), (series,)
+        key,
+        f"Exceedance of {label}",
+        (Abscissa("share", what, "", True),),
+        (Panel(_short(name, label), shown.name),),
+        (series,),
     )
 
 

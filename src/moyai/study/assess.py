@@ -450,15 +450,32 @@ def governing(study: Study, result: Result, most: int) -> list[tuple[str, int, f
             response = response_of(result, study.watch)
         except InputError:
             return []
-        dims = [axis.name for axis in study.axes]
-        values = response.transpose(*dims, ...).values.reshape(len(study.cases), -1)
-        if np.isfinite(values).any():
-            flat = np.where(np.isfinite(values), values, -math.inf).max(axis=1)
-            index = int(np.argmax(flat))
-            found.append((study.watch, index, float(flat[index])))
+        found = _largest_of(study, response)
     found.sort(key=lambda item: -item[2])
     kept: list[tuple[str, int, float]] = []
     for item in found:
         if len({one[1] for one in kept} | {item[1]}) <= most:
             kept.append(item)
     return kept
+
+
+def _largest_of(study: Study, response: xr.DataArray) -> list[tuple[str, int, float]]:
+    """Return the case of the largest value of the watched response; one for each label where it has one dimension."""
+    dims = [axis.name for axis in study.axes]
+    rest = [dim for dim in response.dims if dim not in dims]
+    labelled = len(rest) == 1 and rest[0] in response.coords and response.coords[rest[0]].dtype.kind in "OUT"
+    words = [f"{study.watch}[{rest[0]}={label}]" for label in response.coords[rest[0]].values] if labelled else []
+    values = response.transpose(*dims, ...).values.reshape(len(study.cases), -1)
+    columns = values.T if words else values.max(axis=1, initial=-math.inf, where=np.isfinite(values))[None]
+    found = []
+    for word, column in zip(words or [study.watch], columns):
+        flat = np.where(np.isfinite(column), column, -math.inf)
+        index = int(np.argmax(flat))
+        if math.isfinite(flat[index]):
+            found.append((word, index, float(flat[index])))
+    return found
+
+
+def utilised(result: Result) -> bool:
+    """Whether lines or anchors were held against something: their utilisations govern then."""
+    return any(has(result, f"/assessment/{group}", "utilisation") for group in ("lines", "anchors"))

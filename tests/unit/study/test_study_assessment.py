@@ -8,9 +8,11 @@ import pytest
 import study_cases
 
 from moyai.design.long_term import YEAR
+from moyai.report import study_drawings
 from moyai.report.html import render_html
-from moyai.report.study_page import compose
-from moyai.study.assess import assess, governing
+from moyai.report.study_page import compose, interesting
+from moyai.report.study_reading import read_study
+from moyai.study.assess import assess, governing, utilised
 from moyai.study.execute import run_study
 from moyai.study.plan import load_study
 
@@ -207,3 +209,35 @@ def test_fatigue_life_over_a_scatter_diagram_is_that_of_its_sines(tmp_path):
     assert life.sel(line="shoreward").item() == pytest.approx(life.sel(line="seaward").item() / 8.0, rel=1e-9)
     assert any("endurance curve" in notice.message for notice in result.notices)
     assert "Fatigue life" in render_html(compose(result))
+
+
+def test_the_watched_response_governs_label_by_label_where_nothing_is_held_against_a_code(tmp_path):
+    path = study_cases.write_text(tmp_path, GRID, watch="SWL/tension")
+    study = load_study(path)
+    result = run_study(study, tmp_path / "out", study_cases.linear_case, workers=1)
+    assert not utilised(result)
+    tension = result.tree["SWL"]["tension"].values
+    assert governing(study, result, 3) == [
+        ("SWL/tension[line=seaward]", 1, pytest.approx(tension[1, 0])),
+        ("SWL/tension[line=shoreward]", 1, pytest.approx(tension[1, 1])),
+    ]
+
+
+def test_figures_show_first_what_varies_from_case_to_case(tmp_path):
+    study = load_study(study_cases.write_text(tmp_path, "- grid: {'waves[storm].peak_period': [4 s, 5 s]}"))
+    result = run_study(study, tmp_path / "out", study_cases.gumbel_case, workers=1)
+    # Its tensions hang on height and seed alone
+    assert interesting(read_study(result)) == ()
+
+
+@pytest.mark.parametrize(
+    ("degrees", "order", "closed"),
+    [
+        ([0.0, 90.0, 180.0, 270.0], [90.0, 180.0, 270.0, 0.0], True),
+        ([0.0, 45.0, 90.0, 315.0, 330.0], [315.0, 330.0, 0.0, 45.0, 90.0], False),
+        ([-45.0, 45.0, 0.0], [-45.0, 0.0, 45.0], False),
+    ],
+)
+def test_a_rose_bridges_no_wide_gap_between_headings(degrees, order, closed):
+    found, shut = study_drawings._round(np.array(degrees))
+    assert [degrees[at] for at in found] == order and shut is closed
