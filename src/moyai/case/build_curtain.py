@@ -12,6 +12,7 @@ from moyai.case import schema_curtain as schema
 from moyai.case.build_sea import environment_of
 from moyai.case.measured import read_points
 from moyai.core.errors import InputError
+from moyai.core.quantities import FORCE, TIME
 from moyai.curtain.drag import DragLaw, closure_drag, constant_drag, gap_speed_drag
 from moyai.curtain.limits import Strength
 from moyai.curtain.model import (
@@ -88,11 +89,15 @@ def recorded_snap(entry: schema.Record, folder: Path) -> RecordedSnap:
     from moyai.measure.snap_record import read_snap, sampling_loss
 
     columns = {entry.time: "time", entry.upper: "upper"}
+    kinds = {entry.time: TIME, entry.upper: FORCE}
     names = ["upper"]
     if entry.lower is not None:
         columns[entry.lower] = "lower"
+        kinds[entry.lower] = FORCE
         names.append("lower")
-    table = read_points(folder / entry.file, columns, "record.file")
+    if len(columns) <= len(names):
+        raise InputError("one column is named twice", path="record", remedy="name a column of its own for each")
+    table = read_points(folder / entry.file, columns, "record.file", kinds)
     try:
         found = read_snap(
             np.array(table["time"]),

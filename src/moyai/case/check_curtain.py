@@ -32,6 +32,7 @@ def check(model: CurtainCase, findings: Findings, folder: Path) -> None:
     _check_needs(model, findings)
     _check_settings(model, findings)
     _check_strengths(model, findings)
+    _check_catalogue_strengths(model, findings)
     _check_depths(model, findings)
     _check_slack(model, findings)
     _check_directions(model, findings)
@@ -68,6 +69,12 @@ def _check_needs(model: CurtainCase, findings: Findings) -> None:
                 "an inextensible cable has no impact tension: the models need its stretch",
                 remedy="give EA, or leave the analyses 'impact' and 'waves' out",
             )
+    if unit.drag.law == "constant" and unit.drag.blockage is not None:
+        findings.warn(
+            ("structure", "drag", "blockage"),
+            "a constant coefficient does not know the blockage, so the figures given change nothing",
+            remedy="give a law that knows it (gap_speed, closure, table), or widen 'range'",
+        )
     if unit.passing_fraction < 1.0 and unit.drag.law in ("gap_speed", "closure"):
         findings.warn(
             ("structure", "passing_fraction"),
@@ -129,6 +136,22 @@ def _check_strengths(model: CurtainCase, findings: Findings) -> None:
                 f"the strength needs 'settings.safety_factors.{factor}'",
                 remedy="give the safety factor asked of it; 1 for none",
             )
+
+
+def _check_catalogue_strengths(model: CurtainCase, findings: Findings) -> None:
+    """Tell that breaking loads of a catalogue are not held against anything without a safety factor."""
+    if model.settings.safety_factors.cable is not None:
+        return
+    cables = model.structure.cables
+    for side in ("upper", "lower"):
+        cable = getattr(cables, side)
+        if cable is not None and cable.catalogue is not None and cable.breaking_load is None:
+            findings.warn(
+                ("structure", "cables", side, "catalogue"),
+                "the breaking load of the catalogue is not judged without 'settings.safety_factors.cable'",
+                remedy="give the safety factor asked of it; 1 for none",
+            )
+            return
 
 
 def _check_settings(model: CurtainCase, findings: Findings) -> None:

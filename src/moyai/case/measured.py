@@ -12,13 +12,16 @@ from pathlib import Path
 
 from moyai.case.yaml_text import decode
 from moyai.core.errors import CaseError, InputError
+from moyai.core.quantities import Kind
 from moyai.core.units import Unit, parse_unit
 
 _HEADING = re.compile(r"^\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*$")
 _NAME = re.compile(r"[A-Za-z]\w*")
 
 
-def read_points(path: Path, columns: Mapping[str, str], key: str) -> dict[str, tuple[float, ...]]:
+def read_points(
+    path: Path, columns: Mapping[str, str], key: str, kinds: Mapping[str, Kind] | None = None
+) -> dict[str, tuple[float, ...]]:
     """Read the columns of a CSV in SI units.
 
     Parameters
@@ -30,6 +33,8 @@ def read_points(path: Path, columns: Mapping[str, str], key: str) -> dict[str, t
         Names of columns in the file and what they are called in the results; empty takes all as they are named.
     key : str
         Path of the key in the case file, for messages.
+    kinds : mapping, optional
+        What the columns of these names in the file must be; one without a unit is taken as SI.
 
     Raises
     ------
@@ -47,6 +52,8 @@ def read_points(path: Path, columns: Mapping[str, str], key: str) -> dict[str, t
     missing = [name for name in columns if name not in names]
     if missing:
         raise InputError(f"{path.name} has no column '{missing[0]}'", path=key, allowed=", ".join(names))
+    for name, unit in headings:
+        _check_kind(name, unit, (kinds or {}).get(name), path, key)
     if len(rows) == 1:
         raise InputError(f"{path.name} has a header and no rows", path=key)
     table: dict[str, list[float]] = {name: [] for name in names}
@@ -100,6 +107,16 @@ def _heading(cell: str, path: Path, key: str) -> tuple[str, Unit | None]:
         raise InputError(
             f"{path.name}, column '{name}': {error.fault.message}", path=key, remedy=error.fault.remedy
         ) from None
+
+
+def _check_kind(name: str, unit: Unit | None, kind: Kind | None, path: Path, key: str) -> None:
+    if kind is None or unit is None or unit.dimension == kind.dimension:
+        return
+    raise InputError(
+        f"{path.name}, column '{name}': '{unit.symbol}' is no unit of {kind.name}",
+        path=key,
+        allowed=f"for instance {kind.unit}",
+    )
 
 
 def _number(cell: str, unit: Unit | None, place: str, key: str) -> float:

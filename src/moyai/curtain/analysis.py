@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from moyai.core.progress import Progress, silent
@@ -34,7 +34,12 @@ class _Collected:
     groups: dict[str, xr.Dataset] = field(default_factory=dict)
     checks: list[IdentityCheck] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
+    level_of: list[str] = field(default_factory=list)
     interrupted: bool = False
+
+    def name_level(self, level: str) -> None:
+        """Note that the notices since the last call belong to a water level (empty: to the whole run)."""
+        self.level_of.extend([level] * (len(self.notices) - len(self.level_of)))
 
 
 def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
@@ -73,9 +78,12 @@ def _steps(problem: CurtainProblem, collected: _Collected, progress: Progress) -
     if problem.record is not None:
         collected.groups["/record"] = record_dataset(problem.record)
         collected.notices.extend(problem.record.notices)
+        collected.name_level("")
     for index, unit in enumerate(units):
         progress("water levels", index, len(units))
-        yield from _level_steps(problem, unit, collected, progress)
+        for _ in _level_steps(problem, unit, collected, progress):
+            collected.name_level(unit.name)
+            yield
     progress("water levels", len(units), len(units))
 
 
@@ -158,7 +166,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     failed = [check.name for check in collected.checks if not check.passed]
     outside = [notice for notice in collected.notices if notice.severity == "error"]
     status: Status = "converged"
-    message = "all identities hold"
+    message = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
     if outside:
         status, message = "outside_validity", outside[0].message
     if failed:
@@ -179,9 +187,23 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         status=status,
         message=message,
         checks=tuple(collected.checks),
-        notices=_unique(collected.notices),
+        notices=_unique(_placed(collected, len(problem.environment.water_levels))),
         provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="curtain", seeds=seeds),
     )
+
+
+def _placed(collected: _Collected, levels: int) -> list[Notice]:
+    """Say at which water level a notice holds, where it does not hold at all of them."""
+    collected.name_level("")
+    holding: dict[str, set[str]] = {}
+    for notice, level in zip(collected.notices, collected.level_of):
+        holding.setdefault(notice.message, set()).add(level)
+    placed = []
+    for notice, level in zip(collected.notices, collected.level_of):
+        alone = level and levels > 1 and len(holding[notice.message]) < levels
+        said = notice.message.startswith(f"{level}:") or notice.message.startswith(f"{level},")
+        placed.append(replace(notice, message=f"{level}: {notice.message}") if alone and not said else notice)
+    return placed
 
 
 def _unique(notices: list[Notice]) -> tuple[Notice, ...]:

@@ -181,6 +181,7 @@ def limits_dataset(
         "limit_utilisation": (("speed", "height"), worst),
         "limit_component": (("speed", "height"), names),
         "component_utilisation": (("speed", "height", "component"), parts),
+        "surface_speed": ((), unit.surface_speed),
         "speed_limit": ((), most.value),
         "drowning_speed": ((), unit.drowning_speed),
     }

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from moyai.core.errors import InputError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.on_bed import solve_on_bed
@@ -331,7 +331,7 @@ def speed_limit(
         try:
             statics = site.statics(curtain, speed)
             more = () if waves is None else (waves.added(statics, 0.0, speed, site.water),)
-        except InputError:
+        except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
         return _worst(utilisation(statics, required, wave_tension, *more))
 
@@ -357,7 +357,7 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
     def worst(speed: float) -> tuple[float, str]:
         try:
             return 1.0 - site.statics(curtain, speed).reserve_ratio, "floats"
-        except InputError:
+        except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
 
     limit = _bisect(worst, highest, "not reached")
@@ -380,7 +380,7 @@ def height_limit(
     """
     try:
         statics = site.statics(curtain, speed)
-    except InputError:
+    except (InputError, ConvergenceError):
         return Limit(0.0, "no equilibrium")
 
     def worst(height: float) -> tuple[float, str]:
@@ -388,7 +388,7 @@ def height_limit(
             return math.inf, "breaking"
         try:
             more = waves.added(statics, height, speed, site.water)
-        except InputError:
+        except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
         return _worst(utilisation(statics, required, 0.0, more))
 
@@ -445,7 +445,7 @@ def anchor_spacing(
     def worst(span: float) -> tuple[float, str]:
         try:
             statics = site.statics(replace(curtain, span=span, length=ratio * span), speed)
-        except InputError:
+        except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
         return _worst(utilisation(statics, required, wave_tension))
 

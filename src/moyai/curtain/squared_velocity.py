@@ -116,12 +116,20 @@ def squared_velocity(
     water : Water
         Depth and gravity; infinite depth allowed.
 
+    Raises
+    ------
+    InputError
+        When a height is negative, a period not positive, or the curtain deeper than the water.
+
     Notes
     -----
     [eq:curtain-squared-velocity]. The wave number is that of still water, as in the paper.
     """
+    high = np.asarray(height, dtype=np.float64)
+    if not np.all(high >= 0.0):
+        raise InputError(f"height is {np.min(high):g} m", path="height", allowed="at least 0 m")
     omega, squared, single, _ = _factors(period, curtain_depth, water)
-    speed, u = 0.5 * np.asarray(height) * omega, np.asarray(current)
+    speed, u = 0.5 * high * omega, np.asarray(current)
     return speed**2 * squared + 2.0 * u * speed * single + u**2
 
 

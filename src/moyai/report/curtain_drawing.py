@@ -15,6 +15,7 @@ from moyai.report.formatting import format_number, format_quantity, trimmed
 Array = NDArray[np.float64]
 
 _FLOW_ARROWS = 9
+_OBLIQUE = 0.05  # [rad] from the normal
 _MOST_UPSTREAM = 0.55  # of the span: anchor lines that reach farther are cut, or the plan would not fit a page
 
 
@@ -50,7 +51,7 @@ def drawings(level: CurtainLevel) -> list[Drawing]:
     for name, title, svg, caption in (
         (
             "section-drawing",
-            "Section at mid-span",
+            "Section where the span faces the current most" if _oblique(level) else "Section at mid-span",
             section_drawing(level),
             "To scale, drag coefficient as given; dashes: ends of its range. Blue: current along the normal.",
         ),
@@ -65,6 +66,11 @@ def drawings(level: CurtainLevel) -> list[Drawing]:
         if svg:
             found.append(Drawing(key(level, name), title, svg, with_colours(svg), caption))
     return found
+
+
+def _oblique(level: CurtainLevel) -> bool:
+    """Whether the current comes so far from the side that the most loaded section need not be at mid-span."""
+    return abs(level.part("statics").value("flow_angle")) > _OBLIQUE
 
 
 def section_drawing(level: CurtainLevel) -> str:

@@ -12,6 +12,7 @@ from moyai.report.curtain_reading import (
     CurtainLevel,
     components,
     governing_component,
+    words,
 )
 from moyai.report.curtain_tables import counted_spread
 from moyai.report.document import Block, Column, KeyFigure, KeyFigures, Paragraph, Table
@@ -81,7 +82,7 @@ def _beyond_current(levels: tuple[CurtainLevel, ...]) -> str:
     if found is None:
         return ""
     limit, level = found
-    own = level.part("statics").value("surface_speed")
+    own = _own_speed(level)
     if not (math.isfinite(own) and own > limit):
         return ""
     what = str(level.part("limits").attributes.get("speed_limit_governing", "")) or "a limit"
@@ -112,6 +113,15 @@ def _least(levels: tuple[CurtainLevel, ...], part: str, name: str) -> tuple[floa
     return min(known, key=lambda entry: entry[0]) if known else None
 
 
+def _own_speed(level: CurtainLevel) -> float:
+    """Return the surface speed of the case's current [m/s]; NaN without a current."""
+    found = level.part("statics").value("surface_speed")
+    if math.isfinite(found):
+        return found
+    found = level.part("limits").value("surface_speed")
+    return found if found > 0.0 else math.nan
+
+
 def _limit_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
     """Return the largest current without waves, and the height held at the current of the case."""
     items = []
@@ -119,7 +129,7 @@ def _limit_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
     if found is not None:
         value, level = found
         what = str(level.part("limits").attributes.get("speed_limit_governing", "")) or "limit"
-        own = level.part("statics").value("surface_speed")
+        own = _own_speed(level)
         beyond = math.isfinite(own) and own > value
         open_ended = math.isinf(value) or what == "not reached"
         text = "not reached" if math.isinf(value) else format_quantity(value, "m/s")
@@ -131,26 +141,30 @@ def _limit_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
         items.append(KeyFigure("Holds up to a current of", text, detail, judgement="bad" if beyond else ""))
     held = _height_held(levels)
     if held is not None:
-        height, speed, level = held
+        height, speed, level, what = held
         text = format_quantity(height, "m") if height > 0.0 else "none"
+        why = "no limit up to there" if what == "not reached" else f"{what} governs"
         items.append(
             KeyFigure(
                 "Holds up to a wave height of",
                 text,
-                f"significant, at {format_quantity(speed, 'm/s')}: {level.name}",
+                f"significant, at {format_quantity(speed, 'm/s')}, {why}: {level.name}",
                 judgement="" if height > 0.0 else "bad",
             )
         )
     return items
 
 
-def _height_held(levels: tuple[CurtainLevel, ...]) -> tuple[float, float, CurtainLevel] | None:
-    """Return the wave height at the limit for the current of the case, the least over the water levels."""
-    best: tuple[float, float, CurtainLevel] | None = None
+def _height_held(levels: tuple[CurtainLevel, ...]) -> tuple[float, float, CurtainLevel, str] | None:
+    """Return the wave height held in the current of the case, the least over the water levels, and what sets it.
+
+    Between two currents of the table the height is interpolated; the nearer current says what sets it.
+    """
+    best: tuple[float, float, CurtainLevel, str] | None = None
     for level in levels:
         group = level.part("limits")
         speed, limit = group.real("speed", "speed"), group.real("limit_height", "speed")
-        own = level.part("statics").value("surface_speed")
+        own = _own_speed(level)
         if speed is None or limit is None or not math.isfinite(own) or not np.isfinite(limit).any():
             continue
         known = np.isfinite(limit)
@@ -158,7 +172,9 @@ def _height_held(levels: tuple[CurtainLevel, ...]) -> tuple[float, float, Curtai
             continue
         height = float(np.interp(own, speed[known], limit[known]))
         if best is None or height < best[0]:
-            best = (height, own, level)
+            nearest = int(np.nanargmin(np.where(known, np.abs(speed - own), np.nan)))
+            what = words(group, "limit_governing", "speed", speed.size)[nearest] or "a limit"
+            best = (height, own, level, what)
     return best
 
 
@@ -177,8 +193,11 @@ def _depth_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
             f"{share}{format_number(low)} to {format_quantity(high, 'm')} over the drag range: {level.name}",
         )
     ]
-    gap, speed = level.given("toe_gap"), level.given("toe_speed")
-    if math.isfinite(gap):
+    shallow = [entry for entry in levels if math.isfinite(entry.given("toe_gap"))]
+    if shallow:
+        # the least gap need not be where the skirt reaches least deep
+        level = min(shallow, key=lambda entry: entry.given("toe_gap"))
+        gap, speed = level.given("toe_gap"), level.given("toe_speed")
         ratio = level.given("toe_speed_ratio")
         under = f"{format_quantity(speed, 'm/s')} under the toe" if math.isfinite(speed) else "toe to bed"
         if math.isfinite(ratio):

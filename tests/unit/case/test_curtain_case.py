@@ -237,3 +237,41 @@ def test_template_and_examples_are_sound(tmp_path):
     assert len(files) >= 3
     for file in files:
         assert load_case(file).kind == "curtain"
+
+
+def test_figures_that_change_nothing_are_told(tmp_path):
+    text = BASE.replace("range: [0.8, 1.4]}", "range: [0.8, 1.4], blockage: [0.2, 0.3, 0.5]}")
+    text = text.replace(
+        "upper: {axial_stiffness: 400 kN, breaking_load: 90 kN}", "upper: {catalogue: polyester, diameter: 20 mm}"
+    )
+    text = text.replace("{cable: 3, sheet: 4, anchor: 1.5}", "{sheet: 4, anchor: 1.5}")
+    (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
+    told = {fault.path: fault for fault in load_case(tmp_path / "case.yaml").warnings}
+    assert "change nothing" in told["structure.drag.blockage"].message
+    assert "not judged" in told["structure.cables.upper.catalogue"].message
+
+
+@pytest.mark.parametrize(
+    ("header", "words"),
+    [
+        ("time [s],upper [m],lower [N]", "'upper': 'm' is no unit of a force"),
+        ("time [s],upper [N],lower [kg]", "'lower': 'kg' is no unit of a force"),
+        ("time [m],upper [N],lower [N]", "'time': 'm' is no unit of a time"),
+    ],
+)
+def test_record_in_units_of_something_else(tmp_path, header, words):
+    rows = "\n".join(f"{0.05 * n:.2f},0,0" for n in range(100))
+    (tmp_path / "snap.csv").write_text(f"{header}\n{rows}\n", encoding="utf-8")
+    text = BASE + "record: {file: snap.csv, lower: lower, unloaded: [[0 s, 1 s]]}\n"
+    (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(CaseError) as caught:
+        load_case(tmp_path / "case.yaml")
+    assert words in str(caught.value)
+
+
+def test_record_with_one_column_twice(tmp_path):
+    (tmp_path / "snap.csv").write_text("time,upper\n0,0\n", encoding="utf-8")
+    text = BASE + "record: {file: snap.csv, lower: upper, unloaded: [[0 s, 1 s]]}\n"
+    (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(CaseError, match="named twice"):
+        load_case(tmp_path / "case.yaml")

@@ -279,6 +279,25 @@ def test_waves_along_the_normal_load_a_curtain_in_an_oblique_current_by_their_ow
         assert one.anchor_line == pytest.approx(other.anchor_line, rel=1e-9)
 
 
+def test_notices_name_their_water_level_where_it_matters(tmp_path):
+    text = SMALL.replace("water_depth: 8 m,", "water_depth: 8 m, water_levels: {HWL: 2 m, LWL: -1.5 m},")
+    text = text.replace("[statics, impact, waves, anchor_loads, limits]", "[statics, impact]")
+    messages = [notice.message for notice in run(problem_of(tmp_path, text)).notices]
+    blocked = [message for message in messages if "blockage d/h" in message]
+    assert [message.split(":")[0] for message in blocked] == ["HWL", "LWL"]
+    # what holds at all levels is told once
+    assert sum("models B and AB" in message for message in messages) == 1
+    assert not any(message.startswith(("HWL: models B", "LWL: models B")) for message in messages)
+
+
+def test_run_without_identities_does_not_claim_that_they_hold(tmp_path):
+    text = SMALL.replace("[statics, impact, waves, anchor_loads, limits]", "[limits]")
+    result = run(problem_of(tmp_path, text))
+    assert result.status == "converged" and not result.checks
+    assert "no identity" in result.message
+    assert float(result.tree["SWL/limits"]["surface_speed"]) == 0.2
+
+
 def test_cycle_table_is_the_oscillator(small):
     """At a height that was run the table is the run itself, and it never falls with the height."""
     from moyai.curtain.analysis_impact import drag_coefficient, solve_impact

@@ -172,3 +172,8 @@ def test_direction_rule_that_contradicts_the_paper_is_named() -> None:
     assert check_direction_rule("paper", "energy") == ()
     assert check_direction_rule("paper", "squared_velocity")[0].value == 4.0
     assert "'paper'" in check_direction_rule("none", "energy")[0].remedy
+
+
+def test_squared_velocity_refuses_negative_heights() -> None:
+    with pytest.raises(InputError, match="height is -1"):
+        squared_velocity([1.0, -1.0], 5.0, 0.0, 3.0, Water(10.0, 1025.0, 9.81))

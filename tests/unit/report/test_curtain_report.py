@@ -97,6 +97,34 @@ def test_current_beyond_a_limit_that_is_no_component(result: Result) -> None:
     assert "beyond the 0" not in compose(result).sections[0].blocks[0].text
 
 
+def test_first_page_tells_the_least_toe_gap_and_what_sets_the_height(result: Result) -> None:
+    """The least gap may be at another water level than the least effective depth."""
+    tree = result.tree.copy()
+    statics = tree["/LWL/statics"].to_dataset()
+    given = statics["effective_depth"] + 1.0, statics["toe_gap"] * 0.0 + 0.4
+    tree["/LWL/statics"] = xr.DataTree(statics.assign(effective_depth=given[0], toe_gap=given[1]))
+    for name in ("HWL", "LWL"):
+        limits = tree[f"/{name}/limits"].to_dataset()
+        words = np.full(limits["speed"].size, "not reached", dtype=object)
+        tree[f"/{name}/limits"] = xr.DataTree(limits.assign(limit_governing=("speed", words)))
+    keys = next(
+        block for block in compose(replace(result, tree=tree)).sections[0].blocks if isinstance(block, KeyFigures)
+    )
+    items = {item.label: item for item in keys.items}
+    assert items["Toe gap"].text.startswith("0.4") and items["Toe gap"].detail.endswith("LWL")
+    assert items["Effective depth"].detail.endswith("HWL")
+    assert "no limit up to there" in items["Holds up to a wave height of"].detail
+
+
+def test_height_held_of_a_run_without_statics(result: Result) -> None:
+    bare = without(result, "/HWL/statics", "/LWL/statics")
+    limits = bare.tree["/HWL/limits"].to_dataset().assign(surface_speed=0.3)
+    bare.tree["/HWL/limits"] = xr.DataTree(limits)
+    keys = next(block for block in compose(bare).sections[0].blocks if isinstance(block, KeyFigures))
+    held = next(item for item in keys.items if item.label == "Holds up to a wave height of")
+    assert held.text.startswith(f"{float(np.interp(0.3, limits['speed'], limits['limit_height'])):.2f}")
+
+
 def test_load_table_is_the_result(result: Result, document: Document) -> None:
     table = named(document, Table, "Loads of each component")[0]
     rows = list(csv.DictReader(io.StringIO(table_csv(table))))
