@@ -110,7 +110,8 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
             unit = found[1] if found is not None else "1"
             label = found[2] if found is not None else one.component
             at = one.component.partition("[")[2].rstrip("]").partition("=")[2]
-            title = f"{label}, {at}" if at else f"Largest {label}"
+            title = f"{label}, {at}" if at else label if label.startswith("largest") else f"largest {label}"
+            title = title[:1].upper() + title[1:]
             items.append(KeyFigure(title, format_quantity(one.value, unit), words))
     for group in _groups(pages, "long term"):
         level = group["return_level"]
@@ -138,6 +139,7 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
         columns = [
             Column("Component", [one.component for one in pages.governing]),
             Column("Utilisation" if utilised else "Value", [one.value for one in pages.governing], fixed=True),
+            *([] if utilised else [Column("Unit", _units(pages))]),
             Column("Case", [str(one.index) for one in pages.governing]),
             *(
                 Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in pages.governing])
@@ -181,6 +183,11 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
         )
     )
     return tuple(blocks)
+
+
+def _units(pages: StudyPages) -> list[str]:
+    found = [pages.response(one.component.partition("[")[0]) for one in pages.governing]
+    return [one[1] if one is not None else "" for one in found]
 
 
 def _verdict(utilisation: float) -> str:

@@ -87,6 +87,41 @@ class Scatter(Block):
     counts: Annotated[Truth, Field(description="The cells are numbers of sea states, not probabilities.")] = False
 
 
+class JointDistribution(Block):
+    """Joint distribution of significant height and period, fitted elsewhere."""
+
+    location: Annotated[Number, Field(description="Smallest height of the Weibull distribution [m].")]
+    scale: Annotated[PositiveNumber, Field(description="Of the Weibull distribution [m].")]
+    shape: PositiveNumber
+    mean_log: Annotated[tuple[Number, Number, Number], Field(description="a0, a1, a2 in a0 + a1 h^a2.")]
+    deviation_log: Annotated[tuple[Number, Number, Number], Field(description="b0, b1, b2 in b0 + b1 exp(b2 h).")]
+
+
+class PairsOfSeas(Block):
+    """Pairs of significant height and period from which the joint distribution is fitted."""
+
+    file: Annotated[FileName, Field(description="CSV, a row a sea state.")]
+    significant_height: Annotated[str, Field(description="Column [m].")]
+    period: Annotated[str, Field(description="Column [s].")]
+    location: Annotated[Number, Field(description="Smallest height of the Weibull distribution [m].")]
+
+
+class Contour(Block):
+    """Sea states round an environmental contour (inverse first-order reliability)."""
+
+    name: Name = "contour"
+    years: PositiveNumber
+    duration: Annotated[Duration, Field(description="Of a sea state.")]
+    count: Annotated[int, Field(strict=True, ge=4, le=360)] = 24
+    joint: JointDistribution | None = None
+    pairs: PairsOfSeas | None = None
+    significant_height: Annotated[str, Field(description="Path of the significant wave height.")]
+    period: Annotated[str, Field(description="Path of the period of the joint distribution.")]
+    least_height: Annotated[NonNegativeNumber, Field(description="Calmer points are left out [m].")] = 0.0
+
+    exactly_one: ClassVar[KeyGroups] = (("joint", "pairs"),)
+
+
 class SpectraOfFile(Block):
     """The spectra of a file of SWAN, WAVEWATCH III or NDBC, one case a time."""
 
@@ -149,13 +184,14 @@ class Variation(Block):
     table: TableOfCases | None = None
     return_periods: ReturnPeriods | None = None
     scatter: Scatter | None = None
+    contour: Contour | None = None
     spectra: SpectraOfFile | None = None
     sample: Sample | None = None
     seeds: Seeds | None = None
     lines_lost: LinesLost | Truth | None = None
 
     exactly_one: ClassVar[KeyGroups] = (
-        ("grid", "list", "table", "return_periods", "scatter", "spectra", "sample", "seeds", "lines_lost"),
+        ("grid", "list", "table", "return_periods", "scatter", "contour", "spectra", "sample", "seeds", "lines_lost"),
     )
 
 

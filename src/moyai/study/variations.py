@@ -279,6 +279,19 @@ def _scatter(given: schema.Scatter, base: Any, folder: Path) -> tuple[Axis, ...]
     return (Axis(given.name, points),)
 
 
+def _contour(given: schema.Contour, base: Any, folder: Path) -> tuple[Axis, ...]:
+    from moyai.study.contour import contour_seas
+
+    points = tuple(
+        Point(
+            f"Hs {height:.3g} m, T {period:.3g} s",
+            ((given.significant_height, float(height)), (given.period, float(period))),
+        )
+        for height, period in zip(*contour_seas(given, folder))
+    )
+    return (Axis(given.name, points),)
+
+
 def _spectra(given: schema.SpectraOfFile, base: Any, folder: Path) -> tuple[Axis, ...]:
     from moyai.sea.spectrum_archives import read_archive
 
@@ -397,6 +410,7 @@ _BUILDERS: dict[str, Callable[[Any, Any, Path], tuple[Axis, ...]]] = {
     "table": _table,
     "return_periods": _return_periods,
     "scatter": _scatter,
+    "contour": _contour,
     "spectra": _spectra,
     "sample": _sample,
     "seeds": _seeds,

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import study_cases
+from scipy.stats import norm
 
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
@@ -273,3 +274,48 @@ def test_the_template_of_a_study_runs_on_the_template_of_a_breakwater(tmp_path):
         (tmp_path / f"{kind}.yaml").write_text(template(kind), encoding="utf-8")
     study = load_study(tmp_path / "study.yaml")
     assert len(study.cases) == 2 * 3
+
+
+CONTOUR = """- contour:
+    years: 50
+    duration: 3 h
+    count: 40
+    joint: {location: 0.1, scale: 0.4, shape: 1.3, mean_log: [1.0, 0.5, 0.4], deviation_log: [0.05, 0.2, -0.8]}
+    significant_height: 'waves[storm].significant_height'
+    period: 'waves[storm].peak_period'
+    least_height: 0.5
+"""
+
+
+def test_a_contour_holds_the_marginal_return_height_and_stays_on_the_circle(tmp_path):
+    study = load_study(study_cases.write_text(tmp_path, CONTOUR))
+    points = np.array([[value for _, value in point.assignments] for point in study.axes[0].points])
+    states = 50 * 365.25 * 8
+    top = 0.1 + 0.4 * np.log(states) ** (1 / 1.3)
+    assert points[:, 0].max() == pytest.approx(top, rel=1e-9) and points[:, 0].min() >= 0.5
+    # Back to the standard normal space: every point lies on the circle of the return period
+    first = norm.isf(np.exp(-(((points[:, 0] - 0.1) / 0.4) ** 1.3)))
+    mean = 1.0 + 0.5 * points[:, 0] ** 0.4
+    second = (np.log(points[:, 1]) - mean) / (0.05 + 0.2 * np.exp(-0.8 * points[:, 0]))
+    assert np.allclose(np.hypot(first, second), norm.isf(1 / states), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "word"),
+    [
+        ("least_height: 0.5", "least_height: 50", "no sea state of the contour"),
+        ("years: 50", "years: 1e-5", "sea states"),
+        ("scale: 0.4", "scale: -1", "scale"),
+    ],
+)
+def test_bad_contours_are_told(tmp_path, old, new, word):
+    assert word in faults(tmp_path, CONTOUR.replace(old, new))
+
+
+def test_a_contour_from_pairs_needs_enough_of_them(tmp_path):
+    (tmp_path / "seas.csv").write_text("hs,tp\n1,5\n2,6\n", encoding="utf-8")
+    text = CONTOUR.replace(
+        CONTOUR.splitlines()[4], "    pairs: {file: seas.csv, significant_height: hs, period: tp, location: 0}"
+    )
+    assert "at least 360" in faults(tmp_path, text)
+    assert "no column 'te'" in faults(tmp_path, text.replace("period: tp", "period: te"))
