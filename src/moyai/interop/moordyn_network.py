@@ -176,6 +176,37 @@ def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
         bed, wakes, bars that bear compression, a bed above or below the depth, diameters of contact in different
         ratios to the volume.
     """
+    equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in network.bars.types]
+    faults = _inexpressible(network, equivalent)
+    if faults:
+        raise CaseError(faults)
+    water, bed = network.water, network.bed
+    runs = _runs(network)
+    number = {node: k + 1 for k, node in enumerate(_ends_in_order(network, runs))}
+    points = tuple(_point(network, node, number[node]) for node in number)
+    # one ratio for all types, or the deck would have been refused
+    ratio = network.bars.types[0].diameter / equivalent[0] if equivalent else 1.0
+    kinds, type_names = _line_types(network, equivalent)
+    lines = tuple(
+        DeckLine(k + 1, type_names[kind], number[first], number[last], total, count)
+        for k, (first, last, kind, total, count) in enumerate(runs)
+    )
+    options = [
+        DeckOption("WtrDpth", water.depth),
+        DeckOption("WtrDnsty", water.density),
+        DeckOption("g", water.gravity),
+    ]
+    if bed is not None:
+        options += [
+            DeckOption("kBot", bed.stiffness * ratio),
+            DeckOption("cBot", bed.damping * ratio),
+            DeckOption("FrictionCoefficient", bed.friction),
+        ]
+    return MoorDynDeck(kinds, points, lines, tuple(options), title=title)
+
+
+def _inexpressible(network: Network, equivalent: list[float]) -> list[Fault]:
+    """Return all that a deck cannot say; ``equivalent`` holds the diameter of the volume of every type."""
     faults: list[Fault] = []
     nodes, bars, water = network.nodes, network.bars, network.water
     names = {node: name for name, node in network.points.items()}
@@ -196,7 +227,6 @@ def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
             refuse("added mass without volume", label)
     if np.any(bars.flow_factor != 1.0):
         refuse("a wake", "bars")
-    equivalent = [math.sqrt(4.0 * kind.volume_per_length / math.pi) for kind in bars.types]
     ratios = []
     for kind, diameter in zip(bars.types, equivalent, strict=True):
         if not kind.tension_only:
@@ -212,29 +242,7 @@ def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:
         refuse(f"a bed at {bed.level:g} m in {water.depth:g} m of water", "bed")
     if math.isinf(water.depth):
         refuse("infinite depth", "water")
-    if faults:
-        raise CaseError(faults)
-    runs = _runs(network)
-    number = {node: k + 1 for k, node in enumerate(_ends_in_order(network, runs))}
-    points = tuple(_point(network, node, number[node]) for node in number)
-    ratio = ratios[0] if ratios else 1.0
-    kinds, type_names = _line_types(network, equivalent)
-    lines = tuple(
-        DeckLine(k + 1, type_names[kind], number[first], number[last], total, count)
-        for k, (first, last, kind, total, count) in enumerate(runs)
-    )
-    options = [
-        DeckOption("WtrDpth", water.depth),
-        DeckOption("WtrDnsty", water.density),
-        DeckOption("g", water.gravity),
-    ]
-    if bed is not None:
-        options += [
-            DeckOption("kBot", bed.stiffness * ratio),
-            DeckOption("cBot", bed.damping * ratio),
-            DeckOption("FrictionCoefficient", bed.friction),
-        ]
-    return MoorDynDeck(kinds, points, lines, tuple(options), title=title)
+    return faults
 
 
 _Run = tuple[int, int, int, float, int]

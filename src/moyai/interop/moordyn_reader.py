@@ -10,66 +10,23 @@ import difflib
 import math
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from moyai.core.errors import CaseError, Fault
+from moyai.core.errors import CaseError
 from moyai.interop import moordyn_keys as keys
 from moyai.interop.moordyn_deck import (
     CURRENT_FILE,
-    DeckCurrent,
     DeckLine,
     DeckLineType,
     DeckOption,
     DeckPoint,
     MoorDynDeck,
-    StiffnessTable,
 )
+from moyai.interop.moordyn_rows import Faults, Row, read_current, read_flat_depth, read_stiffness
 from moyai.interop.textfiles import parse_number, read_lines
 
 _RULE = re.compile(r"^\s*-{3,}\s*(.*?)\s*-*\s*$")
-
-
-@dataclass(frozen=True)
-class _Row:
-    """Entries of a row by column, and its line."""
-
-    line: int
-    cells: Mapping[str, str]
-
-
-class _Faults:
-    """Collects what is wrong, so that all of it is told at once."""
-
-    def __init__(self, file: str) -> None:
-        self.file, self.found = file, list[Fault]()
-
-    def add(self, line: int, message: str, allowed: str = "", remedy: str = "", path: str = "") -> None:
-        self.found.append(Fault(message, path, allowed, remedy, self.file, line, 1 if line else 0))
-
-    def number(self, row: _Row, key: str, *, least: float = -math.inf, above: float = -math.inf) -> float:
-        """Return an entry as a number; NaN with a fault when it is none or out of range."""
-        text = row.cells.get(key, "0")
-        value = parse_number(text)
-        label = key.replace("_", " ")
-        if value is None or not math.isfinite(value):
-            self.add(row.line, f"{label} is {text!r}, which is no number", path=key)
-            return math.nan
-        if value < least or value <= above:
-            allowed = f"{least:g} or more" if math.isfinite(least) else f"greater than {above:g}"
-            self.add(row.line, f"{label} is {value:g}", allowed, path=key)
-            return math.nan
-        return value
-
-    def whole(self, row: _Row, key: str) -> int:
-        """Return an entry as a whole number above 0; 0 with a fault when it is none."""
-        value = parse_number(row.cells.get(key, ""))
-        if value is None or value != int(value) or value < 1.0:
-            self.add(row.line, f"{key} is {row.cells.get(key, '')!r}", "a whole number, 1 or more", path=key)
-            return 0
-        return int(value)
 
 
 def _suggest(word: str, known: Iterable[str]) -> str:
@@ -82,7 +39,7 @@ def _tokens(text: str) -> list[str]:
     return re.split(r"[#!]", text, maxsplit=1)[0].split()
 
 
-def _split(lines: list[str], faults: _Faults) -> dict[str, tuple[int, list[tuple[int, str]]]]:
+def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[int, str]]]]:
     """Return the lines of every section with their numbers; the text before the first section is left out."""
     sections: dict[str, tuple[int, list[tuple[int, str]]]] = {}
     body: list[tuple[int, str]] | None = None
@@ -117,8 +74,8 @@ def _split(lines: list[str], faults: _Faults) -> dict[str, tuple[int, list[tuple
 
 
 def _table(
-    section: str, sections: dict[str, tuple[int, list[tuple[int, str]]]], columns: Mapping[str, str], faults: _Faults
-) -> tuple[list[str], list[_Row]]:
+    section: str, sections: dict[str, tuple[int, list[tuple[int, str]]]], columns: Mapping[str, str], faults: Faults
+) -> tuple[list[str], list[Row]]:
     """Return the columns and the rows of a section: names, units, then rows."""
     if section not in sections:
         faults.add(0, f"section {section.upper()} is missing", path=section)
@@ -157,53 +114,11 @@ def _table(
         if not fewest <= len(cells) <= len(names):
             faults.add(number, f"{len(cells)} columns", f"{len(names)}: {' '.join(_tokens(head[1]))}", path=section)
             continue
-        rows.append(_Row(number, dict(zip(names, cells, strict=False))))
+        rows.append(Row(number, dict(zip(names, cells, strict=False))))
     return ([] if missing else names), rows
 
 
-def _stiffness(row: _Row, folder: Path, faults: _Faults) -> float | StiffnessTable:
-    text = row.cells.get("stiffness", "")
-    if parse_number(text) is not None:
-        return faults.number(row, "stiffness", above=0.0)
-    if "|" in text or text.upper().startswith("SYROPE"):
-        faults.add(
-            row.line, f"stiffness {text!r}: ropes whose stiffness depends on rate or history are not read",
-            "EA in N, or a file of strain and tension", path="stiffness",
-        )  # fmt: skip
-        return math.nan
-    place = folder / text
-    if not place.is_file():
-        faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file beside the deck", path="stiffness")
-        return math.nan
-    strain: list[float] = []
-    tension: list[float] = []
-    for number, line in enumerate(read_lines(place), start=1):
-        values = [parse_number(token) for token in line.replace(",", " ").split()]
-        if not values or (not strain and values[0] is None):
-            continue
-        if len(values) != 2 or values[0] is None or values[1] is None:
-            faults.found.append(Fault("a row is not strain and tension", "stiffness", "", "", place.name, number, 1))
-            return math.nan
-        strain.append(values[0])
-        tension.append(values[1])
-    rising = all(b > a for series in (strain, tension) for a, b in pairwise(series))
-    if len(strain) < 2 or strain[0] != 0.0 or tension[0] != 0.0 or not rising:
-        faults.found.append(
-            Fault(
-                "strain and tension do not rise from 0",
-                "stiffness",
-                "two rows or more, the first 0 0",
-                "",
-                place.name,
-                0,
-                0,
-            )
-        )
-        return math.nan
-    return StiffnessTable(tuple(strain), tuple(tension), text)
-
-
-def _line_types(names: list[str], rows: list[_Row], folder: Path, faults: _Faults) -> tuple[DeckLineType, ...]:
+def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults) -> tuple[DeckLineType, ...]:
     found: list[DeckLineType] = []
     for row in rows:
         if any(parse_number(row.cells.get(key, "0")) != 0.0 for key in ("lift", "lift_range", "lift_frequency")):
@@ -221,7 +136,7 @@ def _line_types(names: list[str], rows: list[_Row], folder: Path, faults: _Fault
                 name,
                 faults.number(row, "diameter", above=0.0),
                 faults.number(row, "mass_per_length", above=0.0),
-                _stiffness(row, folder, faults),
+                read_stiffness(row, folder, faults),
                 parse_number(damping) or 0.0,
                 faults.number(row, "bending_stiffness", least=0.0),
                 faults.number(row, "drag_normal", least=0.0),
@@ -234,7 +149,7 @@ def _line_types(names: list[str], rows: list[_Row], folder: Path, faults: _Fault
     return tuple(found)
 
 
-def _points(rows: list[_Row], faults: _Faults) -> tuple[DeckPoint, ...]:
+def _points(rows: list[Row], faults: Faults) -> tuple[DeckPoint, ...]:
     found: list[DeckPoint] = []
     for row in rows:
         word = row.cells.get("kind", "")
@@ -261,7 +176,7 @@ def _points(rows: list[_Row], faults: _Faults) -> tuple[DeckPoint, ...]:
 
 
 def _lines(
-    rows: list[_Row], kinds: tuple[DeckLineType, ...], points: tuple[DeckPoint, ...], faults: _Faults
+    rows: list[Row], kinds: tuple[DeckLineType, ...], points: tuple[DeckPoint, ...], faults: Faults
 ) -> tuple[DeckLine, ...]:
     found: list[DeckLine] = []
     known = [point.number for point in points]
@@ -292,7 +207,7 @@ def _lines(
     return tuple(found)
 
 
-def _options(body: list[tuple[int, str]], faults: _Faults, notes: list[str]) -> tuple[DeckOption, ...]:
+def _options(body: list[tuple[int, str]], faults: Faults, notes: list[str]) -> tuple[DeckOption, ...]:
     found: list[DeckOption] = []
     known = {**keys.OPTIONS_USED, **keys.OPTIONS_WITHOUT_MEANING}
     unused: list[str] = []
@@ -328,7 +243,7 @@ def _options(body: list[tuple[int, str]], faults: _Faults, notes: list[str]) -> 
     return tuple(found)
 
 
-def _check_option_values(deck_options: tuple[DeckOption, ...], faults: _Faults) -> None:
+def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -> None:
     positive, not_negative = ("WtrDpth", "kBot"), ("g", "WtrDnsty", "cBot", "FrictionCoefficient")
     for option in deck_options:
         value = option.value
@@ -350,59 +265,7 @@ def _check_option_values(deck_options: tuple[DeckOption, ...], faults: _Faults) 
             faults.add(option.line, f"StatDynFricScale is {value:g}", "1: friction at rest as in motion")
 
 
-def _read_current(option: DeckOption, folder: Path, faults: _Faults) -> DeckCurrent | None:
-    place = folder / CURRENT_FILE
-    if not place.is_file():
-        faults.add(option.line, f"Currents is 1, but there is no {CURRENT_FILE} beside the deck", path="Currents")
-        return None
-    rows: list[list[float]] = []
-    for number, text in enumerate(read_lines(place)[3:], start=4):
-        values = [parse_number(token) for token in text.replace(",", " ").split()]
-        if not values:
-            continue
-        row = [value for value in values if value is not None]
-        fault = ""
-        if len(row) != len(values) or len(row) != 4:
-            fault = "a row is not z and three velocities"
-        elif rows and row[0] <= rows[-1][0]:
-            fault = f"z = {row[0]:g} m does not rise"
-        elif row[3] != 0.0:
-            fault = f"a vertical current of {row[3]:g} m/s is not read"
-        if fault:
-            faults.found.append(Fault(fault, "Currents", "", "", place.name, number, 1))
-            return None
-        rows.append(row)
-    if not rows:
-        faults.add(option.line, f"{CURRENT_FILE} holds no rows", path="Currents")
-        return None
-    return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows))
-
-
-def _flat_depth(option: DeckOption, folder: Path, faults: _Faults) -> float | None:
-    """Return the depth of a grid file that is flat."""
-    place = next((p for p in (folder / str(option.value), folder / Path(str(option.value)).name) if p.is_file()), None)
-    if place is None:
-        faults.add(option.line, f"there is no file {option.value!s} beside the deck", path="SeafloorFile")
-        return None
-    levels: set[float] = set()
-    for number, text in enumerate(read_lines(place)[3:], start=4):
-        values = [parse_number(token) for token in text.split()]
-        if not values:
-            continue
-        if len(values) != 3 or any(value is None for value in values):
-            faults.found.append(Fault("a row is not x, y, z", "SeafloorFile", "", "", place.name, number, 1))
-            return None
-        levels.add(float(values[2] or 0.0))
-    if len(levels) != 1:
-        faults.add(
-            option.line, f"the bed of {place.name} is not flat (z from {min(levels, default=0.0):g} to "
-            f"{max(levels, default=0.0):g} m)", "one depth: beds that vary are not read", path="SeafloorFile",
-        )  # fmt: skip
-        return None
-    return -levels.pop()
-
-
-def _check_site(deck: MoorDynDeck, faults: _Faults) -> None:
+def _check_site(deck: MoorDynDeck, faults: Faults) -> None:
     depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
     held = {end for line in deck.lines for end in (line.start, line.end)}
     for point in deck.points:
@@ -439,7 +302,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     """
     place = Path(path)
     lines = read_lines(place)
-    faults, notes = _Faults(place.name), list[str]()
+    faults, notes = Faults(place.name), list[str]()
     sections = _split(lines, faults)
     for title, why in keys.REFUSED_SECTIONS.items():
         if why and title in sections and len(sections[title][1]) > 2:
@@ -459,9 +322,9 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     current, depth = None, None
     for option in options:
         if option.key == "Currents" and option.value == 1.0:
-            current = _read_current(option, place.parent, faults)
+            current = read_current(option, place.parent, faults)
         if option.key == "SeafloorFile":
-            depth = _flat_depth(option, place.parent, faults)
+            depth = read_flat_depth(option, place.parent, faults)
     outputs = [word for _, text in sections.get("outputs", (0, []))[1] for word in text.replace(",", " ").split()]
     outputs = outputs[: outputs.index("END")] if "END" in outputs else outputs
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""

@@ -1,0 +1,158 @@
+"""Rows of MoorDyn decks, what is wrong with them, and the small files that stand beside a deck."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+from moyai.core.errors import Fault
+from moyai.interop.moordyn_deck import CURRENT_FILE, DeckCurrent, DeckOption, StiffnessTable
+from moyai.interop.textfiles import parse_number, read_lines
+
+
+@dataclass(frozen=True)
+class Row:
+    """Entries of a row of a deck by column, and its line.
+
+    Parameters
+    ----------
+    line : int
+        Line of the file.
+    cells : mapping of str to str
+        Entries by the names of :mod:`moyai.interop.moordyn_keys`.
+    """
+
+    line: int
+    cells: Mapping[str, str]
+
+
+class Faults:
+    """Collects what is wrong, so that all of it is told at once."""
+
+    def __init__(self, file: str) -> None:
+        self.file, self.found = file, list[Fault]()
+
+    def add(self, line: int, message: str, allowed: str = "", remedy: str = "", path: str = "") -> None:
+        """Note a fault of a line."""
+        self.found.append(Fault(message, path, allowed, remedy, self.file, line, 1 if line else 0))
+
+    def number(self, row: Row, key: str, *, least: float = -math.inf, above: float = -math.inf) -> float:
+        """Return an entry as a number; NaN with a fault when it is none or out of range."""
+        text = row.cells.get(key, "0")
+        value = parse_number(text)
+        label = key.replace("_", " ")
+        if value is None or not math.isfinite(value):
+            self.add(row.line, f"{label} is {text!r}, which is no number", path=key)
+            return math.nan
+        if value < least or value <= above:
+            allowed = f"{least:g} or more" if math.isfinite(least) else f"greater than {above:g}"
+            self.add(row.line, f"{label} is {value:g}", allowed, path=key)
+            return math.nan
+        return value
+
+    def whole(self, row: Row, key: str) -> int:
+        """Return an entry as a whole number above 0; 0 with a fault when it is none."""
+        value = parse_number(row.cells.get(key, ""))
+        if value is None or value != int(value) or value < 1.0:
+            self.add(row.line, f"{key} is {row.cells.get(key, '')!r}", "a whole number, 1 or more", path=key)
+            return 0
+        return int(value)
+
+
+def read_stiffness(row: Row, folder: Path, faults: Faults) -> float | StiffnessTable:
+    """Return EA [N] of a row, or the table of the file that stands in its place."""
+    text = row.cells.get("stiffness", "")
+    if parse_number(text) is not None:
+        return faults.number(row, "stiffness", above=0.0)
+    if "|" in text or text.upper().startswith("SYROPE"):
+        faults.add(
+            row.line, f"stiffness {text!r}: ropes whose stiffness depends on rate or history are not read",
+            "EA in N, or a file of strain and tension", path="stiffness",
+        )  # fmt: skip
+        return math.nan
+    place = folder / text
+    if not place.is_file():
+        faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file beside the deck", path="stiffness")
+        return math.nan
+    strain: list[float] = []
+    tension: list[float] = []
+    for number, line in enumerate(read_lines(place), start=1):
+        values = [parse_number(token) for token in line.replace(",", " ").split()]
+        if not values or (not strain and values[0] is None):
+            continue
+        if len(values) != 2 or values[0] is None or values[1] is None:
+            faults.found.append(Fault("a row is not strain and tension", "stiffness", "", "", place.name, number, 1))
+            return math.nan
+        strain.append(values[0])
+        tension.append(values[1])
+    rising = all(b > a for series in (strain, tension) for a, b in pairwise(series))
+    if len(strain) < 2 or strain[0] != 0.0 or tension[0] != 0.0 or not rising:
+        faults.found.append(
+            Fault(
+                "strain and tension do not rise from 0",
+                "stiffness",
+                "two rows or more, the first 0 0",
+                "",
+                place.name,
+                0,
+                0,
+            )
+        )
+        return math.nan
+    return StiffnessTable(tuple(strain), tuple(tension), text)
+
+
+def read_current(option: DeckOption, folder: Path, faults: Faults) -> DeckCurrent | None:
+    """Return the steady current of the file beside the deck."""
+    place = folder / CURRENT_FILE
+    if not place.is_file():
+        faults.add(option.line, f"Currents is 1, but there is no {CURRENT_FILE} beside the deck", path="Currents")
+        return None
+    rows: list[list[float]] = []
+    for number, text in enumerate(read_lines(place)[3:], start=4):
+        values = [parse_number(token) for token in text.replace(",", " ").split()]
+        if not values:
+            continue
+        row = [value for value in values if value is not None]
+        fault = ""
+        if len(row) != len(values) or len(row) != 4:
+            fault = "a row is not z and three velocities"
+        elif rows and row[0] <= rows[-1][0]:
+            fault = f"z = {row[0]:g} m does not rise"
+        elif row[3] != 0.0:
+            fault = f"a vertical current of {row[3]:g} m/s is not read"
+        if fault:
+            faults.found.append(Fault(fault, "Currents", "", "", place.name, number, 1))
+            return None
+        rows.append(row)
+    if not rows:
+        faults.add(option.line, f"{CURRENT_FILE} holds no rows", path="Currents")
+        return None
+    return DeckCurrent(tuple(r[0] for r in rows), tuple((r[1], r[2]) for r in rows))
+
+
+def read_flat_depth(option: DeckOption, folder: Path, faults: Faults) -> float | None:
+    """Return the depth of a grid file that is flat."""
+    place = next((p for p in (folder / str(option.value), folder / Path(str(option.value)).name) if p.is_file()), None)
+    if place is None:
+        faults.add(option.line, f"there is no file {option.value!s} beside the deck", path="SeafloorFile")
+        return None
+    levels: set[float] = set()
+    for number, text in enumerate(read_lines(place)[3:], start=4):
+        values = [parse_number(token) for token in text.split()]
+        if not values:
+            continue
+        if len(values) != 3 or any(value is None for value in values):
+            faults.found.append(Fault("a row is not x, y, z", "SeafloorFile", "", "", place.name, number, 1))
+            return None
+        levels.add(float(values[2] or 0.0))
+    if len(levels) != 1:
+        faults.add(
+            option.line, f"the bed of {place.name} is not flat (z from {min(levels, default=0.0):g} to "
+            f"{max(levels, default=0.0):g} m)", "one depth: beds that vary are not read", path="SeafloorFile",
+        )  # fmt: skip
+        return None
+    return -levels.pop()
