@@ -42,7 +42,7 @@ MOST_REFINEMENTS = 6
 MOST_SOLVED = 4  # solutions of the normal heading that are kept in memory
 MOST_FREQUENCIES = 1500
 REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
-OBLIQUE_FREQUENCIES = 32
+OBLIQUE_FREQUENCIES = 64
 HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
 ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
 

@@ -97,7 +97,8 @@ def new(
         elif output is None:
             say(text.rstrip("\n"))
         else:
-            tell(f"wrote {output}; next: moyai check {output}")
+            command = {"study": f"study {output} --check", "records": f"measure records {output}"}
+            tell(f"wrote {output}; next: moyai {command.get(kind, f'check {output}')}")
 
 
 @app.command()

@@ -227,6 +227,19 @@ def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     assert told and told[0].severity == ("warning" if lid == 0.0 else "information")
 
 
+def test_operators_in_slightly_oblique_waves_keep_their_energy(pontoon_problem):
+    # Between the frequencies of the oblique solve stand splines; their error shows in the energy of the moving body
+    problem = changed(
+        pontoon_problem,
+        environment={"sea_states": (RegularSea("waves", 0.02, (0.9,), 0.1),)},
+        settings={"analyses": ("frequency",)},
+    )
+    result = run(problem)
+    assert result.status == "converged", result.message
+    energy = [check.value for check in result.checks if "energy of the moving body" in check.name]
+    assert max(energy) < 1e-3
+
+
 def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path, monkeypatch):
     problem = changed(
         pontoon_problem,

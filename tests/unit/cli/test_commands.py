@@ -8,8 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from moyai.case.schema import STRUCTURE_KINDS
-from moyai.case.templates import FURTHER
-from moyai.case.templates import template
+from moyai.case.templates import FURTHER, template
 from moyai.cli import main as command_line
 from moyai.cli.main import app
 from moyai.core.errors import ConvergenceError
