@@ -25,10 +25,11 @@ from moyai.case.schema_streaks import (
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.measure.streak_timing import PulseTrain, regular_pulses, require_time_order
+from moyai.morison.contour import Contour
 
 if TYPE_CHECKING:
     from moyai.measure.camera_calibration import Calibration
-    from moyai.measure.streak_campaign import Campaign
+    from moyai.measure.streak_campaign import Campaign, StreakRun
     from moyai.measure.streak_run import Recording
 
 FloatArray = NDArray[np.float64]
@@ -53,6 +54,7 @@ def load_streaks(path: str | os.PathLike[str]) -> tuple[Campaign, Document]:
 
 
 def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | None:
+    from moyai.measure.camera_checks import inside_picture, view_notices
     from moyai.measure.streak_campaign import Campaign, StreakRun
     from moyai.measure.streak_detection import DetectionSettings
     from moyai.measure.streak_linking import LinkingSettings
@@ -84,6 +86,14 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | N
         )
     shape = _picture_shape([*runs[0].recordings] if runs else [])
     calibration = _calibration(model.calibration, findings, folder, shape)
+    _check_sizes(runs, no_model, shape, findings)
+    centre = np.array([model.centre.x, model.centre.z])
+    if calibration is not None and shape is not None and not inside_picture(calibration, centre, shape):
+        findings.fault(
+            ("centre",),
+            f"the centre of the section, x = {centre[0]:g} m, z = {centre[1]:g} m, lies outside the pictures",
+            remedy="give it in the coordinates of the targets",
+        )
     contours = model.circulation
     if sum(ratio >= contours.least_ratio for ratio in contours.size_ratios) < 2:
         findings.fault(
@@ -119,7 +129,7 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | N
         section=words,
         outline=outline,
         area=area,
-        centre=np.array([model.centre.x, model.centre.z]),
+        centre=centre,
         sense=1 if model.waves_towards == "+x" else -1,
         calibration=calibration,
         runs=tuple(runs),
@@ -133,6 +143,7 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | N
         resamples=contours.resamples,
         confidence=contours.confidence,
         seed=contours.seed,
+        notices=view_notices(calibration, centre),
     )
 
 
@@ -151,10 +162,62 @@ def _section(model: StreaksFile, findings: Findings) -> tuple[FloatArray, float,
             f"rectangle of {1e3 * section.breadth:g} by {1e3 * section.height:g} mm"
         )  # fmt: skip
     corners = np.array([*section.corners, section.corners[0]], dtype=float)
-    doubled = float((corners[:-1, 0] * corners[1:, 1] - corners[1:, 0] * corners[:-1, 1]).sum())
-    if abs(doubled) < 1e-9 * float(np.ptp(corners, axis=0).max()) ** 2:
-        findings.fault(("section", "corners"), "the corners enclose no area")
-    return corners, 0.5 * abs(doubled), f"polygon of {len(corners) - 1} corners"
+    words = f"polygon of {len(corners) - 1} corners"
+    try:
+        area = Contour(corners[:-1]).area
+    except InputError as error:
+        findings.fault(("section", "corners"), error.fault.message, remedy=error.fault.remedy)
+        return corners, math.nan, words
+    if not _encloses_origin(corners):
+        findings.fault(
+            ("section", "corners"),
+            "the centre [0, 0] does not lie inside the corners, so that similar contours do not go around them",
+            remedy="give the corners about the centre of the section",
+        )
+    return corners, area, words
+
+
+def _encloses_origin(corners: FloatArray) -> bool:
+    """Return whether the origin lies inside a closed polygon, with room to its edges."""
+    size = float(np.ptp(corners, axis=0).max())
+    turn = np.diff(np.unwrap(np.arctan2(corners[:, 1], corners[:, 0])))
+    edges, start = np.diff(corners, axis=0), corners[:-1]
+    share = np.clip(-(start * edges).sum(axis=1) / (edges**2).sum(axis=1), 0.0, 1.0)
+    nearest = float(np.hypot(*(start + share[:, None] * edges).T).min())
+    return abs(float(turn.sum())) > math.pi and nearest > 1e-3 * size
+
+
+def _check_sizes(
+    runs: Sequence[StreakRun], calm: Sequence[Recording], shape: tuple[int, int] | None, findings: Findings
+) -> None:
+    """Hold the size of every picture against the first: one calibration holds for one size."""
+    if shape is None:
+        return
+    places: list[tuple[KeyPath, Recording]] = [(("no_model",), item) for item in calm]
+    for index, run in enumerate(runs):
+        places += [(("runs", index, "recordings"), item) for item in run.recordings]
+        places += [(("runs", index, "no_model"), item) for item in run.no_model]
+    for path, recording in places:
+        for picture in recording.pictures:
+            size = _size_of(picture)
+            if size is not None and size != shape:
+                findings.fault(
+                    path,
+                    f"{picture.name} has {size[1]} by {size[0]} pixels, the first picture {shape[1]} by {shape[0]}",
+                    remedy="pictures of one calibration share one size",
+                )
+                break
+
+
+def _size_of(picture: Path) -> tuple[int, int] | None:
+    """Return rows and columns from the head of a file, ``None`` where it cannot tell."""
+    import imageio.v3 as imageio
+
+    try:
+        shape = imageio.improps(picture).shape
+    except Exception:  # whatever is wrong with it is told, with its name, when it is read
+        return None
+    return (int(shape[0]), int(shape[1])) if len(shape) in (2, 3) else None
 
 
 def _train(model: StreaksFile, count: int) -> PulseTrain:
@@ -175,12 +238,24 @@ def _recordings(
     from moyai.measure.streak_run import Recording
 
     frames = isinstance(model.timing, TimingFrames)
-    found = []
+    if model.timing.interval > 0.25 * period:
+        message = f"pulses {model.timing.interval:.3g} s apart are too few for the period of {period:.3g} s"
+        if not any(item.message == message for item in findings.faults):
+            findings.fault(("timing", "interval"), message, allowed=f"at most {0.25 * period:.3g} s")
+        return ()
+    found: list[Recording] = []
+    known: set[Path] = set()
     for index, item in enumerate(blocks):
         here: KeyPath = (*path, index) if (*path, 0) in findings.document.values else path
         pictures = _pictures(item, findings, here, folder)
         if not pictures:
             continue
+        twice = [picture.name for picture in pictures if picture in known]
+        if twice or len(set(pictures)) < len(pictures):
+            name = twice[0] if twice else next(p.name for p in pictures if pictures.count(p) > 1)
+            findings.fault(here, f"the picture '{name}' stands twice", remedy="name each picture once")
+            continue
+        known.update(pictures)
         groups = [pictures] if frames else [(picture,) for picture in pictures]
         for group in groups:
             try:
@@ -240,6 +315,7 @@ def _calibration(
     block: CalibrationBlock, findings: Findings, folder: Path, shape: tuple[int, int] | None
 ) -> Calibration | None:
     from moyai.measure.camera_calibration import Refraction, dry_to_wet, fit_homography, fit_ray_camera
+    from moyai.measure.camera_checks import require_fitting_targets
 
     path: KeyPath = ("calibration",)
     if block.refraction is None and (block.model == "rays" or block.dry):
@@ -263,8 +339,11 @@ def _calibration(
         if block.model == "rays" and refraction is not None:
             if shape is None:
                 return None if findings.faults else fit_homography(pixels, world)
-            return fit_ray_camera(pixels, world, refraction=refraction, shape=shape, dry=block.dry)
+            camera = fit_ray_camera(pixels, world, refraction=refraction, shape=shape, dry=block.dry)
+            require_fitting_targets(camera, pixels, world)
+            return camera
         plane = fit_homography(pixels, world)
+        require_fitting_targets(plane, pixels, world)
         if block.dry and refraction is not None:
             middle = plane.to_world([[0.5 * (shape[1] - 1), 0.5 * (shape[0] - 1)]])[0] if shape else world.mean(axis=0)
             return dry_to_wet(plane, refraction, middle)

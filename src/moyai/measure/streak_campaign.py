@@ -93,6 +93,8 @@ class Campaign:
     least_ratio, confidence : float
     method : {"spline", "triangles"}
     resamples, seed : int
+    notices : tuple of Notice
+        What its calibration gave rise to.
     """
 
     title: str
@@ -113,6 +115,7 @@ class Campaign:
     resamples: int = 200
     confidence: float = 0.95
     seed: int = 0
+    notices: tuple[Notice, ...] = ()
 
     @property
     def breadth(self) -> float:
@@ -159,7 +162,7 @@ def measure_campaign(
         Pictures that are absent, of different size, without streaks or with too few particles.
     """
     measured: list[_Measured] = []
-    notices: list[Notice] = []
+    notices: list[Notice] = list(campaign.notices)
     total = sum(len(run.recordings) + len(run.no_model) for run in campaign.runs) + len(campaign.no_model)
     interrupted = False
     done = 0
@@ -314,15 +317,27 @@ def _told_of(run: StreakRun, notices: Sequence[Notice]) -> list[Notice]:
 
 def _against_orbits(item: _Measured, campaign: Campaign) -> list[Notice]:
     low, high = sorted(campaign.sense * side for side in item.circulation.limit_interval)
-    if not low <= 0.0 <= high and campaign.sense * item.circulation.limit > 0.0:
+    value = campaign.sense * item.circulation.limit
+    if low > 0.0 and value > 0.0:
         return []
+    if high < 0.0 and value < 0.0:
+        return [
+            Notice(
+                "circulation-against-orbits",
+                f"run '{item.run.name}': the circulation runs against the orbits of waves towards "
+                f"{'+x' if campaign.sense > 0 else '-x'}",
+                value=value,
+                limit=0.0,
+                remedy="check 'waves_towards', the order of the pulses, and columns and rows of the targets",
+            )
+        ]
     return [
         Notice(
             "circulation-not-told-from-zero",
-            f"run '{item.run.name}': the interval of the circulation holds zero, or it runs against the orbits",
-            value=campaign.sense * item.circulation.limit,
+            f"run '{item.run.name}': the interval of the circulation holds zero",
+            value=value,
             limit=0.0,
-            remedy="take more pictures; check the direction of the waves and the order of the pulses",
+            remedy="take more pictures",
         )
     ]
 
