@@ -144,6 +144,7 @@ def _with_replays(
 def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any]:
     """Return what would run; one case is run to know the time and the room that all need."""
     import json
+    from dataclasses import replace
 
     from moyai.cli.runner import run as run_case
     from moyai.study.plan import case_at
@@ -158,7 +159,9 @@ def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any
     # since a case of its own hydrodynamics finds nothing in memory
     require_responses(plan, run_case(first, progress).tree)
     others = [case for case in (plan.cases[0], plan.cases[-1]) if case is not middle] or [middle]
-    records = [record for case in others if (record := run_one(task, case)) is not None]
+    # What a search takes from a case (the step of a trade-off) means nothing to a single run
+    plain = [replace(case, options=()) for case in others]
+    records = [record for case in plain if (record := run_one(task, case)) is not None]
     record = max(records, key=lambda one: (one.status == "failed", len(one.values)))
     seconds = sum(one.seconds for one in records) / len(records)
     runs = runs_of_search(plan)
