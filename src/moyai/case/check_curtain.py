@@ -241,12 +241,14 @@ def _check_slack(model: CurtainCase, findings: Findings) -> None:
             f"the curtain is {unit.length / unit.span:.3g} times as long as its span",
             allowed="1.1 to 1.2 in practice",
         )
+    from moyai.curtain.impact_skirt import LEAST_CHORD
+
     chord = model.settings.impact.chord
     if chord is not None and chord >= unit.skirt.length:
         findings.fault(
             ("settings", "impact", "chord"),
             f"the chord of {chord:g} m is not shorter than the skirt of {unit.skirt.length:g} m",
-            allowed=f"{0.68 * unit.skirt.length:.4g} to {unit.skirt.length:g} m, both excluded",
+            allowed=f"{LEAST_CHORD * unit.skirt.length:.5g} to {unit.skirt.length:g} m, both excluded",
             remedy="the skirt must bulge",
         )
 

@@ -113,6 +113,21 @@ class ImpactPeak:
     time: float
 
 
+def moved_mass(impact: Impact, mass: float | None) -> float:
+    """Return the added mass given [kg/m], or M0 of the paper where none is.
+
+    Raises
+    ------
+    InputError
+        When it is not positive.
+    """
+    if mass is None:
+        return impact.deep_mass
+    if not (math.isfinite(mass) and mass > 0.0):
+        raise InputError(f"mass is {mass:g} kg/m", path="mass", allowed="greater than 0, finite")
+    return float(mass)
+
+
 def peak_by_energy(impact: Impact, mass: float | None = None) -> ImpactPeak:
     """Return the peak of model A in the limit of small time steps: kinetic energy becomes work [eq:impact-energy].
 
@@ -123,7 +138,7 @@ def peak_by_energy(impact: Impact, mass: float | None = None) -> ImpactPeak:
     mass : float, optional
         Added mass per metre of span [kg/m]; M0 of the paper by default.
     """
-    moved = impact.deep_mass if mass is None else float(mass)
+    moved = moved_mass(impact, mass)
     tension, displacement, time, _ = energy_peak(impact.span, impact.length, impact.stiffness, impact.speed, moved)
     return ImpactPeak(tension, displacement, time)
 
@@ -191,7 +206,7 @@ def _slopes(b: float) -> tuple[float, float]:
 
 def closed_form(impact: Impact, mass: float | None = None) -> ImpactPeak:
     """Return the small-strain peak of model A; time and displacement are infinite for l = B [eq:impact-closed-form]."""
-    moved = impact.deep_mass if mass is None else float(mass)
+    moved = moved_mass(impact, mass)
     tension = float(speed_factor(impact.span_ratio)) * impact.speed * math.sqrt(moved * impact.stiffness)
     b = taut_shape(impact.span_ratio)
     if b == 0.0:
@@ -216,7 +231,7 @@ def energy_bound(impact: Impact, mass: float | None = None) -> float:
     mass : float, optional
         Added mass per metre of span [kg/m]; M0 of the paper by default.
     """
-    moved = impact.deep_mass if mass is None else float(mass)
+    moved = moved_mass(impact, mass)
     return impact.speed * math.sqrt(moved * impact.stiffness * impact.span_ratio)
 
 
@@ -278,6 +293,10 @@ def edge_impact(
     """
     from scipy.integrate import solve_ivp
 
+    if duration is not None and not (math.isfinite(duration) and duration > 0.0):
+        raise InputError(f"duration is {duration:g} s", path="duration", allowed="greater than 0, finite")
+    if samples < 2:
+        raise InputError(f"samples is {samples}", path="samples", allowed="at least 2")
     plate = flat_skirt_mass(impact.draught, impact.water if finite_depth else impact.water.with_depth(math.inf))
     inverse = np.linalg.inv(plate.matrix)
     taut = taut_shape(impact.span_ratio)

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.curtain.closed_forms import solve_cable
-from moyai.curtain.impact import Impact, ImpactPeak, closed_form, peak_by_energy
+from moyai.curtain.impact import Impact, ImpactPeak, closed_form, moved_mass, peak_by_energy
 from moyai.curtain.impact_kernels import march, spring, taut_shape
 
 Array = NDArray[np.float64]
+
+_MOST_STEPS = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +71,14 @@ def march_impact(impact: Impact, *, time_step: float, duration: float, mass: flo
     for name, value in (("time_step", time_step), ("duration", duration)):
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name} is {value:g} s", path=name, allowed="greater than 0")
-    moved = impact.deep_mass if mass is None else float(mass)
+    moved = moved_mass(impact, mass)
+    if duration > _MOST_STEPS * time_step:
+        raise InputError(
+            f"a step of {time_step:g} s over {duration:.4g} s",
+            path="time_step",
+            allowed=f"at least {duration / _MOST_STEPS:.3g} s: {_MOST_STEPS} steps",
+            remedy="the energy form needs no step",
+        )
     count = max(1, math.ceil(duration / time_step - 1e-9))
     out = np.empty((count, 5))
     march(impact.span, impact.length, impact.stiffness, impact.speed, moved, time_step, count, out)

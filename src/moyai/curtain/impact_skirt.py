@@ -24,6 +24,10 @@ _STIFFEST = 1000.0
 # Growth of the sagitta beyond which frozen masses are doubtful
 _FROZEN = 0.2
 
+_WIDEST_HALF_ANGLE = 2.0 * math.atan(2.0 * 0.95 * LARGEST_SAGITTA)
+#: Chord over length of the skirt that bulges as far as the added mass is known [-]
+LEAST_CHORD = math.sin(_WIDEST_HALF_ANGLE) / _WIDEST_HALF_ANGLE
+
 
 @dataclass(frozen=True)
 class Skirt:
@@ -53,11 +57,11 @@ class Skirt:
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(f"{name} is {value:g}", path=f"skirt.{name}", allowed="greater than 0, finite")
-        if self.chord >= self.length or self.sagitta >= 0.95 * LARGEST_SAGITTA * self.chord:
+        if not LEAST_CHORD * self.length < self.chord < self.length:
             raise InputError(
                 f"chord is {self.chord:g} m of a skirt {self.length:g} m long",
                 path="skirt.chord",
-                allowed=f"between {0.68 * self.length:.4g} and {self.length:g} m, both excluded",
+                allowed=f"between {LEAST_CHORD * self.length:.5g} and {self.length:g} m, both excluded",
                 remedy="the skirt must bulge, and less than a half circle",
             )
 

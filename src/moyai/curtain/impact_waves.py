@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.errors import InputError
 from moyai.curtain.impact import Impact, closed_form, peak_by_energy, sweep_peaks
 from moyai.curtain.impact_kernels import load_table, sag_ratio, slack_taut, taut_shape
+from moyai.curtain.snap_flow import check_samples
 
 Array = NDArray[np.float64]
 
@@ -131,6 +132,7 @@ def slack_taut_motion(
     if not math.isfinite(current):
         raise InputError("current is not finite", path="current", allowed="a number")
     step = min(period / 400.0, _TAUT_SHARE * rise_time(impact)) if time_step is None else time_step
+    check_samples(duration, step)
     omega = 2.0 * math.pi / period
     phase = omega * step * np.arange(max(1, math.ceil(duration / step - 1e-9)) + 1)
     flow = np.stack([current + velocity_amplitude * np.sin(phase), velocity_amplitude * omega * np.cos(phase)], axis=1)

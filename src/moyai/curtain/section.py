@@ -439,7 +439,7 @@ def solve_section(
         )
     if path[0, 1] < -water.depth and not below_bed:
         raise InputError(
-            f"the skirt stretches to {-path[0, 1]:.4g} m in water of {water.depth:g} m",
+            f"the skirt stretches {-path[0, 1] - water.depth:.3g} m deeper than the water of {water.depth:g} m",
             path="skirt.stiffness",
             remedy="shorten or stiffen the skirt",
         )

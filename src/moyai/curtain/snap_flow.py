@@ -19,6 +19,26 @@ SkirtVelocity = Literal["skirt_mean", "surface", "wheeler"]
 
 # Depths between which the mean over a stretched skirt is interpolated
 _LEVELS = 5
+#: Samples of the longest series that is run
+MOST_SAMPLES = 5_000_000
+
+
+def check_samples(duration: float, time_step: float) -> None:
+    """Refuse series that would not fit into the memory of a computer.
+
+    Raises
+    ------
+    InputError
+        For more than 5 million samples.
+    """
+    if duration > MOST_SAMPLES * time_step:
+        raise InputError(
+            f"a series of {duration:.4g} s in steps of {time_step:.3g} s has more than {MOST_SAMPLES // 10**6} million "
+            "samples",
+            path="time_step",
+            allowed=f"at least {duration / MOST_SAMPLES:.3g} s",
+            remedy="shorten the series, or take longer steps",
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +147,7 @@ def flow_over_skirt(
         raise InputError(f"unknown velocity {velocity!r}", path="velocity", allowed=", ".join(get_args(SkirtVelocity)))
     if not (math.isfinite(span) and span >= 0.0 and math.isfinite(normal_heading)):
         raise InputError("span or normal_heading is out of range", path="span", allowed="0 or more, finite")
+    check_samples(duration, time_step)
     time = time_step * np.arange(math.ceil(duration / time_step - 1e-9) + 1, dtype=np.float64)
     if len(time) < 4:
         raise InputError("the series has fewer than four times", path="time_step", allowed=f"below {duration / 3:g} s")

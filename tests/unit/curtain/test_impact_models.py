@@ -23,6 +23,7 @@ from moyai.curtain.impact_compare import compare_models
 from moyai.curtain.impact_kernels import spring, taut_shape
 from moyai.curtain.impact_march import march_impact
 from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, skirt_impact
+from moyai.curtain.impact_waves import slack_taut_motion
 from moyai.sea.water import Water
 
 
@@ -228,3 +229,43 @@ def test_mass_of_the_flat_skirt_in_depth():
 def test_bad_input_is_refused_in_words(make, word):
     with pytest.raises(InputError, match=word):
         make()
+
+
+def test_least_chord_is_the_one_that_is_told() -> None:
+    """The allowed range of the message is where a skirt is accepted."""
+    with pytest.raises(InputError) as caught:
+        Skirt(5.0, 3.0, 1e5)
+    least = float(caught.value.fault.allowed.split()[1])
+    assert Skirt(5.0, least * (1.0 + 1e-4), 1e5).sagitta < 0.44 * least
+    with pytest.raises(InputError, match="chord"):
+        Skirt(5.0, least * (1.0 - 1e-4), 1e5)
+
+
+@pytest.mark.parametrize(
+    ("call", "path"),
+    [
+        (lambda impact: peak_by_energy(impact, -5.0), "mass"),
+        (lambda impact: closed_form(impact, 0.0), "mass"),
+        (lambda impact: energy_bound(impact, math.nan), "mass"),
+        (lambda impact: march_impact(impact, time_step=0.01, duration=1.0, mass=-1.0), "mass"),
+        (lambda impact: march_impact(impact, time_step=1e-9, duration=1.0), "time_step"),
+        (lambda impact: edge_impact(impact, duration=-1.0), "duration"),
+        (lambda impact: edge_impact(impact, samples=0), "samples"),
+        (
+            lambda impact: slack_taut_motion(
+                impact,
+                drag_coefficient=1.2,
+                current=0.1,
+                velocity_amplitude=0.3,
+                period=4.0,
+                duration=100.0,
+                time_step=1e-9,
+            ),
+            "time_step",
+        ),
+    ],
+)
+def test_misuse_is_refused_before_any_work(call, path) -> None:
+    with pytest.raises(InputError) as caught:
+        call(Impact(12.0, 13.5, 4.0, 3e5, 3e5, 0.2, Water(8.0, 1025.0, 9.81)))
+    assert caught.value.fault.path == path
