@@ -250,6 +250,12 @@ def _title(name: str) -> str:
     return f"---------------------- {name} ".ljust(100, "-")
 
 
+def _digits(value: float) -> str:
+    """Return the shortest text that gives the same number again; whole numbers without a point, as flags need them."""
+    number = float(value)
+    return str(int(number)) if number.is_integer() and abs(number) < 1e15 else repr(number)
+
+
 def _columns(names: str, units: str, rows: Iterable[Iterable[str]]) -> list[str]:
     """Return aligned rows under two heading lines."""
     table = [names.split(), units.split(), *[list(row) for row in rows]]
@@ -261,22 +267,22 @@ def deck_text(deck: MoorDynDeck) -> str:
     """Return the text of a MoorDyn v2 input file; every number keeps all its digits."""
     kinds = [
         (
-            t.name, repr(t.diameter), repr(t.mass_per_length),
-            t.stiffness.file if isinstance(t.stiffness, StiffnessTable) else repr(t.stiffness), repr(t.damping),
-            repr(t.bending_stiffness), repr(t.drag_normal), repr(t.added_mass_normal), repr(t.drag_axial),
-            repr(t.added_mass_axial),
+            t.name, _digits(t.diameter), _digits(t.mass_per_length),
+            t.stiffness.file if isinstance(t.stiffness, StiffnessTable) else _digits(t.stiffness), _digits(t.damping),
+            _digits(t.bending_stiffness), _digits(t.drag_normal), _digits(t.added_mass_normal), _digits(t.drag_axial),
+            _digits(t.added_mass_axial),
         )
         for t in deck.line_types
     ]  # fmt: skip
     points = [
         (
-            str(p.number), _KIND_NAMES[p.kind], *map(repr, p.position), repr(p.mass), repr(p.volume),
-            repr(p.drag_area), repr(p.added_mass_coefficient),
+            str(p.number), _KIND_NAMES[p.kind], *map(_digits, p.position), _digits(p.mass), _digits(p.volume),
+            _digits(p.drag_area), _digits(p.added_mass_coefficient),
         )
         for p in deck.points
     ]  # fmt: skip
     lines = [
-        (str(n.number), n.line_type, str(n.start), str(n.end), repr(n.length), str(n.segments), n.outputs)
+        (str(n.number), n.line_type, str(n.start), str(n.end), _digits(n.length), str(n.segments), n.outputs)
         for n in deck.lines
     ]
     text = [
@@ -293,7 +299,7 @@ def deck_text(deck: MoorDynDeck) -> str:
         _title("LINES"),
         *_columns("ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs", "(#) (name) (#) (#) (m) (-) (-)", lines),
         _title("OPTIONS"),
-        *[f"{o.value if isinstance(o.value, str) else repr(o.value):<24}{o.key}" for o in deck.options],
+        *[f"{o.value if isinstance(o.value, str) else _digits(o.value):<24}{o.key}" for o in deck.options],
     ]
     if deck.outputs:
         text += [_title("OUTPUTS"), *deck.outputs, "END"]
@@ -333,12 +339,15 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
     for kind in deck.line_types:
         if isinstance(kind.stiffness, StiffnessTable):
             table = kind.stiffness
-            rows = [f"{e!r} {t!r}" for e, t in zip(table.strain, table.tension, strict=True)]
+            rows = [f"{_digits(e)} {_digits(t)}" for e, t in zip(table.strain, table.tension, strict=True)]
             (place.parent / table.file).write_text(
                 "\n".join(["Strain Tension", "(-) (N)", *rows, ""]), encoding="utf-8"
             )
     if deck.current is not None:
-        rows = [f"{z!r} {u!r} {v!r} 0.0" for z, (u, v) in zip(deck.current.z, deck.current.velocity, strict=True)]
+        rows = [
+            f"{_digits(z)} {_digits(u)} {_digits(v)} 0.0"
+            for z, (u, v) in zip(deck.current.z, deck.current.velocity, strict=True)
+        ]
         heading = ["--- MoorDyn steady currents File", "Water currents", "z (m), ux (m/s), uy (m/s), uz (m/s)"]
         (place.parent / CURRENT_FILE).write_text("\n".join([*heading, *rows, ""]), encoding="utf-8")
     return place
