@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
+from moyai.cli.files import decimal_sign
 from moyai.core.errors import InputError
 
 
@@ -30,6 +31,7 @@ def compare(
     by: Annotated[
         str, typer.Option("--by", metavar="COLUMN[=EDGES]", help="Sea state whose classes are told: H13=0,1,2,3.")
     ] = "",
+    decimal: Annotated[str, typer.Option("--decimal", help="Decimal sign of the record.")] = ".",
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder of the comparison; out/compare_<record> when absent.")
     ] = None,
@@ -56,6 +58,7 @@ def compare(
             largest_lag=lag,
             state=state,
             edges=edges,
+            decimal=decimal_sign(decimal),
         )
         folder = prepare_output(output if output is not None else Path("out") / f"compare_{record.stem}")
         files = [found.write(folder / "results.nc")]

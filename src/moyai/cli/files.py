@@ -45,3 +45,10 @@ def write_text(path: Path, text: str, *, replace: bool) -> Path:
         if partial:
             Path(partial).unlink(missing_ok=True)
     return path
+
+
+def decimal_sign(text: str) -> str:
+    """Return the decimal sign of an option, or say which there are."""
+    if text not in (".", ","):
+        raise InputError(f"'{text}' is no decimal sign", path="--decimal", allowed="'.' or ','")
+    return text

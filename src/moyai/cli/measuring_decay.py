@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from moyai.cli.console import OK, guard, print_json, say
+from moyai.cli.files import decimal_sign
 
 
 def decay(
@@ -22,6 +23,7 @@ def decay(
     rest: Annotated[float | None, typer.Option("--rest", help="Position at rest, SI; found when absent.")] = None,
     smallest: Annotated[float, typer.Option("--smallest", help="Smallest swing used, over the first.")] = 0.05,
     linear: Annotated[bool, typer.Option("--linear", help="Fit linear damping alone.")] = False,
+    decimal: Annotated[str, typer.Option("--decimal", help="Decimal sign of the record.")] = ".",
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
 ) -> None:
     """Find natural period, linear and quadratic damping of a free decay."""
@@ -31,7 +33,12 @@ def decay(
         from moyai.measure.sources import ColumnSource, LoggerSource, TimeSource
 
         source = LoggerSource(
-            "decay", (file,), (ColumnSource(column, "motion", unit),), TimeSource((time or 1,)), format="csv"
+            "decay",
+            (file,),
+            (ColumnSource(column, "motion", unit),),
+            TimeSource((time or 1,)),
+            format="csv",
+            decimal=decimal_sign(decimal),
         )
         record = read_record(source)
         found = fit_decay_record(

@@ -177,8 +177,9 @@ class _Fitter:
             bounds=(low, high),
             x_scale="jac",
             diff_step=steps,
-            xtol=1e-12,
-            ftol=1e-12,
+            # A hundredth of the step of the slopes is all that they bear, and far below any standard error
+            xtol=max(1e-2 * self.step, 1e-12),
+            ftol=max(1e-2 * self.step, 1e-12),
             gtol=1e-12,
         )
         if found.status <= 0:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -52,6 +52,7 @@ def compare_result(
     largest_lag: float = 0.0,
     state: str = "",
     edges: Sequence[float] = (),
+    decimal: str = ".",
 ) -> Result:
     """Compare a result with a record.
 
@@ -75,6 +76,8 @@ def compare_result(
         Column by whose classes the agreement is also told, for instance H1/3.
     edges : sequence of float
         Borders of these classes, SI.
+    decimal : str
+        Decimal sign of the record, "." or ",".
 
     Returns
     -------
@@ -88,9 +91,11 @@ def compare_result(
     """
     import xarray as xr
 
-    record, along = _read(path, coordinate)
-    record = replace(record, time=record.time + start)
     variables = _variables(result)
+    # Other columns may hold remarks
+    wanted = {pairing.column for pairing in pairings} or {key.rsplit("/", 1)[1] for key in variables}
+    record, along = _read(path, coordinate, decimal, wanted | ({state} if state else set()))
+    record = replace(record, time=record.time + start)
     chosen = list(pairings) or _by_name(record, variables, path)
     groups: dict[str, xr.Dataset] = {}
     notices: list[Notice] = []
@@ -114,11 +119,11 @@ def compare_result(
     return Result(tree, "converged", message, (), tuple(notices), provenance)
 
 
-def _read(path: Path, coordinate: str) -> tuple[Record, str]:
-    """Return the record, its coordinate as time, and the coordinate's name."""
+def _read(path: Path, coordinate: str, decimal: str, wanted: Set[str]) -> tuple[Record, str]:
+    """Return the wanted columns of the record, its coordinate as time, and the coordinate's name."""
     if not path.is_file():
         raise InputError(f"no such file: {path}", path="record")
-    probe = LoggerSource("record", (path,), (ColumnSource(1, "x"),), TimeSource((1,)), format="csv")
+    probe = LoggerSource("record", (path,), (ColumnSource(1, "x"),), TimeSource((1,)), format="csv", decimal=decimal)
     layout = find_layout(path, probe)
     headings = [split_heading(heading) for heading in layout.headings]
     names = [name for name, _ in headings]
@@ -130,6 +135,18 @@ def _read(path: Path, coordinate: str) -> tuple[Record, str]:
     others = [i for i in range(len(names)) if i != place and names[i]]
     if not others:
         raise InputError(f"{path.name} has one column only", path="record")
+    given = ", ".join(names[i] for i in others)
+    others = [i for i in others if names[i] in wanted]
+    if not others:
+        plain = sorted(wanted)
+        raise InputError(
+            f"no column of {path.name} ({given}) has the name of one variable of the result"
+            if len(plain) > 2
+            else f"{path.name} has no column '{plain[0]}'",
+            path="pair",
+            allowed=", ".join(plain[:40]) if len(plain) > 2 else given,
+            remedy="name pairs: --pair variable=column",
+        )
     columns = tuple(
         ColumnSource(i + 1, names[i], "" if headings[i][1] and headings[i][1] not in ("-", "1") else "1")
         for i in others
@@ -144,14 +161,15 @@ def _read(path: Path, coordinate: str) -> tuple[Record, str]:
             scale = 1.0
     stated = names[place]
     try:
-        record = read_record(LoggerSource("record", (path,), columns, TimeSource((place + 1,)), format="csv"))
+        number = TimeSource((place + 1,))
+        record = read_record(LoggerSource("record", (path,), columns, number, format="csv", decimal=decimal))
     except InputError:
         if unit:
             raise
         # A coordinate that is no number may be a date
         stamps = TimeSource((place + 1,), form="iso")
         try:
-            return read_record(LoggerSource("record", (path,), columns, stamps, format="csv")), stated
+            return read_record(LoggerSource("record", (path,), columns, stamps, format="csv", decimal=decimal)), stated
         except InputError:
             pass
         raise

@@ -324,3 +324,34 @@ def test_gauges_too_far_apart_for_their_segments_are_told() -> None:
         found = separate_irregular(step, gauges, x, water, WelchOptions(segment=segment), lowest=0.12, highest=0.4)
         assert any(notice.code == "gauge-delay" for notice in found.notices) is far
         assert bool(abs(found.reflection - 0.15) > 0.03) is far
+
+
+def test_records_of_a_comparison_as_others_write_them(tmp_path: Path) -> None:
+    """Remarks beside the numbers, and decimal commas."""
+    from moyai.measure.comparison_run import Pairing, compare_result
+
+    result = survey_of(tmp_path, "a.csv", table(), block="2 min")
+    start = result.tree["blocks"]["time"].values
+    height = result.tree["waves"]["third_height"].values[:, 0]
+    rows = ["start [s];third_height [m];remark"]
+    rows += [f"{t:.1f};{1.1 * h:.4f};calm".replace(".", ",") for t, h in zip(start, height)]
+    file = tmp_path / "other.csv"
+    file.write_text("\n".join(rows))
+    for pairs in ((), (Pairing("third_height", "third_height"),)):
+        found = compare_result(result, file, pairs, decimal=",")
+        group = found.tree[next(iter(found.tree.children))]
+        figures = dict(zip(map(str, group["figure"].values), group["agreement"].values))
+        assert abs(figures["slope through the origin, model over record"] - 1 / 1.1) < 1e-3
+        assert abs(figures["mean of (model - record)/model (Tabata et al.)"] + 0.1) < 1e-3
+    with pytest.raises(InputError, match="no column 'heights'"):
+        compare_result(result, file, (Pairing("third_height", "heights"),), decimal=",")
+
+
+def test_a_decay_with_rounded_stamps_is_even_and_one_with_a_gap_is_not() -> None:
+    time = np.arange(0.0, 40.0, 1 / 30)
+    motion = np.exp(-0.05 * time) * np.cos(2.0 * time)
+    found = fit_decay_record(np.round(time, 2), motion, quadratic=False)
+    assert abs(found.decay.damping_ratio - 0.025) < 1e-3
+    kept = (time < 10.0) | (time > 10.2)
+    with pytest.raises(InputError, match=r"0\.\d+ s after 9\.9\d+ s"):
+        fit_decay_record(time[kept], motion[kept])

@@ -131,7 +131,7 @@ def test_results_reports_and_comparison(folder):
     assert "report.html" in {file.name for file in write_report(again, path / "compared")}
     with pytest.raises(InputError, match="did you mean"):
         compare_result(stored, path / "hand.csv", [Pairing("third_heigth", "H13")])
-    with pytest.raises(InputError, match="no channel 'H14'"):
+    with pytest.raises(InputError, match="no column 'H14'"):
         compare_result(stored, path / "hand.csv", [Pairing("third_height", "H14")])
     (path / "tons.csv").write_text("start [s],third_height [kN]\n0,1\n1,2\n")
     with pytest.raises(InputError, match="is in N and the variable in m"):
