@@ -1,6 +1,7 @@
 """Decks become networks and come back the same."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -199,3 +200,12 @@ def test_depth_from_elsewhere():
 def test_no_folder_no_deck(tmp_path):
     with pytest.raises(InputError, match="no such folder"):
         write_deck(random_deck(0), tmp_path / "absent" / "deck.txt")
+
+
+def test_numbers_of_numpy_are_written_as_numbers(tmp_path):
+    deck = random_deck(0)
+    kinds = tuple(
+        replace(kind, diameter=np.float64(kind.diameter), drag_normal=np.int64(1)) for kind in deck.line_types
+    )
+    again = read_deck(write_deck(replace(deck, line_types=kinds), tmp_path / "deck.txt"))
+    assert again.line_types == kinds
