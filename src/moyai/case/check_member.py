@@ -191,8 +191,12 @@ def _check_law(model: schema.MemberCase, problem: MemberProblem, findings: Findi
     if law.gamma() > 3.0:
         findings.warn((*path, "strength"), f"gamma = {law.gamma():g} exceeds the laminar 3", remedy="measured: about 1")
     section = problem.member.placed_section
+    upright = math.cos(problem.member.inclination) < 1e-6
     smallest = section.inertia.principal[0]
     for index, number in enumerate(largest_numbers(problem)):
+        if upright and getattr(problem.seas[index], "spreading", None) is None:
+            # long crests move the water to and fro across an upright member: no orbit, no circulation
+            continue
         reached = np.linspace(0.0, min(number, law.largest), 81)[1:]
         fall = float(np.max(law.reduction(reached, section.breadth, section.area, law.gamma()), initial=0.0))
         if fall > smallest:

@@ -15,6 +15,8 @@ from moyai.sea.water import Water
 
 #: Breadth over wavelength above which diffraction matters
 SLENDER_LIMIT = 0.2
+#: The same ratio below which the flow is planar: there is no circulation that a law could be beyond
+PLANAR_ORBIT = 1e-3
 #: Smaller over larger axis of the orbit below which no law of the circulation has been measured
 FLAT_ORBIT = 0.8
 
@@ -34,9 +36,12 @@ def require_in_water(member: StraightMember, water: Water, name: str) -> None:
             allowed="at least one end below still water",
             remedy="z counts upwards from datum; heights below it are negative",
         )
-    if member.lowest < -water.depth * (1.0 + 1e-9):
+    # the rim at the foot of a leaning member dips into the bed; its axis must not, nor its whole underside
+    ends = (member.start[2], member.end[2])
+    lowest = min(min(ends), max(ends) + member.lowest - min(ends))
+    if lowest < -water.depth * (1.0 + 1e-9):
         raise InputError(
-            f"the member reaches to z = {member.lowest:.4g} m, below the bed of {name}",
+            f"the member reaches to z = {lowest:.4g} m, below the bed of {name}",
             path="structure.start",
             allowed=f"at least {-water.depth:.4g} m",
         )
@@ -106,10 +111,11 @@ def wave_notices(problem: MemberProblem, member: StraightMember, wave: Wave, fou
         )
     if not problem.circulation.counted:
         return tuple(notices)
-    number = float(found.strip["keulegan_carpenter"][found.governing])
-    notices.extend(_law_notices(problem, number, where))
-    notices.extend(_reduction_notices(found, where))
     minor_major = orbit_ratio(found)
+    if minor_major >= PLANAR_ORBIT:
+        number = float(found.strip["keulegan_carpenter"][found.governing])
+        notices.extend(_law_notices(problem, number, where))
+    notices.extend(_reduction_notices(found, where))
     if minor_major < FLAT_ORBIT:
         notices.append(
             Notice(

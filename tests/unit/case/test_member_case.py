@@ -138,3 +138,13 @@ def test_derived_numbers_of_a_turned_rectangle_show_the_principal_axes():
     assert numbers["inertia coefficient, smallest"].text == "1.6658"
     assert numbers["inertia coefficient, largest"].text == "3.1421"
     assert numbers["direction of the smallest"].text == "30"
+
+
+def test_upright_members_in_long_crests_are_not_warned_about_a_law_of_orbits():
+    upright = (
+        "start: {y: -10 m, z: -5 m}              # ends of the axis; x and y are 0 when absent, z from datum\n"
+        "  end: {y: 10 m, z: -5 m}",
+        "start: {z: -20 m}\n  end: {z: 4 m}",
+    )
+    response = ("purpose: extreme", "purpose: response")
+    assert not any("beyond the law" in str(fault) for fault in case(response, upright, ("1.0 m]", "2.0 m]")).warnings)

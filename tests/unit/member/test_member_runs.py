@@ -8,6 +8,7 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.member.analysis import run
+from moyai.member.checks import require_in_water
 from moyai.member.march import march
 from moyai.member.model import MemberProblem, Motion, RegularWaves, Settings
 from moyai.member.surface import surface_effect
@@ -451,3 +452,22 @@ def test_a_reduction_larger_than_the_inertia_is_told():
     )
     notices = {notice.code: notice for notice in run(case).notices}
     assert "first axis" in notices["circulation-exceeds-inertia"].message
+
+
+def test_planar_flow_past_a_pile_is_not_beyond_a_law_of_orbits():
+    member = StraightMember((0, 0, -8.0), (0, 0, 2.0), sections.circle(0.5))
+    law = CirculationLaw(purpose="response")
+    case = problem(member, (RegularWaves("a", (1.5,), (8.0,)),), Water(8.0, 1000.0, 9.81), circulation=law)
+    found = run(case)
+    assert not {"circulation-held", "circulation-beyond-law"} & {notice.code for notice in found.notices}
+    leaning = StraightMember((0, 0, -8.0), (0, 6.0, 2.0), sections.circle(0.5))
+    assert "circulation-beyond-law" in {notice.code for notice in run(replace(case, member=leaning)).notices}
+
+
+def test_leaning_members_may_stand_on_the_bed_and_level_ones_may_not_lie_in_it():
+    water, section = Water(8.0, 1000.0, 9.81), sections.circle(0.5)
+    require_in_water(StraightMember((0, 0, -8.0), (0, 6.0, 2.0), section), water, "SWL")
+    require_in_water(StraightMember((0, 0, -7.75), (0, 6.0, -7.75), section), water, "SWL")
+    for start, end in (((0, 0, -8.1), (0, 6.0, 2.0)), ((0, 0, -7.8), (0, 6.0, -7.8))):
+        with pytest.raises(InputError, match="below the bed"):
+            require_in_water(StraightMember(start, end, section), water, "SWL")
