@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from moyai.curtain.impact import Impact, speed_factor
 from moyai.curtain.impact_waves import Contact, SlackTautMotion, slack_sag, slack_taut_motion
 from moyai.curtain.model import Settings, WaveSettings
 from moyai.curtain.snap_events import SeaSnaps, snaps_in_sea, suggested_time_step
-from moyai.curtain.snap_flow import depth_mean_factor, flow_over_skirt
+from moyai.curtain.snap_flow import check_samples, depth_mean_factor, flow_over_skirt
 from moyai.curtain.snap_statistics import SnapFit, fit_snaps
 from moyai.curtain.variables import labelled
 from moyai.sea import dispersion
@@ -209,6 +209,7 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
 
     peak = sea.spectrum.peak_period
     step = settings.time_step if settings.time_step is not None else suggested_time_step(peak)
+    check_samples(sea.duration, step)
     waves = synthesise(
         sea.spectrum,
         unit.water,
@@ -275,7 +276,8 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
             {"period": peak, "duration": sea.duration},
         ),
     }
-    return WaveAnswer(groups, top, (*snaps.notices, *notices))
+    told = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in snaps.notices)
+    return WaveAnswer(groups, top, (*told, *notices))
 
 
 def _oblique(unit: LevelCurtain, sea: IrregularSea) -> bool:

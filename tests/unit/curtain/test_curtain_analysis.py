@@ -10,6 +10,7 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
+from moyai.core.errors import InputError
 from moyai.core.results import read_result
 from moyai.curtain.analysis import run
 from moyai.curtain.analysis_limits import fastest_water, sea_loads
@@ -288,6 +289,17 @@ def test_notices_name_their_water_level_where_it_matters(tmp_path):
     # what holds at all levels is told once
     assert sum("models B and AB" in message for message in messages) == 1
     assert not any(message.startswith(("HWL: models B", "LWL: models B")) for message in messages)
+
+
+def test_notices_of_snaps_name_their_sea_and_endless_seas_are_refused(tmp_path):
+    sea = "waves: {name: winter, kind: jonswap, significant_height: 0.6 m, significant_period: 4 s, peak_enhancement: 2, heading_deg: 0, duration: DURATION, seed: 2}"  # noqa: E501
+    text = SMALL.replace("waves: {kind: regular, height: 0.6 m, period: 4 s, heading_deg: 0}", sea)
+    text = text.replace("[statics, impact, waves, anchor_loads, limits]", "[waves]")
+    messages = [notice.message for notice in run(problem_of(tmp_path, text.replace("DURATION", "5 min"))).notices]
+    rises = [message for message in messages if "snaps rise" in message]
+    assert rises and all(message.startswith("winter: ") for message in rises)
+    with pytest.raises(InputError, match="million samples"):
+        run(problem_of(tmp_path, text.replace("DURATION", "20000 h")))
 
 
 def test_run_without_identities_does_not_claim_that_they_hold(tmp_path):
