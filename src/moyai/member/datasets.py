@@ -92,8 +92,8 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
         "plain_inertia_coefficient": (("wave", "axis"), governing("plain_inertia")),
         "effective_inertia_coefficient": (("wave", "axis"), governing("effective_inertia")),
         "drag_coefficient": (("wave", "axis"), governing("drag")),
-        "circulation": ("wave", governing("circulation")),
-        "settled_circulation": ("wave", governing("settled_circulation")),
+        "circulation": ("wave", _cleared(governing("circulation"), speeds, period)),
+        "settled_circulation": ("wave", _cleared(governing("settled_circulation"), speeds, period)),
         "laminar_circulation": ("wave", LAMINAR_EDGE * speeds.prod(axis=1) * period),
         "maximum_force": (("wave", "component"), np.array([np.abs(item).max(axis=0) for item in force])),
         "mean_force": (("wave", "component"), np.array([_mean(item) for item in force])),
@@ -122,6 +122,11 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
     )
     out["strip_keulegan_carpenter"].attrs = {"units": "1", "long_name": "Keulegan-Carpenter number along the member"}
     return out
+
+
+def _cleared(circulation: np.ndarray, speeds: np.ndarray, period: np.ndarray) -> np.ndarray:
+    """Return circulations without what is only rounding of planar flow."""
+    return np.where(np.abs(circulation) < 1e-12 * speeds.max(axis=1) ** 2 * period, 0.0, circulation)
 
 
 def _mean(force: np.ndarray) -> np.ndarray:

@@ -460,6 +460,7 @@ def test_planar_flow_past_a_pile_is_not_beyond_a_law_of_orbits():
     case = problem(member, (RegularWaves("a", (1.5,), (8.0,)),), Water(8.0, 1000.0, 9.81), circulation=law)
     found = run(case)
     assert not {"circulation-held", "circulation-beyond-law"} & {notice.code for notice in found.notices}
+    assert float(found.tree["SWL/waves/a"]["circulation"].values[0]) == 0.0
     leaning = StraightMember((0, 0, -8.0), (0, 6.0, 2.0), sections.circle(0.5))
     assert "circulation-beyond-law" in {notice.code for notice in run(replace(case, member=leaning)).notices}
 
