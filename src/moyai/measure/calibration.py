@@ -295,7 +295,10 @@ def calibrate(
         samples,
         left_out,
         fitter.calls,
-        _notices(parameters, values, errors, covariance, condition, left_out),
+        (
+            *_notices(parameters, values, errors, covariance, condition, left_out),
+            *(_misfit(residual * weight, count - size) if error is not None else ()),
+        ),
     )
 
 
@@ -393,6 +396,21 @@ def _leave_out(
         out.append(LeftOut(name, found, float(rest.mean()), rms, int(inside.sum())))
         progress("leaving out", number + 1, len(names))
     return tuple(out)
+
+
+def _misfit(weighted: FloatArray, freedom: int) -> tuple[Notice, ...]:
+    """Return a notice where the model misses the observations by more than their stated errors explain."""
+    from scipy.special import chdtrc
+
+    total = float(weighted @ weighted)
+    if freedom < 1 or float(chdtrc(freedom, total)) > 1e-3:
+        return ()
+    ratio = math.sqrt(total / freedom)
+    message = (
+        f"the model misses the observations by {ratio:.3g} times their stated errors: the errors of the parameters, "
+        "which rest on those, are too small"
+    )
+    return (Notice("misfit", message, ratio, 1.0, remedy="question the model, or leave the errors out"),)
 
 
 def _notices(

@@ -222,7 +222,12 @@ def _segment_error(energy: FloatArray, size: int, shift: int, seed: int) -> floa
     run = max(math.ceil(size / shift), 1)
     starts = random.integers(0, count - run + 1, (400, math.ceil(count / run)))
     picks = (starts[:, :, None] + np.arange(run)).reshape(400, -1)[:, :count]
-    return float(np.std([_ratio(energy[pick].mean(axis=0)) for pick in picks]))
+    drawn = np.array([energy[pick].mean(axis=0) for pick in picks])
+    error = float(np.std([_ratio(draw) for draw in drawn]))
+    # A reflection cut off at zero scatters too little: it may be as large as the scatter of its energy allows
+    incident, reflected = energy.mean(axis=0)
+    doubt = float(np.std(drawn[:, 1])) / float(incident) if incident > 0.0 else math.nan
+    return max(error, math.sqrt(doubt)) if reflected < float(np.std(drawn[:, 1])) else error
 
 
 LARGEST_DELAY = 0.05

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.results import Result
+from moyai.measure.record import instant_text
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import (
     Abscissa,
@@ -74,7 +75,11 @@ def _pair(group: Any, number: int, words: list[str]) -> list[Block]:
     x = np.asarray(group["coordinate"].values, dtype=float)
     model, observed = (np.asarray(group[name].values, dtype=float) for name in ("model", "observed"))
     unit = str(group["model"].attrs.get("units", ""))
-    axis = str(group.attrs.get("axis", ""))
+    axis, axis_unit = str(group.attrs.get("axis", "")), ""
+    if "since 1970" in axis and x.size:  # nobody reads seconds of sixty years
+        first, span = float(x[0]), float(x[-1] - x[0])
+        axis_unit, divisor = ("d", 86400.0) if span > 3 * 86400.0 else (("h", 3600.0) if span > 7200.0 else ("s", 1.0))
+        axis, x = f"time since {instant_text(first, True)}", (x - first) / divisor
     kept = envelope_indices(np.column_stack([model, observed]), MOST_POINTS // 4)
     few = x.size <= 200
     lag = float(group.attrs.get("lag", 0.0))
@@ -88,7 +93,7 @@ def _pair(group: Any, number: int, words: list[str]) -> list[Block]:
         Figure(
             f"overlay-{number}",
             "Model over record",
-            (Abscissa("x", axis),),
+            (Abscissa("x", axis, axis_unit),),
             (Panel("value", unit), Panel("difference", unit)),
             series,
             caption,

@@ -355,3 +355,46 @@ def test_a_decay_with_rounded_stamps_is_even_and_one_with_a_gap_is_not() -> None
     kept = (time < 10.0) | (time > 10.2)
     with pytest.raises(InputError, match=r"0\.\d+ s after 9\.9\d+ s"):
         fit_decay_record(time[kept], motion[kept])
+
+
+def test_no_reflection_has_an_error_all_the_same() -> None:
+    """A reflection below the noise was told as 0.000 with an error of 0.000."""
+    random = np.random.default_rng(5)
+    size, step = 8192, 0.5
+    f = np.fft.rfftfreq(size, step)[1:]
+    k = np.asarray(wave_number(2 * math.pi * f, 15.0, 9.81))
+    a = np.where((f > 0.15) & (f < 0.3), random.normal(size=f.size) + 1j * random.normal(size=f.size), 0.0)
+    waves = [np.fft.irfft(np.r_[0.0, np.conj(a * np.exp(1j * k * x))], size) for x in (0.0, 3.0, 7.0)]
+    gauges = np.stack(waves, axis=1)
+    gauges = gauges / gauges.std() + 0.3 * random.normal(size=gauges.shape)
+    water = Water(15.0, 1025.0, 9.81)
+    found = separate_irregular(
+        step, gauges, [0.0, 3.0, 7.0], water, WelchOptions(segment=128.0), lowest=0.12, highest=0.35
+    )
+    assert 0.01 < found.reflection_error < 0.2
+    assert found.reflection < 3.0 * found.reflection_error
+
+
+def test_a_model_that_misses_by_more_than_the_stated_errors_says_so() -> None:
+    random = np.random.default_rng(6)
+    x = np.linspace(1.0, 3.0, 12)
+    unknown = [Parameter("slope", 1.0, -9.0, 9.0)]
+    for noise, missed in ((0.02, False), (0.2, True)):
+        found = calibrate(lambda p: p[0] * x, 2.0 * x + noise * random.normal(size=12), unknown, error=0.02)
+        assert any(notice.code == "misfit" for notice in found.notices) is missed
+
+
+def test_a_comparison_of_dates_is_drawn_since_its_start(tmp_path: Path) -> None:
+    from moyai.measure.comparison_run import compare_result
+    from moyai.report.comparison_page import compose
+    from moyai.report.document import Figure
+
+    stamped = '{column: time, start: "2024-01-01T00:00:00"}'
+    result = survey_of(tmp_path, "a.csv", table(), block="2 min", time=stamped)
+    start, height = result.tree["blocks"]["time"].values, result.tree["waves"]["third_height"].values[:, 0]
+    rows = ["start [s],third_height [m]"] + [f"{t:.1f},{h:.4f}" for t, h in zip(start, height)]
+    (tmp_path / "b.csv").write_text("\n".join(rows))
+    page = compose(compare_result(result, tmp_path / "b.csv"))
+    figure = next(block for section in page.sections for block in section.blocks if isinstance(block, Figure))
+    assert figure.abscissae[0].label == "time since 2024-01-01 00:00:00.000Z"
+    assert figure.series[0].x["x"][0] == 0.0
