@@ -242,7 +242,8 @@ def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float
             v0, v1 = tables[table, row, 3 + axis], tables[table, row + 1, 3 + axis]
             target = rest[d, axis] + p0 + h1 * (p1 - p0) + h2 * v0 + h3 * v1
             if time > 0.0:
-                A[U + axis * ROW + node] = (target - A[X + axis * ROW + node]) * per
+                # The step has carried the node on with its last velocity already: what is missing corrects it
+                A[U + axis * ROW + node] += (target - A[X + axis * ROW + node]) * per
             A[X + axis * ROW + node] = target
 
 

@@ -104,7 +104,7 @@ class Flow:
         count = position.shape[1]
         out = np.zeros((7, count))
         grown, rate = 1.0, 0.0
-        if time < self.ramp:
+        if self.ramp > 0.0 and time < self.ramp:
             angle = math.pi * max(time, 0.0) / self.ramp
             grown, rate = 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.ramp * math.sin(angle)
         out[:3] = np.asarray(self.velocity)[:, None]
