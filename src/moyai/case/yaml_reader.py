@@ -186,9 +186,7 @@ class _Builder:
                     self._stop("a second document begins here", event, "keep one case per file: remove the '---'")
                 root = self._record(self.loader.get_event(), 0)
         if root is None or (root.kind == "scalar" and root.value is None):
-            raise CaseError(
-                [Fault("the file is empty", file=self.file, remedy="'moyai new' prints a template")]
-            )
+            raise CaseError([Fault("the file is empty", file=self.file, remedy="'moyai new' prints a template")])
         data = self._build(root, ())
         if self.faults:
             raise CaseError(self.faults)
