@@ -91,3 +91,21 @@ def test_a_value_that_is_no_number_is_told_by_row(tmp_path):
     file.write_text("\n".join(rows), encoding="utf-8")
     with pytest.raises(CaseError, match="row 4, column 'tension': 'many'"):
         load_fit(path)
+
+
+def test_a_value_that_could_not_be_written_is_refused_before_the_fit(tmp_path):
+    """A sea that only the fit file sets has no place in the case: that was told after the last trial."""
+    only_here = (
+        TEXT.replace(
+            "  parameters:\n    lines[*].segments[0].length: {{from: 54 m, to: 57 m}}",
+            "  set: {{waves: [{{name: w, kind: regular, height: 1 m, periods: [5], heading_deg: 0}}]}}\n"
+            "  parameters:\n    waves[w].height: {{from: 0.5 m, to: 2 m}}",
+        )
+        .replace(
+            "columns: {{Hs: 'waves[storm].significant_height', Tp: 'waves[storm].peak_period'}}",
+            "columns: {{Tp: 'waves[w].periods[0]'}}",
+        )
+        .replace("units: {{Hs: m, Tp: s}}", "units: {{Tp: s}}")
+    )
+    with pytest.raises(CaseError, match="there is no entry 'w' in 'waves'"):
+        load_fit(write(tmp_path, only_here))
