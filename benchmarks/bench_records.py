@@ -42,7 +42,8 @@ def make(folder: Path, days: float, formats: list[str]) -> None:
     piece = int(86400 * RATE)
     total = int(days * piece)
     names = [f"c{i}" for i in range(CHANNELS)]
-    writer = pq.ParquetWriter(folder / "week.parquet", pa.schema([("time", pa.float64())] + [(n, pa.float32()) for n in names]))
+    schema = pa.schema([("time", pa.float64())] + [(name, pa.float32()) for name in names])
+    writer = pq.ParquetWriter(folder / "week.parquet", schema)
     import h5netcdf
 
     file = h5netcdf.File(folder / "week.nc", "w")
@@ -59,7 +60,8 @@ def make(folder: Path, days: float, formats: list[str]) -> None:
         f = np.fft.rfftfreq(size, 1.0 / RATE)
         sea = np.fft.irfft(noise * np.exp(-(((f - 0.14) / 0.04) ** 2)), size)
         sea = (sea / sea.std()).astype(np.float32)
-        columns = [(sea * (1.0 + 0.1 * i) + 0.01 * random.normal(size=size)).astype(np.float32) for i in range(CHANNELS)]
+        gains = [1.0 + 0.1 * i for i in range(CHANNELS)]
+        columns = [(sea * gain + 0.01 * random.normal(size=size)).astype(np.float32) for gain in gains]
         writer.write_table(pa.table([t, *columns], schema=writer.schema))
         file.variables["time"][first : first + size] = t
         for name, column in zip(names, columns):
@@ -109,7 +111,7 @@ def _bare(path: Path, form: str) -> None:
         import pyarrow.parquet as pq
 
         for batch in pq.ParquetFile(path).iter_batches(131072, use_threads=False):
-            batch.num_rows
+            assert batch.num_rows
     elif form == "netcdf":
         import h5py
 
