@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.report.decimate import focus_indices, window_around
-from moyai.report.document import Abscissa, Column, Figure, Mark, Panel, Series, Table
+from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table
+from moyai.report.drawing import Sketch, with_colours
 from moyai.report.encoding import slug
+from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 
 Array = NDArray[np.float64]
@@ -292,21 +294,27 @@ def surface_table(level: Group) -> Table | None:
     )
 
 
-def section_figure(level: Group) -> Figure | None:
-    """Return the outline of the section."""
+def section_drawing(level: Group) -> Drawing | None:
+    """Return the outline of the section, to scale."""
     group = level.child("member")
     x, z = group.real("outline_x", "outline_point"), group.real("outline_z", "outline_point")
-    if x is None or z is None:
+    if x is None or z is None or not (np.ptp(x) > 0.0 and np.ptp(z) > 0.0):
         return None
-    return Figure(
-        slug(level.name, "section"),
-        "Section",
-        (Abscissa("x", "first axis", "m"),),
-        (Panel("second axis", "m"),),
-        (Series("outline", {"x": x}, z),),
-        "First axis level, second axis upwards; scales of the axes differ.",
-        height=300,
-    )
+    width, height = float(np.ptp(x)), float(np.ptp(z))
+    # Pixels a metre, so that the section fits into both directions of the page
+    scale = min(640.0 / width, 240.0 / height)
+    middle_x, middle_z = 0.5 * float(x.max() + x.min()), 0.5 * float(z.max() + z.min())
+    half_x, half_z = 0.5 * 900.0 / scale, 0.5 * (height + 110.0 / scale)
+    extent = (middle_x - half_x, middle_x + half_x, middle_z - half_z, middle_z + half_z)
+    sketch = Sketch(extent, width=920.0, title="Section of the member")
+    sketch.path(np.column_stack([x, z]), "hull", closed=True)
+    ends = (float(x.min()), float(x.max()), float(z.min()), float(z.max()))
+    sketch.dimension(ends[0], ends[2], ends[1], ends[2], format_quantity(width, "m"), offset=32.0)
+    sketch.dimension(ends[1], ends[2], ends[1], ends[3], format_quantity(height, "m"), offset=32.0)
+    sketch.dot(0.0, 0.0, 3.0, "marker")
+    svg = sketch.svg()
+    caption = "To scale; first axis level, second axis upwards. Dot: the axis of the member."
+    return Drawing(slug(level.name, "section"), "Section", svg, with_colours(svg), caption)
 
 
 def member_table(level: Group) -> Table | None:

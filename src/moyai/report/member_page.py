@@ -124,7 +124,7 @@ def _summary(result: Result, levels: tuple[Group, ...], purpose: str) -> tuple[B
 
 
 def _input(level: Group) -> list[Block | None]:
-    return [figures.member_table(level), figures.section_figure(level)]
+    return [figures.member_table(level), figures.section_drawing(level)]
 
 
 def _seas(level: Group) -> list[Block | None]:
