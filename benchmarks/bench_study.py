@@ -84,9 +84,10 @@ def main() -> None:
                       "milliseconds_of_the_parent_a_case": 1e3 * cpu / len(study.cases),
                       "least_seconds_a_case_that_keep_1000_processes_busy": 1e3 * cpu / len(study.cases)}))  # fmt: skip
     small = study_of(folder, 6, 4)
-    one, _ = timed(small, busy, 1)
-    two, _ = timed(small, busy, 2)
-    print(json.dumps({"what": "24 cases of one second", "one_process_s": one, "two_processes_s": two,
+    hundred = study_of(folder, 20, 5)
+    one, _ = timed(hundred, busy, 1)
+    two, _ = timed(hundred, busy, 2)
+    print(json.dumps({"what": "100 cases of one second", "one_process_s": one, "two_processes_s": two,
                       "efficiency": one / (2 * two), "note": "start of the processes included"}))  # fmt: skip
     try:
         from distributed import LocalCluster
