@@ -204,10 +204,10 @@ class SpectrumFile(_Irregular):
     kind: Literal["spectrum_file"] = Field(description="Spectrum from a file.")
     file: FileName = Field(
         description="Text table of frequency [Hz] and density [m2/Hz], comma, semicolon, tab or blank separated, or a "
-        "file of SWAN, WAVEWATCH III or NDBC; relative to the case file."
+        "file of SWAN, WAVEWATCH III or NDBC (others with the extra wavespectra); relative to the case file."
     )
     record: Annotated[int, Field(strict=True, ge=0, le=10_000_000)] | None = Field(
-        default=None, description="Number of the time in a file of SWAN, WAVEWATCH III or NDBC, from 0."
+        default=None, description="Number of the time in a file of several spectra, from 0."
     )
     place: Annotated[int, Field(strict=True, ge=0, le=1_000_000)] = Field(
         default=0, description="Number of the place in such a file, from 0."

@@ -2,7 +2,8 @@
 
 Every reader gives the same: times, places, frequencies, frequency spectra, and mean directions where the file tells
 them. Format descriptions: SWAN user manual, appendix on spectral files; WAVEWATCH III user manual, point output; NDBC
-web data guide. Checked against files of all three.
+web data guide. Checked against files of all three. Other formats are left to the library wavespectra
+(:mod:`moyai.sea.spectrum_wavespectra`) where it is installed.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.sea.spectra import from_table
 from moyai.sea.spectrum import Spectrum
+from moyai.sea.spectrum_wavespectra import kind_of, read_with_wavespectra
 
 Array = NDArray[np.float64]
 
@@ -30,7 +32,7 @@ class SpectrumArchive:
     Parameters
     ----------
     format : str
-        ``swan``, ``ww3`` or ``ndbc``.
+        ``swan``, ``ww3``, ``ndbc``, or the name of a reader of wavespectra.
     time : tuple of str
         ISO 8601, one a record.
     place : tuple of str
@@ -78,7 +80,7 @@ def read_archive(path: str | Path) -> SpectrumArchive:
     ----------
     path : path-like
         SWAN spectral file (1-D or 2-D), WAVEWATCH III point spectra (NetCDF or text), NDBC spectral density (recent
-        ``data_spec`` and yearly files).
+        ``data_spec`` and yearly files); anything else goes to wavespectra, if it is installed.
 
     Raises
     ------
@@ -90,7 +92,9 @@ def read_archive(path: str | Path) -> SpectrumArchive:
         raise InputError(f"no such file: {file}", path="file")
     head = file.read_bytes()[:200]
     if head[:3] == b"CDF" or head[:4] == b"\x89HDF":
-        return _ww3_netcdf(file)
+        return _netcdf(file)
+    if kind_of(file):
+        return read_with_wavespectra(file)
     try:
         text = file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
@@ -102,11 +106,15 @@ def read_archive(path: str | Path) -> SpectrumArchive:
         return _ww3_text(text, file)
     if re.match(r"#?YY", first):
         return _ndbc(text, file)
-    raise InputError(
-        f"{file.name} is no file of spectra that is known here (it starts with {first[:30]!r})",
-        path="file",
-        allowed="SWAN, WAVEWATCH III or NDBC; a table of two columns goes without 'record'",
-    )
+    try:
+        return read_with_wavespectra(file)
+    except InputError as error:
+        raise InputError(
+            f"{file.name} is no file of spectra that is known here (it starts with {first[:30]!r})",
+            path="file",
+            allowed="SWAN, WAVEWATCH III or NDBC; a table of two columns goes without 'record'",
+            remedy="; ".join(part for part in (error.fault.message, error.fault.remedy) if part),
+        ) from None
 
 
 def is_archive(path: str | Path) -> bool:
@@ -122,11 +130,12 @@ def is_archive(path: str | Path) -> bool:
         or text.upper().startswith("SWAN")
         or "WAVEWATCH III SPECTRA" in text[:60]
         or re.match(r"#?YY", text) is not None
+        or kind_of(path) != ""
     )
 
 
-def _mean_direction(density: Array, directions: Array, frequency: Array) -> float:
-    """Return the mean direction of a 2-D spectrum (f, d) whose directions are where the waves come from."""
+def mean_direction(density: Array, directions: Array, frequency: Array) -> float:
+    """Return the mean direction of a 2-D spectrum (f, d) whose directions are where the waves come from [degrees]."""
     angle = np.radians(directions)
     total = np.gradient(frequency) @ density
     if not total.any():
@@ -251,7 +260,7 @@ def _swan_block(
         step = float(abs(directions[1] - directions[0]))
     # Cartesian directions are where the waves go, counter-clockwise from east
     came_from = directions if nautical else (270.0 - directions) % 360.0
-    return spread.sum(axis=1) * step, _mean_direction(spread, came_from, frequency)
+    return spread.sum(axis=1) * step, mean_direction(spread, came_from, frequency)
 
 
 def _ww3_text(text: str, file: Path) -> SpectrumArchive:
@@ -278,9 +287,25 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
             # Fortran order: frequency runs first; values per radian and hertz
             spread = lines.numbers(count * turns).reshape(turns, count).T
             density[-1].append(spread.sum(axis=1) * step)
-            # Directions are where the waves go, counter-clockwise from east
-            mean[-1].append(_mean_direction(spread, (270.0 - np.degrees(directions)) % 360.0, frequency))
+            # Like in its NetCDF files, directions are where the waves go, clockwise from north (here in radians)
+            mean[-1].append(mean_direction(spread, (np.degrees(directions) + 180.0) % 360.0, frequency))
     return SpectrumArchive("ww3", tuple(times), tuple(places), frequency, np.array(density), np.array(mean))
+
+
+def _netcdf(file: Path) -> SpectrumArchive:
+    """Read point spectra of WAVEWATCH III; other programs' files by wavespectra."""
+    try:
+        return _ww3_netcdf(file)
+    except InputError as error:
+        try:
+            return read_with_wavespectra(file)
+        except InputError as other:
+            raise InputError(
+                error.fault.message,
+                path="file",
+                allowed=error.fault.allowed,
+                remedy="; ".join(part for part in (other.fault.message, other.fault.remedy) if part),
+            ) from None
 
 
 def _ww3_netcdf(file: Path) -> SpectrumArchive:
@@ -305,7 +330,7 @@ def _ww3_netcdf(file: Path) -> SpectrumArchive:
         step = 2.0 * math.pi / directions.size
         # In WAVEWATCH III's point files the directions are where the waves go, clockwise from north
         came_from = (directions + 180.0) % 360.0
-        mean = np.array([[_mean_direction(np.nan_to_num(one), came_from, frequency) for one in row] for row in spread])
+        mean = np.array([[mean_direction(np.nan_to_num(one), came_from, frequency) for one in row] for row in spread])
         places = tuple(f"station {number + 1}" for number in range(spread.shape[1]))
         return SpectrumArchive("ww3", times, places, frequency, spread.sum(axis=-1) * step, mean)
 

@@ -1,0 +1,144 @@
+"""Spectra of further programs and buoys, read by the library wavespectra (extra ``wavespectra``).
+
+SWAN, WAVEWATCH III and NDBC have readers of their own in :mod:`moyai.sea.spectrum_archives`; this module is asked for
+whatever else there is: TRIAXYS, Spotter, Datawell, AWAC, Octopus, ERA5, WWM, FUNWAVE, XWaves, Obscape.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+
+if TYPE_CHECKING:
+    from moyai.sea.spectrum_archives import SpectrumArchive
+
+Array = NDArray[np.float64]
+
+_TEXT = ("octopus", "awac", "funwave", "obscape", "xwaves", "datawell", "triaxys", "spotter", "json")
+_NETCDF = ("ww3", "era5", "ncswan", "wwm", "wavespectra", "netcdf")
+
+
+def kind_of(path: str | Path) -> str:
+    """Return the reader of wavespectra that a file is surely for, empty where its beginning does not tell.
+
+    Parameters
+    ----------
+    path : path-like
+    """
+    file = Path(path)
+    try:
+        head = file.read_bytes()[:4000].lstrip()
+    except OSError:
+        return ""
+    if head.startswith(b"TRIAXYS"):
+        return "triaxys"
+    if file.suffix.lower() == ".spt":
+        return "datawell"
+    if head.startswith(b"{") and b"spotter" in head.lower():
+        return "spotter"
+    return ""
+
+
+def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
+    """Read a file of spectra with wavespectra.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    SpectrumArchive
+        Its ``format`` is the name of the reader.
+
+    Raises
+    ------
+    InputError
+        When wavespectra is absent, or none of its readers makes sense of the file.
+    """
+    file = Path(path)
+    kind = kind_of(file)
+    try:
+        import wavespectra
+    except ImportError:
+        what = f"{file.name} is a file of the kind '{kind}'; reading it" if kind else f"reading {file.name}"
+        raise InputError(
+            f"{what} needs the library wavespectra",
+            path="file",
+            allowed="SWAN, WAVEWATCH III and NDBC without it",
+            remedy='pip install "moyai[wavespectra]"',
+        ) from None
+    head = file.read_bytes()[:4]
+    several = _NETCDF if head[:3] == b"CDF" or head == b"\x89HDF" else _TEXT
+    refused = ""
+    for name in (kind,) if kind else several:
+        reader = getattr(wavespectra, f"read_{name}", None)
+        if reader is None:
+            continue
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                archive = _archive(reader(str(file)), name)
+        except Exception as error:
+            # Readers of other kinds fail on a file in every way there is
+            refused = refused or f"{name}: {type(error).__name__}: {error}"
+            continue
+        if archive is not None:
+            return archive
+    told = f" ({refused[:160]})" if kind else f" (tried {', '.join(several)})"
+    raise InputError(f"wavespectra finds no spectra in {file.name}{told}", path="file")
+
+
+def _archive(data: Any, name: str) -> SpectrumArchive | None:
+    """Return a dataset of wavespectra as an archive, ``None`` where it holds no sensible spectra."""
+    from moyai.sea.spectrum_archives import SpectrumArchive, mean_direction
+
+    spread = data["efth"]
+    turned = "dir" in spread.dims and spread.sizes["dir"] > 1
+    if "dir" in spread.dims and not turned:
+        spread = spread.isel(dir=0, drop=True)
+    if "time" not in spread.dims:
+        spread = spread.expand_dims("time")
+    tail = ("freq", "dir") if turned else ("freq",)
+    apart = [str(dim) for dim in spread.dims if dim not in ("time", *tail)]
+    spread = spread.transpose("time", *apart, *tail)
+    frequency = np.asarray(data["freq"].values, dtype=float)
+    table = np.asarray(spread.values, dtype=float)
+    table = table.reshape(table.shape[0], -1, *table.shape[1 + len(apart) :])
+    rising = np.argsort(frequency)
+    frequency, table = frequency[rising], np.take(table, rising, axis=2)
+    known = table[np.isfinite(table)]
+    if frequency.size < 2 or np.any(np.diff(frequency) <= 0.0) or not known.any() or np.any(known < 0.0):
+        return None
+    mean = np.full(table.shape[:2], math.nan)
+    if turned:
+        directions = np.asarray(data["dir"].values, dtype=float)
+        # A circle that is closed twice (0 and 360 degrees) counts once
+        _, once = np.unique(np.mod(directions, 360.0), return_index=True)
+        whole = np.nan_to_num(table[..., once])
+        for place in np.ndindex(*mean.shape):
+            mean[place] = mean_direction(whole[place], directions[once], frequency)
+        density = np.where(np.isfinite(table).any(axis=-1), whole.sum(axis=-1) * 360.0 / once.size, math.nan)
+    else:
+        density = table
+    if "time" in spread.coords:
+        times = tuple(str(value)[:16] for value in spread["time"].values)
+    else:
+        times = ("stationary",)
+    return SpectrumArchive(name, times, _places(spread, apart), frequency, density, mean)
+
+
+def _places(spread: Any, apart: list[str]) -> tuple[str, ...]:
+    sizes = [spread.sizes[dim] for dim in apart]
+    words = []
+    for place in np.ndindex(*sizes):
+        parts = [f"{dim} {spread[dim].values[at] if dim in spread.coords else at}" for dim, at in zip(apart, place)]
+        words.append(", ".join(parts) or "point")
+    return tuple(words)
