@@ -75,7 +75,7 @@ class ExplicitRun:
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
         # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step
         # behind
-        self.ledger = np.zeros(6)
+        self.ledger = np.zeros(kernel.LEDGER + 6 * len(self.driving[0]))
         self.place[:], self.speed[:] = start.position.T, start.velocity.T
         self.speed[:, network.nodes.kind != 0] = 0.0
         kernel.drive(self.packed.memory, *self.driving, self.time, 0.0)

@@ -45,6 +45,9 @@ FX, FY, FZ, PULL, PEAK, WET, RATE = (row * ROW for row in range(62, 69))
 AX, AY, AZ, EX, EY, EZ = (row * ROW for row in range(69, 75))
 DXX, DXY, DXZ, DYY, DYZ, DZZ = (row * ROW for row in range(75, 81))
 ROWS_OF_NODES, ROWS = 49, 81
+#: Length of the ledger of a run; behind it stand, for each driven point, the impulse of the network on it (three
+#: numbers, N s) and the moment of that impulse about the start of the call (three numbers, N s2).
+LEDGER = 6
 #: Ribs repeat the rows of bars, from here on.
 RIB = (ROWS - ROWS_OF_NODES) * ROW
 TOTAL_ROWS = ROWS + ROWS - ROWS_OF_NODES
@@ -525,10 +528,10 @@ def march(
     (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0
     work
     of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
-    velocities stand half a step behind. ``saved`` is (position (rows, nodes, 3), tension (rows, bars), highest
-    tension since
-    the last row, energies and work (rows, 3), kept nodes, kept bars as places in ``A``). Returns the number of good
-    rows, fewer than asked for when values are no longer finite.
+    velocities stand half a step behind, and from ``LEDGER`` on the impulses on driven points. ``saved`` is (position
+    (rows, nodes, 3), tension (rows, bars), highest tension since the last row, energies and work (rows, 3), kept nodes,
+    kept bars as places in ``A``). Returns the number of good rows, fewer than asked for when values are no longer
+    finite.
     """
     count, spine = sizes[0], sizes[1]
     driven, rest, tables, table_start, table_step = driving
@@ -575,6 +578,13 @@ def march(
                         ledger[1] += 0.5 * (pull + drawn[d, axis]) * moved[d, axis]
                         drawn[d, axis] = pull
                         moved[d, axis] = A[X + axis * ROW + node]
+                        # impulse of bars (half a step at both ends of a row) and of loads, and its moment about start
+                        share = (0.5 if part + inner == 0 else 1.0) * step
+                        gone = (index + inner) * step
+                        ledger[LEDGER + 6 * d + axis] += step * A[PX + axis * ROW + node] - share * pull
+                        ledger[LEDGER + 6 * d + 3 + axis] += (
+                            step * (gone + 0.5 * step) * A[PX + axis * ROW + node] - share * gone * pull
+                        )
                 push = step
                 if ledger[5] == 0.0:
                     push = 0.5 * step
@@ -598,12 +608,15 @@ def march(
             rib_forces(A, runs, curves)
             bending_forces(A, hinges, bending)
         spine_forces(A, spine)
+        gone = (row + 1) * per_row * per_load * step
         for d in range(driven.shape[0]):
             for axis in range(3):
                 pull = -_node_force(A, driven[d, 0], axis)
                 ledger[1] += 0.5 * (pull + drawn[d, axis]) * moved[d, axis]
                 drawn[d, axis] = pull
                 moved[d, axis] = 0.0
+                ledger[LEDGER + 6 * d + axis] -= 0.5 * step * pull
+                ledger[LEDGER + 6 * d + 3 + axis] -= 0.5 * step * gone * pull
         for axis in range(3):
             for i in range(count):
                 keep[axis, i] = A[U + axis * ROW + i]
