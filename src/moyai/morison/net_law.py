@@ -1,0 +1,78 @@
+"""Laws of net forces by name; every law is a file of its own in :mod:`moyai.morison.net_laws`."""
+
+from __future__ import annotations
+
+import difflib
+
+from moyai.core.errors import InputError
+from moyai.morison.net_law_base import NetLaw, panel_force
+from moyai.morison.net_laws.aarsnes import Aarsnes
+from moyai.morison.net_laws.balash import Balash
+from moyai.morison.net_laws.bessonneau import Bessonneau
+from moyai.morison.net_laws.bi import Bi
+from moyai.morison.net_laws.choo_casarella import ChooCasarella
+from moyai.morison.net_laws.kristiansen_faltinsen import KristiansenFaltinsen
+from moyai.morison.net_laws.loland import Loland
+from moyai.morison.net_laws.matsubara import Matsubara
+from moyai.morison.net_laws.milne import Milne
+from moyai.morison.net_laws.takagi import Takagi
+from moyai.morison.net_laws.wan import Wan
+from moyai.morison.nets import Net
+
+_LAWS: dict[str, type[NetLaw]] = {
+    law.name: law
+    for law in (
+        Matsubara,
+        Loland,
+        Aarsnes,
+        KristiansenFaltinsen,
+        Balash,
+        Bi,
+        Milne,
+        Takagi,
+        ChooCasarella,
+        Bessonneau,
+        Wan,
+    )
+}
+
+
+def available_net_laws() -> tuple[str, ...]:
+    """Return the names of all laws."""
+    return tuple(_LAWS)
+
+
+def net_law(name: str, **options: object) -> NetLaw:
+    """Return a law by its name.
+
+    Parameters
+    ----------
+    name : str
+        One of :func:`available_net_laws`.
+    **options
+        Fields of that law, such as ``cap`` of ``matsubara``.
+
+    Raises
+    ------
+    InputError
+        For an unknown name or option.
+    """
+    if name not in _LAWS:
+        near = difflib.get_close_matches(name, available_net_laws(), 1, 0.3)
+        raise InputError(
+            f"unknown net law '{name}'",
+            path="law",
+            allowed=", ".join(available_net_laws()),
+            remedy=f"did you mean '{near[0]}'?" if near else "",
+        )
+    law = _LAWS[name]
+    known = tuple(law.__dataclass_fields__)
+    unknown = [key for key in options if key not in known]
+    if unknown:
+        raise InputError(
+            f"the net law '{name}' has no option '{unknown[0]}'", path=unknown[0], allowed=", ".join(known) or "none"
+        )
+    return law(**options)
+
+
+__all__ = ["Net", "NetLaw", "available_net_laws", "net_law", "panel_force"]
