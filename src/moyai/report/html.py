@@ -39,7 +39,7 @@ STATUS_WORDS = {
     "failed": "Failed",
 }
 STATUS_TONE = {"converged": "good", "outside_validity": "caution", "interrupted": "caution"}
-_SCRIPTS = ("report.js", "figures.js", "curtain.js", "player.js")
+_SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
 
 def asset(name: str) -> str:

@@ -208,7 +208,7 @@ class Player {
     this.scrub = this.element("input", { type: "range", min: 0, max: 1000, step: "any", oninput: () => this.seek(this.fromScrub()) });
     this.scrub.setAttribute("aria-label", "Time");
     this.clock = this.element("span", { className: "clock" });
-    this.speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
+    this.speeds = [0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
     this.speedSelect = this.element("select", { title: "Speed (plus, minus)", onchange: () => { this.speed = Number(this.speedSelect.value); } },
       ...this.speeds.map((v) => this.element("option", { value: v, textContent: `${v}×` })));
     this.speedSelect.value = this.speed;
@@ -224,7 +224,10 @@ class Player {
   // Unpacking waits until the scene is seen.
   visibilityChanged() {
     if (!MOYAI.isVisible(this.holder)) { this.pause(); return; }
-    if (!this.painter) this.painter = new MOYAI.painters[this.scene.kind](this.scene);
+    if (!this.painter) {
+      this.painter = new MOYAI.painters[this.scene.kind](this.scene);
+      if (this.painter.attach) this.painter.attach(this); // it listens to the pointer itself
+    }
     this.repaint();
   }
   span() {
@@ -294,7 +297,7 @@ class Player {
   repaint() {
     if (!this.painter || !MOYAI.isVisible(this.holder)) return;
     const width = MOYAI.printing ? 670 : this.canvas.clientWidth || this.holder.clientWidth;
-    const height = Math.round(Math.max(180, Math.min(430, width * this.painter.aspect(this.view) + 48)));
+    const height = Math.round(Math.max(180, Math.min(this.painter.tallest || 430, width * this.painter.aspect(this.view) + 48)));
     const ratio = MOYAI.printing ? 3 : window.devicePixelRatio || 1;
     if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
       this.canvas.width = Math.round(width * ratio);
@@ -309,6 +312,7 @@ class Player {
     this.clock.textContent = `${this.t.toFixed(2)} s`;
     this.scrub.setAttribute("aria-valuetext", this.clock.textContent);
     this.spanButton.textContent = this.whole ? "Show window" : "Whole record";
+    this.spanButton.hidden = this.scene.window[0] <= this.painter.times[0] && this.scene.window[1] >= this.painter.times[this.painter.times.length - 1];
     const views = Object.keys(this.scene.extents);
     this.viewButton.textContent = views[(views.indexOf(this.view) + 1) % views.length];
     this.viewButton.hidden = views.length < 2;
