@@ -106,7 +106,7 @@ class NetLaw(ABC):
         folded = np.arctan2(np.abs(np.sin(turned)), np.abs(np.cos(turned)))
         drag, lift = self._coefficients(folded, fast, net, kinematic_viscosity)
         # the lift vanishes along both symmetries of the panel: no rounding of sin 2 theta is left there
-        return drag, np.where((folded == 0.0) | (np.abs(folded - 0.5 * np.pi) < 1e-12), 0.0, lift)
+        return drag, np.where((folded < 1e-12) | (np.abs(folded - 0.5 * np.pi) < 1e-12), 0.0, lift)
 
     def check(self, net: Net, speed_range: tuple[float, float], kinematic_viscosity: float) -> tuple[Notice, ...]:
         """Tell where a net or its speeds leave the range of the law, with the number and the limit.
