@@ -42,6 +42,8 @@ class Fit:
         Number of values.
     log_likelihood : float
         Of the values under the fit.
+    threshold : float or None
+        Weibull of a tail: the distribution is that of values above it [eq:extremes-weibull-tail].
     """
 
     family: Family
@@ -50,6 +52,12 @@ class Fit:
     shape: float
     count: int
     log_likelihood: float
+    threshold: float | None = None
+
+    @property
+    def _start(self) -> float:
+        """``((threshold - location) / scale)^shape``, zero where the whole Weibull is meant."""
+        return 0.0 if self.threshold is None else ((self.threshold - self.location) / self.scale) ** self.shape
 
     def exceedance(self, level: ArrayLike) -> Array:
         """Return the probability that a value exceeds ``level``; accurate also where it is tiny."""
@@ -58,7 +66,7 @@ class Fit:
             return np.asarray(-np.expm1(-np.exp(-y)))
         y = np.maximum(y, 0.0)
         if self.family == "weibull":
-            return np.asarray(np.exp(-(y**self.shape)))
+            return np.asarray(np.exp(-np.maximum(y**self.shape - self._start, 0.0)))
         if abs(self.shape) < 1e-9:
             return np.asarray(np.exp(-y))
         return np.asarray(np.maximum(1.0 + self.shape * y, 0.0) ** (-1.0 / self.shape))
@@ -71,7 +79,7 @@ class Fit:
         if self.family == "gumbel":
             return np.asarray(self.location - self.scale * np.log(-np.log1p(-p)))
         if self.family == "weibull":
-            return np.asarray(self.location + self.scale * (-np.log(p)) ** (1.0 / self.shape))
+            return np.asarray(self.location + self.scale * (self._start - np.log(p)) ** (1.0 / self.shape))
         if abs(self.shape) < 1e-9:
             return np.asarray(self.location - self.scale * np.log(p))
         return np.asarray(self.location + self.scale * np.expm1(-self.shape * np.log(p)) / self.shape)
@@ -114,7 +122,7 @@ class Interval:
     confidence: float
 
 
-def fit(values: ArrayLike, family: Family, *, location: float | None = None) -> Fit:
+def fit(values: ArrayLike, family: Family, *, location: float | None = None, threshold: float | None = None) -> Fit:
     """Fit a distribution by maximum likelihood.
 
     Parameters
@@ -126,6 +134,8 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None) -> 
     location : float
         Lower end of the Weibull (0 for peaks above a mean) or threshold of the Pareto; values below it are left out.
         Not for the Gumbel.
+    threshold : float, optional
+        Weibull only: fit the tail above it, by the likelihood of values that are known to exceed it.
 
     Returns
     -------
@@ -157,6 +167,14 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None) -> 
             path="location",
             remedy="give the threshold, or 0 for peaks above the mean",
         )
+    if threshold is not None:
+        if family != "weibull" or threshold < location:
+            raise InputError(
+                "only the tail of a Weibull distribution has a threshold, no less than its location", path="threshold"
+            )
+        above = data[data > threshold]
+        _require(above, family)
+        return _weibull_tail(above, location, threshold)
     above = data[data > location]
     _require(above, family)
     return _weibull(above, location) if family == "weibull" else _pareto(above, location)
@@ -205,6 +223,39 @@ def _weibull(data: Array, location: float) -> Fit:
     return Fit("weibull", location, scale, shape, data.size, likelihood)
 
 
+def _weibull_tail(data: Array, location: float, threshold: float) -> Fit:
+    unit = float(np.max(data)) - location
+    log = np.log((data - location) / unit)
+    start = (threshold - location) / unit
+    mean_log = float(np.mean(log))
+
+    def power(shape: float) -> float:
+        return float(np.mean(np.exp(shape * log))) - (start**shape if start > 0.0 else 0.0)
+
+    def minus_likelihood(log_shape: float) -> float:
+        # The scale that fits best follows from the shape: scale^shape is the mean of what power() holds
+        shape = math.exp(log_shape)
+        rest = power(shape)
+        return math.inf if rest <= 0.0 else math.log(rest) - math.log(shape) - (shape - 1.0) * mean_log + 1.0
+
+    grid = np.linspace(math.log(0.1), math.log(30.0), 60)
+    values = np.array([minus_likelihood(one) for one in grid])
+    best = int(np.argmin(values))
+    if best in (0, grid.size - 1) or not math.isfinite(values[best]):
+        raise ConvergenceError(
+            "the likelihood of the tail of the Weibull fit has no maximum",
+            path="values",
+            remedy="fit a larger share of the peaks, or choose another family",
+        )
+    found = minimize_scalar(
+        minus_likelihood, bounds=(grid[best - 1], grid[best + 1]), method="bounded", options={"xatol": 1e-10}
+    )
+    shape = math.exp(float(found.x))
+    scale = power(shape) ** (1.0 / shape) * unit
+    likelihood = -data.size * (float(found.fun) + math.log(unit))
+    return Fit("weibull", location, scale, shape, data.size, likelihood, threshold)
+
+
 def _pareto(data: Array, location: float) -> Fit:
     excess = data - location
     unit = float(np.mean(excess))
@@ -240,6 +291,12 @@ def _pareto(data: Array, location: float) -> Fit:
     scale = shape / theta if abs(theta) >= 1e-7 else float(np.mean(x))
     likelihood = -minus_likelihood(theta) - x.size * math.log(unit)
     return Fit("generalised_pareto", location, scale * unit, shape, data.size, likelihood)
+
+
+def refit(fitted: Fit, values: ArrayLike) -> Fit:
+    """Return the same kind of fit to other values: same family, lower end and threshold."""
+    location = None if fitted.family == "gumbel" else fitted.location
+    return fit(values, fitted.family, location=location, threshold=fitted.threshold)
 
 
 def maximum_interval(
@@ -281,7 +338,7 @@ def maximum_interval(
     for _ in range(repetitions):
         drawn = fitted.sample(fitted.count, generator)
         try:
-            again = fit(drawn, fitted.family, location=None if fitted.family == "gumbel" else fitted.location)
+            again = refit(fitted, drawn)
         except (InputError, ConvergenceError):
             continue
         found.append(level(again))
@@ -306,7 +363,8 @@ def check_fit(fitted: Fit, values: ArrayLike) -> tuple[Notice, ...]:
     """
     notices = []
     data = np.sort(np.asarray(values, dtype=float).ravel())
-    data = data[data > fitted.location] if fitted.family != "gumbel" else data
+    lower_end = fitted.location if fitted.threshold is None else fitted.threshold
+    data = data[data > lower_end] if fitted.family != "gumbel" else data
     n = data.size
     above = np.clip(fitted.exceedance(data), 1e-300, 1.0 - 1e-16)
     order = np.arange(1, n + 1)

@@ -30,6 +30,14 @@ from moyai.report.reading import Group
 from moyai.report.study_drawings import heat_map, parallel_coordinates, rose
 from moyai.report.study_reading import StudyPages, read_study
 
+_FITTED = {
+    "gumbel": "Gumbel fit of the maxima by maximum likelihood, parametric bootstrap",
+    "weibull": "Weibull fit of the peaks by maximum likelihood, parametric bootstrap",
+    "generalised_pareto": "Generalised Pareto fit of the largest peaks by maximum likelihood, parametric bootstrap",
+    "weibull, snaps apart": "Weibull fits of snap peaks and of the others, parametric bootstrap",
+    "generalised_pareto, snaps apart": "Generalised Pareto fits of snap peaks and of the others, parametric bootstrap",
+    "acer": "Average conditional exceedance of the peaks, tail fitted by least squares",
+}
 _MOST_ROWS = 500
 _WORDS = {"converged": "run", "outside_validity": "run with doubts", "failed": "failed", "not run": "not run"}
 
@@ -283,6 +291,7 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
     blocks: list[Block] = []
     for number, group in enumerate(_groups(pages, "extremes")):
         value = group["design_value"]
+        family = str(group.attrs.get("family", "gumbel"))
         units = str(value.attrs.get("units", "1"))
         places = list(np.ndindex(*value.shape))
         columns = [
@@ -293,13 +302,13 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
             ("design_value", "Design value"),
             ("lower", "Lower"),
             ("upper", "Upper"),
-            ("location", "Most probable maximum"),
+            ("most_probable_maximum", "Most probable maximum"),
         ):
             columns.append(Column(label, [float(group[name].values[place]) for place in places], units))
         blocks.append(
             Table(
                 f"extremes-{number}", f"Extremes of {group.attrs['response']} over {group.attrs['over']}",
-                tuple(columns), f"{value.attrs['long_name']}. Gumbel fit by maximum likelihood, parametric bootstrap.",
+                tuple(columns), f"{value.attrs['long_name']}. {_FITTED.get(family, family)}.",
             )
         )  # fmt: skip
     for number, group in enumerate(_groups(pages, "fatigue")):
@@ -310,6 +319,10 @@ def _extremes(pages: StudyPages) -> tuple[Block, ...]:
             for n, dim in enumerate(life.dims)
         ]
         columns.append(Column("Life [years]", [float(life.values[place]) for place in places]))
+        if "equivalent_range" in group:
+            ranges = group["equivalent_range"]
+            values = [float(ranges.values[place]) for place in places]
+            columns.append(Column("Equivalent range", values, str(ranges.attrs["units"])))
         title = f"Fatigue life from {group.attrs['response']}"
         blocks.append(Table(f"fatigue-{number}", title, tuple(columns), str(life.attrs["long_name"])))
     for number, group in enumerate(_groups(pages, "long term")):

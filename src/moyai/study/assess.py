@@ -18,13 +18,15 @@ from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.design.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
 from moyai.design.codes import DesignCode, LineLoad, check_confirmation, check_line, design_code
-from moyai.design.extremes import check_fit, fit, maximum_interval
-from moyai.design.long_term import YEAR, return_level
+from moyai.design.extremes import fit
+from moyai.design.long_term import return_level
 from moyai.study import schema
+from moyai.study.extremes_over_seeds import extremes, require_axis
+from moyai.study.fatigue_of_lines import fatigue
 from moyai.study.plan import Study
 from moyai.study.tensions import Tensions, has, tensions, variable
 from moyai.study.tensions import response as response_of
-from moyai.tables.design_codes import CodeRule, endurance_data, holding_data
+from moyai.tables.design_codes import CodeRule, holding_data
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -64,11 +66,11 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
     if wanted.anchors:
         parts.append(("anchors", lambda: _anchors(study, wanted.anchors, tensions(study, result, wanted.tensions))))
     for number, one in enumerate(wanted.extremes):
-        parts.append((f"extremes {number + 1}", lambda one=one: _extremes(study, result, one)))  # type: ignore[misc]
+        parts.append((f"extremes {number + 1}", lambda one=one: extremes(_names(study), result, one)))  # type: ignore[misc]
     for number, other in enumerate(wanted.long_term):
         parts.append((f"long term {number + 1}", lambda other=other: _long_term(study, result, other)))  # type: ignore[misc]
     for number, tired in enumerate(wanted.fatigue):
-        parts.append((f"fatigue {number + 1}", lambda tired=tired: _fatigue(study, result, tired)))  # type: ignore[misc]
+        parts.append((f"fatigue {number + 1}", lambda tired=tired: fatigue(study, result, tired)))  # type: ignore[misc]
     for name, compute in parts:
         try:
             groups[f"/assessment/{name}"], said = compute()
@@ -83,6 +85,10 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
     tree = xr.DataTree.from_dict(groups)
     tree.attrs.update(attributes)
     return replace(result, tree=tree).with_notices(*notices)
+
+
+def _names(study: Study) -> tuple[str, ...]:
+    return tuple(axis.name for axis in study.axes)
 
 
 def _codes(wanted: schema.LineChecks) -> list[DesignCode]:
@@ -235,70 +241,11 @@ def _anchors(
     )
 
 
-def _require_axis(array: xr.DataArray, name: str, study: Study) -> None:
-    if name not in array.dims:
-        known = ", ".join(axis.name for axis in study.axes)
-        raise InputError(f"the study has no axis '{name}'", path="assess", allowed=known)
-
-
-def _extremes(study: Study, result: Result, wanted: schema.ExtremesOfSeeds) -> tuple[xr.Dataset, list[Notice]]:
-    import xarray as xr
-
-    response = response_of(result, wanted.response)
-    _require_axis(response, wanted.over, study)
-    moved = response.transpose(..., wanted.over)
-    values = moved.values
-    outer = values.shape[:-1]
-    names = ("design_value", "lower", "upper", "location", "scale")
-    table = {name: np.full(outer, math.nan) for name in names}
-    notices: dict[str, Notice] = {}
-    for place in np.ndindex(*outer):
-        data = values[place][np.isfinite(values[place])]
-        if data.size == 0:
-            continue
-        if data.size < 5:
-            raise InputError(
-                f"{data.size} maxima of '{wanted.response}' are too few for a {wanted.family} fit",
-                path="assess.extremes",
-                allowed="at least 5",
-                remedy=f"run more points along '{wanted.over}'",
-            )
-        if np.ptp(data) <= 1e-12 * np.max(np.abs(data)):
-            # The response does not depend on the seed here (slack line, no waves): its value is the answer
-            for name in ("design_value", "lower", "upper", "location"):
-                table[name][place] = data[0]
-            table["scale"][place] = 0.0
-            continue
-        fitted = fit(data, wanted.family)
-        interval = maximum_interval(
-            fitted, 1.0, seed=wanted.seed, probability=wanted.probability, confidence=wanted.confidence, repetitions=200
-        )
-        entries = (interval.value, interval.lower, interval.upper, fitted.location, fitted.scale)
-        for name, value in zip(names, entries):
-            table[name][place] = value
-        for notice in check_fit(fitted, data):
-            notices.setdefault(notice.code, replace(notice, message=f"{wanted.response}: {notice.message}"))
-    units = response.attrs.get("units", "1")
-    words = {
-        "design_value": f"level that the maximum stays below with probability {wanted.probability:g}",
-        "lower": f"lower end of its {100 * wanted.confidence:g} % interval",
-        "upper": f"upper end of its {100 * wanted.confidence:g} % interval",
-        "location": "most probable maximum: mode of the Gumbel distribution of the maxima",
-        "scale": "scale of the Gumbel distribution of the maxima",
-    }
-    dims = moved.dims[:-1]
-    data_vars = {name: (dims, table[name], {"units": units, "long_name": words[name]}) for name in names}
-    coords = {name: moved.coords[name] for name in dims if name in moved.coords}
-    out = xr.Dataset(data_vars, coords=coords)
-    out.attrs.update({"response": wanted.response, "over": wanted.over})
-    return out, list(notices.values())
-
-
 def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[xr.Dataset, list[Notice]]:
     import xarray as xr
 
     response = response_of(result, wanted.response)
-    _require_axis(response, wanted.over, study)
+    require_axis(response, wanted.over, _names(study))
     axis = next(one for one in study.axes if one.name == wanted.over)
     share = np.array([point.probability for point in axis.points])
     if not np.isfinite(share).all():
@@ -309,7 +256,7 @@ def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[x
         )
     inner = (wanted.over, wanted.seeds) if wanted.seeds else (wanted.over,)
     if wanted.seeds:
-        _require_axis(response, wanted.seeds, study)
+        require_axis(response, wanted.seeds, _names(study))
     moved = response.transpose(..., *inner)
     outer = moved.shape[: moved.ndim - len(inner)]
     levels = np.full((*outer, len(wanted.years)), math.nan)
@@ -344,57 +291,6 @@ def _long_term(study: Study, result: Result, wanted: schema.LongTerm) -> tuple[x
             remedy="say how many 'waves', or run seeds and name their axis",
         )
     ]
-
-
-def _fatigue(study: Study, result: Result, wanted: schema.Fatigue) -> tuple[xr.Dataset, list[Notice]]:
-    """Return the life of every line over the sea states; [eq:fatigue-miner] summed by their probabilities."""
-    import xarray as xr
-
-    curve = endurance_data(wanted.curve)
-    if curve.unit != "1":
-        raise InputError(
-            f"'{wanted.curve}' takes stresses",
-            path="assess.fatigue",
-            remedy="choose a curve in ratios to breaking load",
-        )
-    name = f"{wanted.response}_rainflow_{curve.exponent:g}"
-    sums = response_of(result, name)
-    if "line" not in sums.dims:
-        raise InputError(f"'{wanted.response}' is no series of lines", path="assess.fatigue.response")
-    level = wanted.response.split("/")[0]
-    if not has(result, f"/{level}/statics", "breaking_load"):
-        raise InputError("the breaking loads of the lines are not known", path="assess.fatigue")
-    breaking = variable(result, f"/{level}/statics", "breaking_load")
-    capacity = np.full(sums.shape, curve.capacity)
-    notices: list[Notice] = []
-    if curve.mean_term:
-        mean = response_of(result, wanted.response.rsplit("/", 2)[0] + "/mean_tension")
-        share = (mean / breaking).transpose(*sums.dims).values
-        capacity = curve.capacity * 10.0 ** (-curve.mean_term * share)
-    rate = sums / breaking.transpose(*sums.dims) ** curve.exponent / capacity
-    if any(axis.name == wanted.over for axis in study.axes):
-        axis = next(one for one in study.axes if one.name == wanted.over)
-        share = np.array([point.probability for point in axis.points])
-        if not np.isfinite(share).all():
-            raise InputError(f"the points of '{wanted.over}' have no probabilities", path="assess.fatigue")
-        rate = (rate * xr.DataArray(share, dims=[wanted.over])).sum(wanted.over, skipna=False)
-    else:
-        known = ", ".join(axis.name for axis in study.axes)
-        raise InputError(f"the study has no axis '{wanted.over}'", path="assess.fatigue", allowed=known)
-    seeds = [str(dim) for dim in rate.dims if dim == "seed"]
-    rate = rate.mean(seeds, skipna=False) if seeds else rate
-    with np.errstate(divide="ignore"):
-        years = 1.0 / (rate.values * YEAR * wanted.safety_factor)
-    if not (curve.confirmed or wanted.confirmed):
-        message = f"the endurance curve '{wanted.curve}' was not held against the standard itself"
-        remedy = "compare it with your copy and say 'confirmed: true'"
-        notices.append(Notice("curve-unconfirmed", message, remedy=remedy, source=curve.source))
-    words = f"life by {wanted.curve}, safety factor {wanted.safety_factor:g}"
-    attributes = {"units": "year", "long_name": words}
-    coords = {str(dim): rate.coords[dim] for dim in rate.dims if dim in rate.coords}
-    out = xr.Dataset({"life": (rate.dims, years, attributes)}, coords=coords)
-    out.attrs.update({"response": wanted.response, "curve": wanted.curve})
-    return out, notices
 
 
 def _short_term(maxima: Any, waves: float) -> Callable[[np.ndarray], np.ndarray]:

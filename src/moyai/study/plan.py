@@ -20,7 +20,6 @@ from moyai.study import schema
 from moyai.study.paths import assign, remove, resolve
 from moyai.study.responses import Wanted
 from moyai.study.variations import Axis, Combination, Point, axes_of, combinations, common_unit
-from moyai.tables.design_codes import endurance_data
 
 LARGEST = 1_000_000
 """Number of cases above which a study is refused as a slip."""
@@ -143,14 +142,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
         if item.reduce == "rainflow" and item.exponent is None:
             place = ("study", "responses", number)
             raise CaseError([document.fault(place, "rainflow needs the 'exponent' of the endurance curve")])
-    for one in block.assess.fatigue if block.assess is not None else ():
-        try:
-            wanted.append(Wanted(one.response, "rainflow", (), endurance_data(one.curve).exponent))
-        except InputError as error:
-            fault = error.fault
-            raise CaseError(
-                [document.fault(("study", "assess", "fatigue"), fault.message, allowed=fault.allowed)]
-            ) from None
+    wanted += _wanted_of_assessment(document, block.assess)
     keep = block.keep == "results"
     study = Study(
         block.title, base, base_path, tuple(axes), cases, tuple(dict.fromkeys(wanted)), block.watch, keep, "", search
@@ -158,6 +150,29 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     study = replace(study, assessment=block.assess, replays=block.replays)
     named = check_cases(study, progress)
     return replace(study, key=_key(study, named))
+
+
+def _wanted_of_assessment(document: Document, assess: schema.Assessment | None) -> list[Wanted]:
+    """Return what every case must keep for the assessment; refuse settings that contradict each other."""
+    from moyai.study.extremes_over_seeds import fault_of, wanted_of
+    from moyai.study.fatigue_of_lines import curves_of
+
+    wanted: list[Wanted] = []
+    for one in assess.fatigue if assess is not None else ():
+        try:
+            exponents = {curve.exponent for curve in curves_of(one).values()}
+        except InputError as error:
+            fault = error.fault
+            place = ("study", "assess", "fatigue")
+            told = document.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+            raise CaseError([told]) from None
+        wanted += [Wanted(one.response, "rainflow", (), exponent) for exponent in sorted(exponents)]
+    for extreme in assess.extremes if assess is not None else ():
+        message = fault_of(extreme)
+        if message:
+            raise CaseError([document.fault(("study", "assess", "extremes"), message, remedy="leave it out")])
+        wanted += wanted_of(extreme)
+    return wanted
 
 
 def case_at(study: Study, combination: Combination) -> Case:

@@ -26,7 +26,8 @@ class Wanted:
     variable : str
         Group and name: ``SWL/rao/mean_drift_force``.
     reduce : str
-        ``maximum``, ``minimum``, ``mean``, ``last``, ``all`` or ``rainflow``.
+        ``maximum``, ``minimum``, ``mean``, ``last``, ``all``, ``rainflow``, ``peaks``, ``snap_peaks``,
+        ``other_peaks`` or ``mean_in_time``.
     over : tuple of str
         Dimensions; all whose coordinate is no label when empty.
     exponent : float
@@ -85,6 +86,8 @@ def _counted(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
     if "time" not in variable.dims or "time" not in variable.coords:
         raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")
     seconds = float(np.ptp(variable.coords["time"].values.astype(float)))
+    if not seconds > 0.0:
+        raise InputError(f"'{item.variable}' has no length along 'time'", path="responses")
     moved = variable.transpose(..., "time")
     values = moved.values.reshape(-1, moved.sizes["time"])
     sums = np.empty(len(values))
@@ -93,6 +96,30 @@ def _counted(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
         sums[number] = np.sum(counts * ranges**item.exponent) / seconds
     out: xr.DataArray = moved.isel(time=0, drop=True).copy(data=sums.reshape(moved.shape[:-1]))
     return out.assign_attrs(units=f"{variable.attrs.get('units', '1')}^{item.exponent:g}/s", long_name="damage sum")
+
+
+def _peaked(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
+    """Return the peaks of every series along time, in their order, the shorter ones filled with NaN."""
+    import xarray as xr
+
+    from moyai.design.peaks import peaks_of
+
+    if "time" not in variable.dims:
+        raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")
+    moved = variable.transpose(..., "time")
+    found = []
+    for series in moved.values.reshape(-1, moved.sizes["time"]):
+        peaks, after_slack = peaks_of(series)
+        if item.reduce != "peaks":
+            peaks = peaks[after_slack if item.reduce == "snap_peaks" else ~after_slack]
+        found.append(peaks)
+    table = np.full((len(found), max(peaks.size for peaks in found)), np.nan)
+    for row, peaks in zip(table, found):
+        row[: peaks.size] = peaks
+    dims = moved.dims[:-1]
+    coords = {dim: moved.coords[dim] for dim in dims if dim in moved.coords}
+    shaped = table.reshape((*moved.shape[:-1], -1)) if table.size else np.empty((*moved.shape[:-1], 0))
+    return xr.DataArray(shaped, dims=(*dims, "peak"), coords=coords, name=variable.name, attrs=variable.attrs)
 
 
 def read_response(tree: xr.DataTree, name: str, sign: int = 1) -> float:
@@ -219,6 +246,12 @@ def _reduced(tree: xr.DataTree, item: Wanted) -> dict[str, Any]:
         return _record(variable)
     if item.reduce == "rainflow":
         return _record(_counted(variable, item))
+    if item.reduce in ("peaks", "snap_peaks", "other_peaks"):
+        return _record(_peaked(variable, item))
+    if item.reduce == "mean_in_time":
+        if "time" not in variable.dims:
+            raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")
+        return _record(variable.mean("time").assign_attrs(variable.attrs))
     over = item.over or tuple(
         str(dim) for dim in variable.dims if variable.coords.get(dim, variable).dtype.kind not in "OU"
     )

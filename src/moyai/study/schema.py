@@ -123,7 +123,7 @@ class Contour(Block):
 
 
 class SpectraOfFile(Block):
-    """The spectra of a file of SWAN, WAVEWATCH III or NDBC, one case a time."""
+    """The spectra of a file of SWAN, WAVEWATCH III, NDBC (or what wavespectra reads), one case a time."""
 
     name: Name = "record"
     file: FileName
@@ -200,8 +200,11 @@ class Response(Block):
 
     variable: Annotated[str, Field(description="Group and name in results.nc, such as SWL/rao/mean_drift_force.")]
     reduce: Annotated[
-        Literal["maximum", "minimum", "mean", "last", "all", "rainflow"],
-        Field(description="Over its dimensions; rainflow: sum of the ranges to the power of the exponent, a second."),
+        Literal["maximum", "minimum", "mean", "last", "all", "rainflow", "peaks", "snap_peaks", "other_peaks"],
+        Field(
+            description="Over its dimensions; rainflow: sum of the ranges to the power of the exponent, a second; "
+            "peaks: the largest value between up-crossings of the mean, all or those that follow on slack or not."
+        ),
     ]
     over: Annotated[tuple[str, ...], Field(description="Dimensions to reduce; all unlabelled ones when absent.")] = ()
     exponent: Annotated[PositiveNumber | None, Field(description="Of the endurance curve, for rainflow.")] = None
@@ -285,11 +288,28 @@ class AnchorOfLine(Block):
 
 
 class ExtremesOfSeeds(Block):
-    """A distribution fitted to the maxima of the seeds."""
+    """A distribution fitted to the maxima of the seeds, or to the peaks of their series."""
 
-    response: str
+    response: Annotated[
+        str,
+        Field(description="gumbel: maximum of every case; otherwise a series along time: group/name[line=...]."),
+    ]
     over: Annotated[str, Field(description="Axis of the repetitions.")] = "seed"
-    family: Literal["gumbel"] = "gumbel"
+    family: Annotated[
+        Literal["gumbel", "weibull", "generalised_pareto", "acer"],
+        Field(description="gumbel of the maxima; weibull, generalised_pareto or conditional exceedance of the peaks."),
+    ] = "gumbel"
+    share: Annotated[
+        PositiveNumber | None,
+        Field(le=1.0, description="Largest share of the peaks that is fitted; weibull all, pareto 0.1 when absent."),
+    ] = None
+    snaps_apart: Annotated[
+        Truth, Field(description="Fit peaks that follow on slack (below a tenth of the mean) apart from the others.")
+    ] = False
+    order: Annotated[int, Field(strict=True, ge=1, le=20, description="Of acer: peaks that a group spans.")] = 2
+    times: Annotated[
+        PositiveNumber, Field(ge=1.0, description="The maximum is that of so many simulated sea states in a row.")
+    ] = 1.0
     probability: Annotated[
         PositiveNumber, Field(lt=1.0, description="The design value stays above the maximum with this probability.")
     ] = 0.9
@@ -311,10 +331,20 @@ class LongTerm(Block):
 
 
 class Fatigue(Block):
-    """Life of the lines by a T-N curve, from rainflow counts of every case."""
+    """Life of the lines by T-N or S-N curves, from rainflow counts of every case."""
 
     response: Annotated[str, Field(description="Series of tensions in every case: group/name.")]
-    curve: Annotated[str, Field(description="Name in the table of endurance curves, in ratios to the breaking load.")]
+    curve: Annotated[
+        str | dict[str, str], Field(description="Name in the table of endurance curves: for all lines, or by line.")
+    ]
+    diameter: Annotated[
+        dict[str, PositiveLength],
+        Field(default_factory=dict, description="Of each line whose curve takes stresses (bar of a chain, rope)."),
+    ]
+    equivalent_cycles: Annotated[
+        PositiveNumber | None,
+        Field(description="A year; tells the constant range of tension that does the same damage in so many cycles."),
+    ] = None
     over: Annotated[str, Field(description="Axis of the sea states with their probabilities.")] = "sea_state"
     safety_factor: Annotated[PositiveNumber, Field(description="On life.")] = 1.0
     confirmed: Annotated[Truth, Field(description="You have held the curve against the standard.")] = False
@@ -358,6 +388,10 @@ class StudyBlock(Block):
     ] = 3
     limit: LimitSearch | None = None
     optimise: Optimisation | None = None
+    on_refused: Annotated[
+        Literal["stop", "skip"],
+        Field(description="stop: cases that the check refuses stop the study; skip: they become rows with the reason."),
+    ] = "stop"
     keep: Annotated[Literal["responses", "results"], Field(description="results: also results.nc of every case.")] = (
         "responses"
     )

@@ -37,8 +37,8 @@ def table_rows(study: Study, result: Result) -> tuple[list[str], list[list[Any]]
             if variable.dtype.kind != "f" or tuple(variable.dims[: len(axes)]) != tuple(axes):
                 continue
             rest = variable.dims[len(axes) :]
-            if len(rest) > 1:
-                # Matrices of a case are in study.nc
+            if len(rest) > 1 or any(str(dim).endswith("_peak") for dim in rest):
+                # Matrices and peaks of a case are in study.nc
                 continue
             values = variable.values.reshape((count, *variable.shape[len(axes) :]))
             for place in np.ndindex(*values.shape[1:]):

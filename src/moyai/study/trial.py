@@ -47,7 +47,8 @@ def _of_assessment(study: Study) -> list[str]:
     names = [study.watch] if study.watch else []
     wanted = study.assessment
     if wanted is not None:
-        names += [one.response for one in wanted.extremes] + [one.response for one in wanted.long_term]
+        names += [one.response for one in wanted.extremes if one.family == "gumbel"]
+        names += [one.response for one in wanted.long_term]
         for line in wanted.tensions.values():
             names += [name for name in (line.maximum, line.mean, line.uplift) if name]
     return names

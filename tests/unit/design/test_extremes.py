@@ -18,6 +18,7 @@ from moyai.design.long_term import (
     reliability_index,
     return_level,
 )
+from moyai.design.peaks import Kind, maximum_of_kinds, most_probable_of_kinds, peaks_of
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -43,6 +44,69 @@ def test_fits_are_the_maxima_of_scipys_likelihoods(seed):
     assert math.isclose(
         found.log_likelihood, stats.genpareto.logpdf(pareto, found.shape, 1.0, found.scale).sum(), rel_tol=1e-9
     )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_tail_of_a_weibull_law_is_found_whatever_lies_below(seed):
+    rng = np.random.default_rng(seed)
+    location, scale, shape = rng.uniform(-3, 3), rng.uniform(0.5, 20), rng.uniform(0.8, 3)
+    values = location + scale * rng.weibull(shape, 4000)
+    threshold = float(np.quantile(values, rng.uniform(0.3, 0.7)))
+    # What lies below follows another law, and does not matter
+    values[values < threshold] = rng.uniform(location, threshold, np.sum(values < threshold))
+    found = fit(values, "weibull", location=location, threshold=threshold)
+    above = values[values > threshold]
+
+    def likelihood(k, s):
+        law = stats.weibull_min(k, location, s)
+        return law.logpdf(above).sum() - above.size * law.logsf(threshold)
+
+    best = likelihood(found.shape, found.scale)
+    assert found.log_likelihood == pytest.approx(best, rel=1e-9)
+    for k, s in ((1.01, 1.0), (0.99, 1.0), (1.0, 1.01), (1.0, 0.99)):
+        assert likelihood(found.shape * k, found.scale * s) < best
+    assert found.shape == pytest.approx(shape, rel=0.15)
+    # Levels far in the tail, and exceedance as its inverse
+    rare = location + scale * (((threshold - location) / scale) ** shape + math.log(1e5)) ** (1 / shape)
+    assert float(found.level(1e-5)) == pytest.approx(rare, rel=0.08)
+    assert float(found.exceedance(found.level(1e-7))) == pytest.approx(1e-7, rel=1e-6)
+    assert float(found.exceedance(threshold)) == 1.0
+    interval = maximum_interval(found, 2000, seed=1, repetitions=40)
+    assert interval.lower < found.most_probable_maximum(2000) < interval.upper
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_maximum_of_two_kinds_of_peaks_is_that_of_their_product(seed):
+    rng = np.random.default_rng(seed)
+    one = Kind(fit(5.0 + rng.weibull(1.5, 300), "weibull", location=5.0), float(rng.uniform(50, 500)))
+    two = Kind(fit(6.0 + 2.0 * rng.exponential(1.0, 80), "generalised_pareto", location=6.0), float(rng.uniform(5, 60)))
+    probability = float(rng.uniform(0.2, 0.99))
+    level = maximum_of_kinds([one, two], probability)
+    drawn = (1 - one.fitted.exceedance(level)) ** one.count * (1 - two.fitted.exceedance(level)) ** two.count
+    assert float(drawn) == pytest.approx(probability, rel=1e-9)
+    # Peaks of one kind alone: the closed form
+    assert maximum_of_kinds([one], probability) == pytest.approx(
+        one.fitted.maximum_level(one.count, probability), rel=1e-9
+    )
+    assert level > max(maximum_of_kinds([each], probability) for each in (one, two)) - 1e-9
+    mode = most_probable_of_kinds([two])
+    assert mode == pytest.approx(two.fitted.most_probable_maximum(two.count), rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_peaks_between_up_crossings_and_those_after_slack(seed):
+    rng = np.random.default_rng(seed)
+    heights = 10.0 + rng.uniform(1.0, 5.0, 40)
+    troughs = np.where(rng.random(40) < 0.3, 0.0, 8.0)
+    series = np.ravel(np.column_stack([troughs, np.full(40, 9.0), heights, np.full(40, 9.5)]))
+    peaks, after_slack = peaks_of(series)
+    # The first up-crossing opens the first peak, the last one closes the one before
+    assert np.allclose(peaks, heights[:-1]) and np.array_equal(after_slack, troughs[:-1] == 0.0)
+    wave = np.sin(2 * np.pi * np.arange(2000) / 50.0 + rng.uniform(0, 6))
+    peaks, after_slack = peaks_of(20.0 + wave)
+    assert peaks.size in (39, 38) and np.allclose(peaks, 21.0, atol=2e-3) and not after_slack.any()
+    for nothing in ([], [1.0], np.ones(50), [1.0, 2.0, 3.0]):
+        assert peaks_of(nothing)[0].size == 0
 
 
 @pytest.mark.parametrize("family", ["gumbel", "weibull", "generalised_pareto"])

@@ -172,3 +172,24 @@ def sine_case(case, progress):
         "/SWL/statics": xr.Dataset(loads, coords={"line": names}),
     }
     return Result(xr.DataTree.from_dict(groups))
+
+
+def peaky_case(case, progress):
+    """Tension with peaks of known laws: Weibull ones of exponent 1.6, and in higher seas snaps that follow on slack."""
+    sea = case.model.waves[0]
+    generator = np.random.default_rng([7, sea.seed])
+    count = 150
+    peaks = 1e5 + 2e4 * generator.weibull(1.6, count)
+    troughs = np.full(count, 8e4)
+    if sea.significant_height > 0.9:
+        snaps = generator.random(count) < 0.25
+        troughs[snaps] = 0.0
+        peaks[snaps] = 1.5e5 + 4e4 * generator.exponential(1.0, snaps.sum())
+    series = np.empty(4 * count)
+    # From the trough through the mean of the calm line to the peak
+    series[0::4], series[1::4], series[2::4], series[3::4] = troughs, 9e4, peaks, 9e4
+    names = [line.name for line in case.model.lines]
+    data = {"tension": (("time", "line"), np.stack([series] * len(names), axis=1), {"units": "N"})}
+    time_axis = np.arange(series.size) * 1.25
+    groups = {"/": xr.Dataset(), "/SWL/time/storm": xr.Dataset(data, coords={"time": time_axis, "line": names})}
+    return Result(xr.DataTree.from_dict(groups))

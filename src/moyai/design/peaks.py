@@ -1,0 +1,174 @@
+"""Peaks of a response, those of snaps told from the others, and the maximum of peaks of several kinds.
+
+Theory in docs/theory/extremes.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.design.extremes import Fit, Interval, refit
+
+Array = NDArray[np.float64]
+
+SLACK_SHARE = 0.1
+"""Share of the mean tension below which a line counts as slack: lifting slings are kept above a tenth of their static
+tension so that no snap follows (DNV-RP-N103)."""
+
+
+def peaks_of(series: ArrayLike, *, slack_share: float = SLACK_SHARE) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the largest value between successive up-crossings of the mean, and which of them follow on slack.
+
+    Parameters
+    ----------
+    series : array_like (n,)
+        Of any unit.
+    slack_share : float
+        A peak is that of a snap when the series fell below this share of its mean since the peak before.
+
+    Returns
+    -------
+    peaks : ndarray (k,)
+        In the order of time.
+    after_slack : ndarray of bool (k,)
+
+    Raises
+    ------
+    InputError
+        For NaN or infinite values.
+    """
+    x = np.asarray(series, dtype=float).ravel()
+    if not np.isfinite(x).all():
+        raise InputError("the series holds NaN or infinity", path="series")
+    nothing = np.empty(0), np.empty(0, dtype=bool)
+    if x.size < 3:
+        return nothing
+    mean = float(np.mean(x))
+    above = x > mean
+    crossings = np.flatnonzero(~above[:-1] & above[1:]) + 1
+    if crossings.size < 2:
+        return nothing
+    whole = x[: crossings[-1]]
+    peaks = np.maximum.reduceat(whole, crossings[:-1])
+    # Between the up-crossing before and this one lies the trough that the peak rises from
+    starts = np.concatenate([[0], crossings[:-2]]) if crossings.size > 2 else np.array([0])
+    troughs = np.array([x[start:end].min() for start, end in zip(starts, crossings[:-1])])
+    return peaks, troughs < slack_share * mean
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Peaks of one kind.
+
+    Parameters
+    ----------
+    fitted : Fit
+        Distribution of those above its location.
+    count : float
+        How many of them come in the time that the maximum is meant for.
+    """
+
+    fitted: Fit
+    count: float
+
+
+def maximum_of_kinds(kinds: Sequence[Kind], probability: float) -> float:
+    """Return the level that the maximum of peaks of several kinds stays below with ``probability``.
+
+    Parameters
+    ----------
+    kinds : sequence of Kind
+    probability : float
+
+    Returns
+    -------
+    float
+        Of the unit of the peaks [eq:extremes-kinds].
+
+    Raises
+    ------
+    InputError
+        For a probability out of range, or so few peaks that there may be none above the locations.
+    """
+    if not 0.0 < probability < 1.0:
+        raise InputError("a probability lies between 0 and 1", path="probability")
+    wanted = -math.log(probability)
+
+    def excess(level: float) -> float:
+        total = 0.0
+        for one in kinds:
+            exceeds = min(float(one.fitted.exceedance(level)), 1.0 - 1e-16)
+            total -= one.count * math.log1p(-exceeds)
+        return math.log(max(total, 1e-300) / wanted)
+
+    return _falling_root(excess, kinds)
+
+
+def most_probable_of_kinds(kinds: Sequence[Kind]) -> float:
+    """Return the level that one peak exceeds on the average, of all kinds together."""
+
+    def excess(level: float) -> float:
+        total = sum(one.count * float(one.fitted.exceedance(level)) for one in kinds)
+        return math.log(max(total, 1e-300))
+
+    return _falling_root(excess, kinds)
+
+
+def _falling_root(excess: object, kinds: Sequence[Kind]) -> float:
+    assert callable(excess)
+    low = min(one.fitted.location if one.fitted.threshold is None else one.fitted.threshold for one in kinds)
+    step = max(one.fitted.scale for one in kinds)
+    if excess(low) <= 0.0:
+        raise InputError(
+            "there are too few peaks for a maximum", path="times", remedy="ask for a longer time or a larger share"
+        )
+    high = low + step
+    for _ in range(200):
+        if excess(high) < 0.0:
+            return float(brentq(excess, low, high, xtol=1e-13 * max(abs(low), abs(high)), rtol=1e-13))
+        low, high = high, high + 2.0 * (high - low)
+    raise ConvergenceError("the level of the maximum lies beyond any bound", path="peaks")
+
+
+def interval_of_kinds(
+    kinds: Sequence[Kind], probability: float, *, seed: int, confidence: float = 0.9, repetitions: int = 200
+) -> Interval:
+    """Return :func:`maximum_of_kinds` with its confidence interval.
+
+    Parameters
+    ----------
+    kinds : sequence of Kind
+    probability : float
+    seed : int
+        Of the parametric bootstrap: as many peaks of every kind are drawn as were fitted, as if independent of each
+        other. Peaks that come in groups are worth less; average conditional exceedance counts groups.
+    confidence : float
+    repetitions : int
+    """
+    value = maximum_of_kinds(kinds, probability)
+    base = min(one.fitted.location for one in kinds)
+    generator = np.random.default_rng(seed)
+    found = []
+    for _ in range(repetitions):
+        again = []
+        try:
+            for one in kinds:
+                drawn = one.fitted.sample(one.fitted.count, generator)
+                again.append(Kind(refit(one.fitted, drawn), one.count))
+            found.append(maximum_of_kinds(again, probability))
+        except (InputError, ConvergenceError):
+            continue
+    if len(found) < repetitions // 2:
+        return Interval(value, math.nan, math.nan, confidence)
+    tail = 50.0 * (1.0 - confidence)
+    distance = np.log(np.maximum(np.array(found) - base, 1e-300) / (value - base))
+    low, high = np.percentile(distance, [tail, 100.0 - tail])
+    reach = value - base
+    return Interval(value, base + reach * math.exp(-high), base + reach * math.exp(-low), confidence)
