@@ -42,6 +42,8 @@ class Flow:
     interval : float, optional
         Time between two evaluations, joined linearly [s]; a fiftieth of the shortest wave period that carries energy
         when left out.
+    wave_ramp : float
+        Time over which the waves alone grow from zero, while the current stands [s].
 
     Raises
     ------
@@ -55,6 +57,7 @@ class Flow:
     waves: WaveComponents | None = None
     stretching: Stretching = "wheeler"
     interval: float | None = None
+    wave_ramp: float = 0.0
 
     def __post_init__(self) -> None:
         given = np.array(self.velocity, dtype=np.float64)
@@ -68,6 +71,8 @@ class Flow:
             raise InputError("the waves do not know their water", path="flow.waves", allowed="waves with water")
         if not (math.isfinite(self.ramp) and self.ramp >= 0.0):
             raise InputError(f"ramp of the flow is {self.ramp:g} s", path="flow.ramp", allowed="0 or more")
+        if not (math.isfinite(self.wave_ramp) and self.wave_ramp >= 0.0):
+            raise InputError(f"ramp of the waves is {self.wave_ramp:g} s", path="flow.wave_ramp", allowed="0 or more")
         if self.interval is not None and not self.interval > 0.0:
             raise InputError(
                 f"interval of the flow is {self.interval:g} s", path="flow.interval", allowed="greater than 0"
@@ -131,9 +136,13 @@ class Flow:
                 velocity,
                 acceleration,
             )
-            out[:3] += velocity.T
-            out[3:6] = acceleration.T
-            out[6] = elevation
+            swell, pace = 1.0, 0.0
+            if self.wave_ramp > 0.0 and time < self.wave_ramp:
+                angle = math.pi * max(time, 0.0) / self.wave_ramp
+                swell, pace = 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.wave_ramp * math.sin(angle)
+            out[:3] += swell * velocity.T
+            out[3:6] = swell * acceleration.T + pace * velocity.T
+            out[6] = swell * elevation
         if grown < 1.0:
             out[3:6] = grown * out[3:6] + rate * out[:3]
             out[:3] *= grown

@@ -1,0 +1,263 @@
+"""Net panels: pieces of net between the knots of a network, on which the water acts by a law of net forces.
+
+Theory: docs/theory/cage_flexible.md. The mass, buoyancy, added mass and wave inertia of the twines belong to the bars
+of grouped twines (:mod:`moyai.flexible.mesh_groups`); panels add drag and lift.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Points of a table: cosines from 0 to 1, and speeds (10 a decade) from 1 mm/s to 10 m/s.
+COSINES, SPEEDS = 129, 41
+
+
+class Coefficients(Protocol):
+    """Drag and lift coefficients on the outline area over angle [rad] and speed [m/s], as arrays."""
+
+    def __call__(self, angle: Array, speed: Array) -> tuple[Array, Array]:
+        """Return (drag, lift)."""
+
+
+@dataclass(frozen=True, eq=False)
+class PanelLaw:
+    """A law of net forces as a table.
+
+    Parameters
+    ----------
+    name : str
+        For results.
+    along, normal : ndarray, shape (speeds, cosines)
+        Coefficients a (along the flow) and b (along the normal) of ``F = (a w + b n (n.w)) |w| rho A / 2``
+        [eq:cage-panel-force]; one row when the law knows no Reynolds number.
+    first_decade : float
+        log10 of the first speed.
+    per_decade : float
+        Speeds per decade.
+
+    Raises
+    ------
+    InputError
+        For tables that are not finite or of unequal shapes.
+    """
+
+    name: str
+    along: Array
+    normal: Array
+    first_decade: float = -3.0
+    per_decade: float = 10.0
+
+    def __post_init__(self) -> None:
+        for key in ("along", "normal"):
+            table = np.array(getattr(self, key), dtype=np.float64, ndmin=2)
+            if not np.isfinite(table).all():
+                raise InputError(f"the law {self.name!r} has a coefficient that is not finite", path=f"law.{key}")
+            table.setflags(write=False)
+            object.__setattr__(self, key, table)
+        if self.along.shape != self.normal.shape or self.along.shape[1] < 2:
+            raise InputError(
+                f"tables of {self.along.shape} and {self.normal.shape}",
+                path="law",
+                allowed="equal, two columns or more",
+            )
+
+    @classmethod
+    def tabulate(cls, name: str, coefficients: Coefficients) -> PanelLaw:
+        """Return the table of a function of drag and lift coefficients.
+
+        Parameters
+        ----------
+        name : str
+            For results.
+        coefficients : callable
+            ``(angle, speed) -> (drag, lift)`` on the outline area; angle between flow and normal, 0 to pi/2 [rad].
+            The lift has to vanish at both ends of that range.
+        """
+        cosine = np.linspace(0.0, 1.0, COSINES)
+        # b = lift / (sin cos) is 0/0 at the ends: take it just inside
+        inside = np.clip(cosine, 1e-4, 1.0 - 1e-7)
+        angle = np.arccos(inside)
+        speed = np.logspace(-3.0, 1.0, SPEEDS)
+        drag, lift = coefficients(angle[None, :], np.broadcast_to(speed[:, None], (SPEEDS, COSINES)))
+        drag = np.broadcast_to(np.asarray(drag, dtype=np.float64), (SPEEDS, COSINES))
+        lift = np.broadcast_to(np.asarray(lift, dtype=np.float64), (SPEEDS, COSINES))
+        normal = lift / (np.sin(angle) * inside)
+        along = drag - normal * inside**2
+        if np.allclose(along, along[:1], rtol=1e-12, atol=1e-14) and np.allclose(normal, normal[:1], 1e-12, 1e-14):
+            along, normal = along[:1], normal[:1]
+        return cls(name, along, normal)
+
+    @classmethod
+    def constant(cls, name: str, drag: float, lift: float = 0.0) -> PanelLaw:
+        """Return the law of a drag coefficient at every angle and a lift coefficient times sin 2 theta."""
+        return cls(name, np.full((1, 2), drag) - 2.0 * lift * np.array([[0.0, 1.0]]), np.full((1, 2), 2.0 * lift))
+
+
+@dataclass(frozen=True, eq=False)
+class NetPanels:
+    """Net panels of a network.
+
+    Parameters
+    ----------
+    corners : array_like of int, shape (p, 4)
+        Nodes around each panel; the fourth is -1 for triangles.
+    laws : tuple of PanelLaw
+        The laws in use.
+    law : array_like of int, shape (p,)
+        Which one each panel follows.
+    area : array_like, shape (p,)
+        Outline area that the coefficients refer to [m2]: that of the net at rest, since a net that shears keeps its
+        twines; 0 takes the present outline.
+    flow_factor : array_like, shape (p,)
+        Factor on the velocity of the water.
+    shadow : array_like, shape (p, 3)
+        Velocity taken from that of the water: what the current has lost upstream [m/s].
+    group : array_like of int, shape (p,)
+        Number of the group that results are told for.
+    group_names : tuple of str
+        Their names.
+
+    Raises
+    ------
+    InputError
+        For negative areas, unknown laws or groups, corners that meet.
+    """
+
+    corners: IntArray
+    laws: tuple[PanelLaw, ...]
+    law: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
+    area: Array = field(default_factory=lambda: np.zeros(()))
+    flow_factor: Array = field(default_factory=lambda: np.ones(()))
+    shadow: Array = field(default_factory=lambda: np.zeros(()))
+    group: IntArray = field(default_factory=lambda: np.zeros((), dtype=np.int64))
+    group_names: tuple[str, ...] = ("net",)
+
+    def __post_init__(self) -> None:
+        from moyai.flexible.network import _frozen, _require
+
+        size = len(self.corners)
+        object.__setattr__(self, "corners", _frozen(self.corners, np.int64, (size, 4), "panels.corners"))
+        for name in ("law", "group"):
+            object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"panels.{name}"))
+        for name in ("area", "flow_factor"):
+            array = _frozen(getattr(self, name), np.float64, (size,), f"panels.{name}")
+            object.__setattr__(self, name, array)
+            _require(bool(np.all(array >= 0.0)), f"a panel has a negative {name}", f"panels.{name}", "0 or more")
+        object.__setattr__(self, "shadow", _frozen(self.shadow, np.float64, (size, 3), "panels.shadow"))
+        for name, count in (("law", len(self.laws)), ("group", len(self.group_names))):
+            array = getattr(self, name)
+            _require(
+                bool(np.all((array >= 0) & (array < count))),
+                f"a panel names an unknown {name}",
+                f"panels.{name}",
+                f"0 to {count - 1}",
+            )
+        ordered = np.sort(self.corners, axis=1)
+        _require(
+            not np.any(ordered[:, 1:] == ordered[:, :-1]) and bool(np.all(ordered[:, 1] >= 0)),
+            "two corners of a panel are the same node",
+            "panels.corners",
+            "three or four different nodes; -1 for the fourth corner of a triangle",
+        )
+
+    def __len__(self) -> int:
+        return int(self.corners.shape[0])
+
+
+@dataclass(frozen=True, eq=False)
+class PanelArrays:
+    """Panels for the kernels.
+
+    Parameters
+    ----------
+    corners : ndarray of int, shape (p, 4)
+        Nodes.
+    rows : ndarray, shape (p, 6)
+        Area (0: the present one) [m2], flow factor, shadow (3) [m/s], law.
+    table : ndarray, shape (laws, speeds, cosines, 2)
+        Coefficients a and b.
+    grid : ndarray, shape (laws, 2)
+        log10 of the first speed, speeds per decade.
+    """
+
+    corners: IntArray
+    rows: Array
+    table: Array
+    grid: Array
+
+    @property
+    def system(self) -> tuple[IntArray, Array, Array, Array]:
+        """What the kernels take."""
+        return self.corners, self.rows, self.table, self.grid
+
+    @classmethod
+    def of(cls, panels: NetPanels | None) -> PanelArrays:
+        """Flatten panels; none gives arrays of length zero."""
+        if panels is None or len(panels) == 0:
+            return cls(np.zeros((0, 4), np.int64), np.zeros((0, 6)), np.zeros((1, 1, 2, 2)), np.zeros((1, 2)))
+        lines = max(law.along.shape[0] for law in panels.laws)
+        columns = max(law.along.shape[1] for law in panels.laws)
+        table = np.empty((len(panels.laws), lines, columns, 2))
+        grid = np.empty((len(panels.laws), 2))
+        cosine = np.linspace(0.0, 1.0, columns)
+        for k, law in enumerate(panels.laws):
+            old = np.linspace(0.0, 1.0, law.along.shape[1])
+            for slot, values in enumerate((law.along, law.normal)):
+                fine = np.stack([np.interp(cosine, old, line) for line in values])
+                table[k, :, :, slot] = fine if len(fine) == lines else fine[:1]
+                if 1 < len(fine) < lines:
+                    table[k, : len(fine), :, slot], table[k, len(fine) :, :, slot] = fine, fine[-1]
+            grid[k] = law.first_decade, law.per_decade
+        rows = np.concatenate(
+            [panels.area[:, None], panels.flow_factor[:, None], panels.shadow, panels.law[:, None].astype(np.float64)],
+            axis=1,
+        )
+        return cls(panels.corners, np.ascontiguousarray(rows), table, grid)
+
+
+def panel_areas(corners: IntArray, position: Array) -> tuple[Array, Array]:
+    """Return outline area [m2] and unit normal (p, 3) of panels at given places of the nodes (n, 3)."""
+    quad = corners[:, 3] >= 0
+    points = position[np.where(corners >= 0, corners, 0)]
+    one = np.where(quad[:, None], points[:, 2] - points[:, 0], points[:, 1] - points[:, 0])
+    two = np.where(quad[:, None], points[:, 3] - points[:, 1], points[:, 2] - points[:, 0])
+    normal = 0.5 * np.cross(one, two)
+    area = np.linalg.norm(normal, axis=1)
+    return area, normal / np.where(area > 0.0, area, 1.0)[:, None]
+
+
+def forces_on_panels(
+    panels: NetPanels, position: Array, velocity: Array, water: Array, density: float
+) -> tuple[Array, Array]:
+    """Return the force of the water on every node (n, 3) and on every panel (p, 3) [N].
+
+    Parameters
+    ----------
+    panels : NetPanels
+    position, velocity : ndarray, shape (n, 3)
+        Of the nodes.
+    water : ndarray, shape (7, n)
+        Velocity, acceleration and elevation of the water at the nodes.
+    density : float
+        [kg/m3].
+    """
+    from moyai.flexible.panel_kernel import panel_forces
+
+    if not (math.isfinite(density) and density > 0.0):
+        raise InputError(f"density is {density:g} kg/m3", path="density", allowed="greater than 0")
+    force, each = np.zeros_like(position), np.zeros((len(panels), 3))
+    panel_forces(
+        np.ascontiguousarray(position), np.ascontiguousarray(velocity), np.ascontiguousarray(water),
+        PanelArrays.of(panels).system, 0.5 * density, force, each,
+    )  # fmt: skip
+    return force, each
