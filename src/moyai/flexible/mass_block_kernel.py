@@ -1,0 +1,160 @@
+"""Compiled kernels of dense mass blocks: sections whose nodes feel each other's acceleration through the water.
+
+Rows of the explicit scheme are addressed as ``first + node + axis * row``. Each node of a block has a frame: cosine and
+sine of the direction along the cable in plan, and the root of its present over its first length. The normal is the
+direction turned clockwise; local unknowns are the normal velocities of all nodes of a block, then the vertical ones.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+#: What is known of each node of a block: cosine, sine, root of the stretch, and the first length of its cable [m].
+COS, SIN, ROOT, LENGTH = range(4)
+
+
+@njit(cache=True, error_model="numpy")
+def set_frames(nodes: Any, guides: Any, frames: Any, P: Any, p0: int, axis: int, stretch: bool) -> None:
+    """Turn the frames with the cable, along the way from the guide before to the one behind, in plan; let them stretch."""
+    for g in range(nodes.shape[0]):
+        for i in range(nodes.shape[1]):
+            a, b = guides[g, i, 0], guides[g, i, 1]
+            dx, dy = P[p0 + b] - P[p0 + a], P[p0 + axis + b] - P[p0 + axis + a]
+            size = math.sqrt(dx * dx + dy * dy)
+            if size > 0.0:
+                frames[g, i, COS], frames[g, i, SIN] = dx / size, dy / size
+            frames[g, i, ROOT] = math.sqrt(max(size / frames[g, i, LENGTH], 1e-12)) if stretch else 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int) -> float:
+    """Return the kinetic energy of the water of all blocks [J] [eq:flexible-block-energy]."""
+    count, total = nodes.shape[1], 0.0
+    w = np.empty(2 * count)
+    for g in range(nodes.shape[0]):
+        for i in range(count):
+            at = v0 + nodes[g, i]
+            c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
+            w[i], w[count + i] = r * (s * V[at] - c * V[at + axis]), r * V[at + 2 * axis]
+        for i in range(2 * count):
+            row = 0.0
+            for j in range(2 * count):
+                row += added[g, i, j] * w[j]
+            total += 0.5 * row * w[i]
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def kick_blocks(
+    nodes: Any, frames: Any, inverse: Any, free: Any, A: Any, vel: int, force: int, axis: int, place: int, push: float,
+    level: float, stiff: int, damp: int,
+) -> None:  # fmt: skip
+    """Advance the velocities of the nodes of blocks by ``push`` times their force, and hold them off a smooth bed.
+
+    ``force`` names a row that holds the whole force of each node. ``inverse`` holds, for each block, the inverse of its
+    whole mass over the local unknowns and, behind them, that of each node along the cable.
+    """
+    count = nodes.shape[1]
+    f, kick = np.empty(2 * count), np.empty(2 * count)
+    for g in range(nodes.shape[0]):
+        for i in range(count):
+            at = force + nodes[g, i]
+            c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
+            f[i], f[count + i] = (s * A[at] - c * A[at + axis]) / r, A[at + 2 * axis] / r
+        for i in range(2 * count):
+            row = 0.0
+            for j in range(2 * count):
+                row += inverse[g, i, j] * f[j]
+            kick[i] = push * row
+        for i in range(count):
+            at, to = force + nodes[g, i], vel + nodes[g, i]
+            c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
+            along = push * free[g, i] * (c * A[at] + s * A[at + axis])
+            A[to] += s * kick[i] / r + c * along
+            A[to + axis] += s * along - c * kick[i] / r
+            A[to + 2 * axis] += kick[count + i] / r
+        for i in range(count):
+            node = nodes[g, i]
+            depth, w = level - A[place + 2 * axis + node], A[vel + 2 * axis + node]
+            if depth <= push * w:
+                continue
+            share = inverse[g, count + i, count + i]
+            grip = A[stiff + node] * push + A[damp + node]
+            blow = push * (A[stiff + node] * depth - grip * w) / (1.0 + push * grip * share)
+            if blow <= 0.0:
+                continue
+            for j in range(count):
+                to = vel + nodes[g, j]
+                c, s = frames[g, j, COS], frames[g, j, SIN]
+                A[to] += s * inverse[g, j, count + i] * blow
+                A[to + axis] -= c * inverse[g, j, count + i] * blow
+                A[to + 2 * axis] += inverse[g, count + j, count + i] * blow
+
+
+@njit(cache=True, error_model="numpy")
+def block_loads(
+    nodes: Any, guides: Any, frames: Any, added: Any, A: Any, vel: int, water: int, force: int, axis: int,
+    moving: bool, whole: bool,
+) -> None:  # fmt: skip
+    """Add the forces of the water on blocks beyond added mass times acceleration of the nodes.
+
+    The inertia of moving water and, where ``whole``, what follows from the turn and stretch of the blocks in Lagrange's
+    equations, so that the energy of the water is kept [eq:flexible-block-force].
+    """
+    count = nodes.shape[1]
+    w, e, p, q = np.empty(2 * count), np.empty(2 * count), np.empty(2 * count), np.empty(2 * count)
+    turn, grow, slide, across = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
+    for g in range(nodes.shape[0]):
+        for i in range(count):
+            node = nodes[g, i]
+            c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
+            at, by = vel + node, water + node
+            x, y, z = A[at] - A[by], A[at + axis] - A[by + axis], A[at + 2 * axis] - A[by + 2 * axis]
+            n, u = s * x - c * y, c * x + s * y
+            w[i], w[count + i] = r * n, r * z
+            e[i] = e[count + i] = 0.0
+            if whole:
+                a, b = guides[g, i, 0], guides[g, i, 1]
+                size = r * r * frames[g, i, LENGTH]
+                # guides move with the relative velocity as well
+                dx = A[vel + b] - A[vel + a] - A[water + b] + A[water + a]
+                dy = A[vel + axis + b] - A[vel + axis + a] - A[water + axis + b] + A[water + axis + a]
+                turn[i], grow[i] = (c * dy - s * dx) / size, 0.5 * r * (c * dx + s * dy) / size
+                slide[i], across[i] = u, n
+                e[i], e[count + i] = grow[i] * n + r * turn[i] * u, grow[i] * z
+            if moving:
+                px, py, pz = A[by + 3 * axis], A[by + 4 * axis], A[by + 5 * axis]
+                e[i] -= r * (s * px - c * py)
+                e[count + i] -= r * pz
+        for i in range(2 * count):
+            one, two = 0.0, 0.0
+            for j in range(2 * count):
+                one += added[g, i, j] * w[j]
+                two += added[g, i, j] * e[j]
+            p[i], q[i] = one, two
+        for i in range(count):
+            node = nodes[g, i]
+            c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
+            normal, along, up = r * q[i], 0.0, r * q[count + i]
+            if whole:
+                normal += p[i] * grow[i]
+                along = p[i] * r * turn[i]
+                up += p[count + i] * grow[i]
+                size = r * r * frames[g, i, LENGTH]
+                # derivative of the energy by the way between the guides
+                back = -p[i] * r * slide[i] / size
+                stretch = 0.5 * (p[i] * w[i] + p[count + i] * w[count + i]) / size
+                gx, gy = back * s + stretch * c, -back * c + stretch * s
+                a, b = force + guides[g, i, 0], force + guides[g, i, 1]
+                A[b] += gx
+                A[b + axis] += gy
+                A[a] -= gx
+                A[a + axis] -= gy
+            at = force + node
+            A[at] -= s * normal + c * along
+            A[at + axis] += c * normal - s * along
+            A[at + 2 * axis] -= up

@@ -1,0 +1,162 @@
+"""Dense added mass of sections: the nodes of a column of a sheet feel each other's acceleration through the water."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.flexible import mass_block_kernel as kernel
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class MassBlocks:
+    """Added mass of groups of nodes over local unknowns: normal velocities first, then the vertical ones.
+
+    The normal of a node lies in plan, across the way between its two guides (its neighbours along the cable) and to
+    the right of it: with guides along +y the normal is +x. The matrices stay as they are given while the frames turn
+    and stretch with the guides.
+
+    Parameters
+    ----------
+    nodes : array_like of int, shape (g, k)
+        Nodes of each group (a section of the sheet), no node twice.
+    guides : array_like of int, shape (g, k, 2)
+        Neighbours of each node along the cable, before and behind.
+    added_mass : array_like, shape (g, 2 k, 2 k)
+        Symmetric, not negative [kg].
+    convective : bool
+        Whether the forces that follow from turning and stretching frames are kept, so that the energy of the water is
+        conserved; without them only added mass times acceleration acts, as the papers have it.
+
+    Raises
+    ------
+    InputError
+        For shapes that do not fit, a node in two groups, a guide that is the node itself twice, or matrices that are
+        not symmetric or give energy back.
+    """
+
+    nodes: IntArray
+    guides: IntArray
+    added_mass: Array
+    convective: bool = True
+
+    def __post_init__(self) -> None:
+        nodes = np.array(self.nodes, dtype=np.int64)
+        if nodes.ndim != 2 or nodes.size == 0:
+            raise InputError(f"groups of shape {nodes.shape}", path="blocks.nodes", allowed="(groups, nodes)")
+        groups, count = nodes.shape
+        guides, added = np.array(self.guides, dtype=np.int64), np.array(self.added_mass, dtype=np.float64)
+        for name, array, shape in (
+            ("guides", guides, (groups, count, 2)),
+            ("added_mass", added, (groups, 2 * count, 2 * count)),
+        ):
+            if array.shape != shape:
+                raise InputError(f"{name} has shape {array.shape}", path=f"blocks.{name}", allowed=str(shape))
+        if np.unique(nodes).size != nodes.size:
+            raise InputError("a node belongs to two sections", path="blocks.nodes", allowed="each node once")
+        if np.any(guides[..., 0] == guides[..., 1]):
+            raise InputError("both guides of a node are the same", path="blocks.guides", allowed="two nodes")
+        if not np.isfinite(added).all() or np.any(
+            np.abs(added - added.transpose(0, 2, 1)) > 1e-8 * np.max(np.abs(added), initial=1e-300)
+        ):
+            raise InputError("an added mass is not symmetric or not finite", path="blocks.added_mass")
+        added = 0.5 * (added + added.transpose(0, 2, 1))
+        least = np.linalg.eigvalsh(added)[:, 0]
+        if np.any(least < -1e-8 * np.max(np.abs(added))):
+            raise InputError(
+                f"the added mass of section {int(np.argmin(least))} has the negative value {least.min():.3g} kg",
+                path="blocks.added_mass",
+                allowed="not negative in any direction",
+            )
+        for name, array in (("nodes", nodes), ("guides", guides), ("added_mass", added)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    def __len__(self) -> int:
+        return int(self.nodes.shape[0])
+
+
+@dataclass(frozen=True, eq=False)
+class PackedBlocks:
+    """Blocks ready for the kernels.
+
+    Parameters
+    ----------
+    nodes, guides : ndarray of int
+        As in :class:`MassBlocks`.
+    frames : ndarray, shape (g, k, 4)
+        Directions, roots of the stretch and first lengths of the guides; the kernels turn them.
+    added, inverse : ndarray, shape (g, 2 k, 2 k)
+        Added mass and inverse of the whole mass [kg], [1/kg]; zero rows where held.
+    along : ndarray, shape (g, k)
+        One over the own mass of each node, for motion along the cable [1/kg]; zero where held.
+    light : ndarray, shape (n,)
+        One over the mass of every node of the network in the direction in which the water pushes [1/kg].
+    """
+
+    nodes: IntArray
+    guides: IntArray
+    frames: Array
+    added: Array
+    inverse: Array
+    along: Array
+    light: Array
+
+
+def no_blocks(light: Array) -> PackedBlocks:
+    """Return what a network without blocks hands to the kernels."""
+    none = np.zeros((0, 0), dtype=np.int64)
+    return PackedBlocks(
+        none, np.zeros((0, 0, 2), dtype=np.int64), np.zeros((0, 0, 4)), np.zeros((0, 0, 0)), np.zeros((0, 0, 0)),
+        np.zeros((0, 0)), light,
+    )  # fmt: skip
+
+
+def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: Array) -> PackedBlocks:
+    """Return blocks with the inverse of their whole mass.
+
+    Parameters
+    ----------
+    blocks : MassBlocks or None
+        Of the network.
+    place : array_like, shape (3, n)
+        Where the nodes stand; first lengths of the guides are those here [m].
+    mass : ndarray, shape (n,)
+        Own mass of the nodes [kg].
+    free : ndarray, shape (3, n)
+        1 where a component is free.
+    """
+    light = np.where(free.max(axis=0) > 0.0, 1.0 / mass, 0.0)
+    if blocks is None:
+        return no_blocks(light)
+    groups, count = blocks.nodes.shape
+    position = np.ascontiguousarray(place, dtype=np.float64)
+    frames = np.zeros((groups, count, 4))
+    way = position[:2, blocks.guides[..., 1]] - position[:2, blocks.guides[..., 0]]
+    frames[..., kernel.LENGTH] = np.hypot(way[0], way[1])
+    if np.any(frames[..., kernel.LENGTH] <= 0.0):
+        raise InputError("guides of a section stand in one place", path="blocks.guides", allowed="apart in plan")
+    kernel.set_frames(blocks.nodes, blocks.guides, frames, position.ravel(), 0, position.shape[1], False)
+    own = mass[blocks.nodes]
+    whole = blocks.added_mass + np.stack([np.diag(np.concatenate([row, row])) for row in own])
+    moves = np.concatenate([free[0][blocks.nodes], free[2][blocks.nodes]], axis=1)
+    inverse = np.zeros_like(whole)
+    for g in range(groups):
+        chosen = np.flatnonzero(moves[g] > 0.0)
+        inverse[g][np.ix_(chosen, chosen)] = np.linalg.inv(whole[g][np.ix_(chosen, chosen)])
+    light = light.copy()
+    # the water pushes mostly along the normal: the node's share of the inverse there
+    light[blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
+    along = np.where(free[0][blocks.nodes] > 0.0, 1.0 / own, 0.0)
+    return PackedBlocks(
+        blocks.nodes.copy(), blocks.guides.copy(), frames, blocks.added_mass.copy(), inverse, along, light
+    )
+
+
+__all__ = ["MassBlocks", "PackedBlocks", "no_blocks", "pack_blocks"]

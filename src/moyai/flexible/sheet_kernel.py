@@ -1,0 +1,310 @@
+"""Compiled kernels of sheets: forces of triangles with a tension field, their energy, loads of the water, stable step.
+
+Positions, velocities and forces are flat arrays in which component ``a`` of node ``i`` stands at ``first + i * node +
+a * axis``: one function serves arrays of shape (n, 3) (node 3, axis 1), (3, n) (node 1, axis n) and the rows of the
+explicit scheme. Constants of the triangles are the columns named below; see :mod:`moyai.flexible.sheets`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+#: Columns of the constants of triangles: inverse of the unstretched edges (2 x 2), area, stiffness C11, C12, C22, C33,
+#: compliance a0 + a1 cos + a2 cos^2 over twice the angle of the pull, damping time, law, mass of a third, weight of a
+#: third, buoyancy of a third, rho/2 Cd, rho/2 Ct, pressure, factor on the water's velocity.
+E11, E12, E21, E22, AREA, C11, C12, C22, C33, A0, A1, A2, DAMPING, LAW, MASS, WEIGHT, LIFT, ACROSS, SKIN, PRESSURE = (
+    range(20)
+)
+SHARE, COLUMNS = 20, 21
+#: Laws: stress also in compression; nearest tensile stress; two families of threads that only pull.
+LINEAR, FIELD, THREADS = 0.0, 1.0, 2.0
+#: Directions that are tried before Newton's method, as cosine and sine of twice their angle.
+_TRIES = 16
+_COS = np.cos(2.0 * np.pi / _TRIES * np.arange(_TRIES))
+_SIN = np.sin(2.0 * np.pi / _TRIES * np.arange(_TRIES))
+
+
+@njit(cache=True, error_model="numpy")
+def tensile_stress(C: Any, t: int, e11: float, e22: float, shear: float) -> tuple[float, float, float, float, int]:
+    """Return the stresses S11, S22, S12 [N/m], the energy per area [J/m2] and the state of a strained triangle.
+
+    The stress is the tensile one nearest to that of the elastic law in the norm of its energy
+    [eq:flexible-tension-field]. States: 0 slack, 1 wrinkled, 2 taut.
+    """
+    s11, s22 = C[t, C11] * e11 + C[t, C12] * e22, C[t, C12] * e11 + C[t, C22] * e22
+    s12 = C[t, C33] * shear
+    law = C[t, LAW]
+    if law == LINEAR or (law == FIELD and s11 + s22 >= 0.0 and s11 * s22 >= s12 * s12):
+        return s11, s22, s12, 0.5 * (s11 * e11 + s22 * e22 + s12 * shear), 2
+    if law == THREADS:
+        s11, s22 = max(s11, 0.0), max(s22, 0.0)
+        state = (1 if s11 > 0.0 else 0) + (1 if s22 > 0.0 else 0)
+        return s11, s22, 0.0, 0.5 * (s11 * e11 + s22 * e22), state
+    # strain along a direction, over twice its angle p: mean + half cos p + turn sin p
+    mean, half, turn = 0.5 * (e11 + e22), 0.5 * (e11 - e22), 0.5 * shear
+    if mean <= 0.0 and mean * mean >= half * half + turn * turn:
+        return 0.0, 0.0, 0.0, 0.0, 0
+    a0, a1, a2 = C[t, A0], C[t, A1], C[t, A2]
+    c, s = 1.0, 0.0
+    if a1 == 0.0 and a2 == 0.0:
+        size = math.sqrt(half * half + turn * turn)
+        if size > 0.0:
+            c, s = half / size, turn / size
+    else:
+        best, place = -1.0, 0
+        for k in range(_TRIES):
+            along = mean + half * _COS[k] + turn * _SIN[k]
+            if along > 0.0:
+                value = along * along / (a0 + _COS[k] * (a1 + a2 * _COS[k]))
+                if value > best:
+                    best, place = value, k
+        angle = 2.0 * math.pi / _TRIES * place
+        if best < 0.0:
+            # a narrow fan of stretched directions between two tries
+            angle = math.atan2(turn, half)
+        c, s = math.cos(angle), math.sin(angle)
+        low, high = angle - 2.0 * math.pi / _TRIES, angle + 2.0 * math.pi / _TRIES
+        for _ in range(30):
+            along, rise, bend = mean + half * c + turn * s, turn * c - half * s, -half * c - turn * s
+            soft, softer = a0 + c * (a1 + a2 * c), -s * (a1 + 2.0 * a2 * c)
+            softest = -c * (a1 + 2.0 * a2 * c) + 2.0 * a2 * s * s
+            # the derivative of along^2 / soft vanishes
+            value = 2.0 * soft * rise - softer * along
+            slope = softer * rise + 2.0 * soft * bend - softest * along
+            if value > 0.0:
+                low = angle
+            else:
+                high = angle
+            step = -value / slope if slope < 0.0 else 0.0
+            new = angle + step
+            if slope >= 0.0 or not low < new < high:
+                new = 0.5 * (low + high)
+            if abs(new - angle) < 1e-13:
+                break
+            angle = new
+            c, s = math.cos(angle), math.sin(angle)
+    along = mean + half * c + turn * s
+    if along <= 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0
+    pull = along / (a0 + c * (a1 + a2 * c))
+    return 0.5 * pull * (1.0 + c), 0.5 * pull * (1.0 - c), 0.5 * pull * s, 0.5 * pull * along, 1
+
+
+@njit(cache=True, error_model="numpy")
+def _strain(C: Any, t: int, p: Any, q: Any, damping: float) -> tuple[float, float, float]:
+    """Return Green's strain E11, E22, 2 E12 from the two edges ``p`` (6), with ``damping`` times its rate (``q``)."""
+    a, b, c, d = C[t, E11], C[t, E12], C[t, E21], C[t, E22]
+    f11, f22, f12 = 0.0, 0.0, 0.0
+    g11, g22, g12 = 0.0, 0.0, 0.0
+    for k in range(3):
+        one, two = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
+        f11 += one * one
+        f22 += two * two
+        f12 += one * two
+        if damping > 0.0:
+            fast, faster = q[k] * a + q[3 + k] * c, q[k] * b + q[3 + k] * d
+            g11 += one * fast
+            g22 += two * faster
+            g12 += one * faster + two * fast
+    return 0.5 * (f11 - 1.0) + damping * g11, 0.5 * (f22 - 1.0) + damping * g22, f12 + damping * g12
+
+
+@njit(cache=True, error_model="numpy")
+def triangle_force(C: Any, t: int, p: Any, q: Any, force: Any) -> tuple[float, int]:
+    """Write the forces (9: three nodes by three axes) of one triangle; return its highest principal pull and state.
+
+    Parameters
+    ----------
+    C, t : ndarray, int
+        Constants and number of the triangle.
+    p, q : ndarray, shape (6,)
+        The two edges from its first node to the others and their rates [m], [m/s].
+    force : ndarray, shape (9,)
+        Of stress and pressure [N].
+    """
+    damping = C[t, DAMPING]
+    e11, e22, shear = _strain(C, t, p, q, damping)
+    s11, s22, s12, _, state = tensile_stress(C, t, e11, e22, shear)
+    a, b, c, d = C[t, E11], C[t, E12], C[t, E21], C[t, E22]
+    area = C[t, AREA]
+    for k in range(3):
+        one, two = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
+        along, across = area * (one * s11 + two * s12), area * (one * s12 + two * s22)
+        force[3 + k] = -(along * a + across * b)
+        force[6 + k] = -(along * c + across * d)
+        force[k] = -(force[3 + k] + force[6 + k])
+    if C[t, PRESSURE] != 0.0:
+        push = C[t, PRESSURE] / 6.0
+        for k in range(3):
+            m, n = (k + 1) % 3, (k + 2) % 3
+            out = push * (p[m] * p[3 + n] - p[n] * p[3 + m])
+            for node in range(3):
+                force[3 * node + k] += out
+    mean, half = 0.5 * (s11 + s22), 0.5 * (s11 - s22)
+    return mean + math.sqrt(half * half + s12 * s12), state
+
+
+@njit(cache=True, error_model="numpy")
+def sheet_forces(
+    C: Any, triangles: Any, P: Any, p0: int, V: Any, v0: int, F: Any, f0: int, node: int, axis: int, peak: Any
+) -> None:  # fmt: skip
+    """Add the forces of all triangles to ``F``; keep the highest principal pull of each in ``peak`` [N/m]."""
+    p, q, force = np.empty(6), np.empty(6), np.empty(9)
+    for t in range(triangles.shape[0]):
+        i, j, k = triangles[t, 0] * node, triangles[t, 1] * node, triangles[t, 2] * node
+        for a in range(3):
+            step = a * axis
+            p[a], p[3 + a] = P[p0 + j + step] - P[p0 + i + step], P[p0 + k + step] - P[p0 + i + step]
+            q[a], q[3 + a] = V[v0 + j + step] - V[v0 + i + step], V[v0 + k + step] - V[v0 + i + step]
+        pull, _ = triangle_force(C, t, p, q, force)
+        peak[t] = max(peak[t], pull)
+        for a in range(3):
+            step = f0 + a * axis
+            F[i + step] += force[a]
+            F[j + step] += force[3 + a]
+            F[k + step] += force[6 + a]
+
+
+@njit(cache=True, error_model="numpy")
+def sheet_energy(C: Any, triangles: Any, P: Any, p0: int, node: int, axis: int) -> float:
+    """Return the elastic energy of all triangles [J]."""
+    p, q, total = np.empty(6), np.zeros(6), 0.0
+    for t in range(triangles.shape[0]):
+        i, j, k = triangles[t, 0] * node, triangles[t, 1] * node, triangles[t, 2] * node
+        for a in range(3):
+            step = p0 + a * axis
+            p[a], p[3 + a] = P[j + step] - P[i + step], P[k + step] - P[i + step]
+        e11, e22, shear = _strain(C, t, p, q, 0.0)
+        total += C[t, AREA] * tensile_stress(C, t, e11, e22, shear)[3]
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def stress_field(C: Any, triangles: Any, place: Any, out: Any) -> None:
+    """Write warp, weft and shear stress, both principal stresses [N/m] and the state of each triangle, shape (t, 6)."""
+    p, q = np.empty(6), np.zeros(6)
+    for t in range(triangles.shape[0]):
+        for a in range(3):
+            p[a] = place[triangles[t, 1], a] - place[triangles[t, 0], a]
+            p[3 + a] = place[triangles[t, 2], a] - place[triangles[t, 0], a]
+        e11, e22, shear = _strain(C, t, p, q, 0.0)
+        s11, s22, s12, _, state = tensile_stress(C, t, e11, e22, shear)
+        mean, half = 0.5 * (s11 + s22), 0.5 * (s11 - s22)
+        size = math.sqrt(half * half + s12 * s12)
+        out[t, 0], out[t, 1], out[t, 2], out[t, 3], out[t, 4], out[t, 5] = (
+            s11,
+            s22,
+            s12,
+            mean + size,
+            mean - size,
+            state,
+        )
+
+
+@njit(cache=True, error_model="numpy")
+def wet_share(a: float, b: float, c: float) -> float:
+    """Return the part of a triangle under the surface from the heights of its corners over it."""
+    low, high = min(a, b, c), max(a, b, c)
+    if high <= 0.0:
+        return 1.0
+    if low >= 0.0:
+        return 0.0
+    middle = a + b + c - low - high
+    if middle <= 0.0:
+        return 1.0 - high * high / ((high - low) * (high - middle))
+    return low * low / ((middle - low) * (high - low))
+
+
+@njit(cache=True, error_model="numpy")
+def sheet_loads(
+    C: Any, triangles: Any, P: Any, p0: int, V: Any, v0: int, W: Any, w0: int, F: Any, f0: int, node: int, axis: int,
+    light: Any, ahead: float,
+) -> float:  # fmt: skip
+    """Add buoyancy and drag of the water to ``F``; weight stands with the nodes.
+
+    The drag of each corner takes its own relative velocity, across and along the triangle [eq:flexible-sheet-drag].
+    ``W`` holds velocity, acceleration and elevation of the water in the same layout; ``light`` is one over the mass of
+    each node in the direction that the water pushes [1/kg]. Returns the fastest rate at which drag damps a node [1/s].
+    """
+    p, n, u = np.empty(6), np.empty(3), np.empty(3)
+    fastest = 0.0
+    for t in range(triangles.shape[0]):
+        i, j, k = triangles[t, 0] * node, triangles[t, 1] * node, triangles[t, 2] * node
+        wet = wet_share(
+            P[p0 + i + 2 * axis] - W[w0 + i + 6 * axis], P[p0 + j + 2 * axis] - W[w0 + j + 6 * axis],
+            P[p0 + k + 2 * axis] - W[w0 + k + 6 * axis],
+        )  # fmt: skip
+        if wet == 0.0:
+            continue
+        for a in range(3):
+            step = p0 + a * axis
+            p[a], p[3 + a] = P[j + step] - P[i + step], P[k + step] - P[i + step]
+        n[0], n[1] = p[1] * p[5] - p[2] * p[4], p[2] * p[3] - p[0] * p[5]
+        n[2] = p[0] * p[4] - p[1] * p[3]
+        size = math.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+        per = 1.0 / size if size > 0.0 else 0.0
+        across, skin = wet * C[t, ACROSS] * size / 6.0, wet * C[t, SKIN] * size / 6.0
+        for corner in range(3):
+            point = triangles[t, corner]
+            base = point * node
+            along = 0.0
+            for a in range(3):
+                step = base + a * axis
+                u[a] = C[t, SHARE] * W[w0 + step] - V[v0 + step]
+                along += u[a] * n[a] * per
+            slide = 0.0
+            for a in range(3):
+                u[a] -= along * n[a] * per
+                slide += u[a] * u[a]
+            hold, rub = across * abs(along), skin * math.sqrt(slide)
+            rate = 2.0 * max(hold, rub) * light[point]
+            fastest = max(fastest, rate)
+            quick = ahead * rate
+            held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
+            for a in range(3):
+                F[f0 + base + a * axis] += held * (hold * along * n[a] * per + rub * u[a])
+            F[f0 + base + 2 * axis] += wet * C[t, LIFT]
+    return fastest
+
+
+@njit(cache=True, error_model="numpy")
+def sheet_stiffness(C: Any, triangles: Any, place: Any, stiff: Any, damp: Any) -> None:
+    """Add a bound of the stiffness of every triangle, wholly taut, to the 3x3 blocks of its nodes, shape (n, 6).
+
+    The blocks are half of it, as those of a bar are: (sum y_a)^2 <= sum y_a^2 / w_a for shares w_a that add to one
+    [eq:flexible-sheet-step].
+    """
+    p, block, share = np.empty(6), np.empty((3, 6)), np.empty(3)
+    for t in range(triangles.shape[0]):
+        a, b, c, d = C[t, E11], C[t, E12], C[t, E21], C[t, E22]
+        for k in range(3):
+            p[k] = place[k, triangles[t, 1]] - place[k, triangles[t, 0]]
+            p[3 + k] = place[k, triangles[t, 2]] - place[k, triangles[t, 0]]
+        whole = 0.0
+        for corner in range(3):
+            g, h = (-a - c, -b - d) if corner == 0 else ((a, b) if corner == 1 else (c, d))
+            row, trace = 0, 0.0
+            for k in range(3):
+                fk, sk = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
+                for m in range(k, 3):
+                    fm, sm = p[m] * a + p[3 + m] * c, p[m] * b + p[3 + m] * d
+                    value = C[t, C11] * g * g * fk * fm + C[t, C22] * h * h * sk * sm
+                    value += C[t, C12] * g * h * (fk * sm + sk * fm)
+                    value += C[t, C33] * (fk * h + sk * g) * (fm * h + sm * g)
+                    block[corner, row] = C[t, AREA] * value
+                    if k == m:
+                        trace += block[corner, row]
+                    row += 1
+            share[corner] = math.sqrt(max(trace, 0.0))
+            whole += share[corner]
+        for corner in range(3):
+            if share[corner] <= 1e-9 * whole:
+                continue
+            factor = 0.5 * whole / share[corner]
+            for row in range(6):
+                stiff[triangles[t, corner], row] += factor * block[corner, row]
+                damp[triangles[t, corner], row] += C[t, DAMPING] * factor * block[corner, row]
