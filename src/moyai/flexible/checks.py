@@ -56,7 +56,20 @@ def check_network(network: Network) -> None:
             allowed="greater than 0 for free nodes",
             remedy="give the point a mass or connect a bar to it",
         )
-    part = parts(count, bars.start, bars.end)
+    start, end = bars.start, bars.end
+    if network.sheets is not None:
+        corners = network.sheets.triangles
+        if corners.max() >= count:
+            raise InputError(
+                f"a triangle of a sheet names node {int(corners.max())}, which does not exist",
+                path="sheets.triangles",
+                allowed=f"nodes 0 to {count - 1}",
+            )
+        start = np.concatenate([start, corners[:, 0], corners[:, 1]])
+        end = np.concatenate([end, corners[:, 1], corners[:, 2]])
+    if network.blocks is not None:
+        _check_blocks(network)
+    part = parts(count, start, end)
     anchored = np.zeros(int(part.max()) + 1, dtype=bool)
     np.logical_or.at(anchored, part, (nodes.kind != FREE) | nodes.held.any(axis=1))
     if not anchored.all() and anchored.any():
@@ -89,3 +102,30 @@ def check_network(network: Network) -> None:
                 path="nodes.position",
                 allowed="on or above the bed",
             )
+
+
+def _check_blocks(network: Network) -> None:
+    from moyai.flexible.network import FREE
+
+    blocks, nodes = network.blocks, network.nodes
+    assert blocks is not None
+    if max(blocks.nodes.max(), blocks.guides.max()) >= len(nodes) or min(blocks.nodes.min(), blocks.guides.min()) < 0:
+        raise InputError(
+            "a section of added mass names a node that does not exist",
+            path="blocks.nodes",
+            allowed=f"nodes 0 to {len(nodes) - 1}",
+        )
+    bound = blocks.nodes.ravel()[nodes.kind[blocks.nodes.ravel()] != FREE]
+    if bound.size:
+        raise InputError(
+            f"{name_of_node(network, int(bound[0]))} of a section of added mass cannot move",
+            path="blocks.nodes",
+            allowed="free nodes (hold single components by 'held')",
+        )
+    half = blocks.nodes.ravel()[nodes.held[blocks.nodes.ravel(), 0] != nodes.held[blocks.nodes.ravel(), 1]]
+    if half.size:
+        raise InputError(
+            f"{name_of_node(network, int(half[0]))} of a section of added mass is held along one horizontal axis only",
+            path="nodes.held",
+            allowed="both horizontal components held, or none: the normal of the section turns",
+        )

@@ -12,10 +12,14 @@ from numpy.typing import NDArray
 from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.flow import Flow
+from moyai.flexible.mass_blocks import pack_blocks
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.packing import pack
+from moyai.flexible.panels import PanelArrays
 from moyai.flexible.result import State
+from moyai.flexible.ring_kernel import ring_forces
+from moyai.flexible.rings import RingArrays
 from moyai.flexible.stability import step_limit
 
 Array = NDArray[np.float64]
@@ -70,6 +74,12 @@ class ExplicitRun:
         self.network, self.flow, self.load_steps = network, flow, load_steps
         self.arrays = kernel_arrays(network)
         self.packed = pack(self.arrays)
+        self.rings = RingArrays.of(network.rings)
+        # panels, their matrices at the last evaluation, rings, their moments
+        self.nets = (
+            PanelArrays.of(network.panels).system, np.zeros((12, len(network.nodes))), self.rings.system,
+            np.zeros((self.rings.nodes.size, 3)),
+        )  # fmt: skip
         self.driving = driving_tables(network, motions)
         self.time, self.step = start.time, 0.0
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
@@ -81,6 +91,7 @@ class ExplicitRun:
         kernel.drive(self.packed.memory, *self.driving, self.time, 0.0)
         for node, slot in self.driving[0]:
             self.speed[:, node] = motions[network.motion_names[slot]].at(self.time)[1]
+        self.sheets, self.blocks = self._surfaces(start)
         self.water = flow.at(self.time, self.place)
         self.packed.node_rows(kernel.WU, 7)[:] = self.water
         self._loads()
@@ -94,6 +105,31 @@ class ExplicitRun:
             return SAFETY
         damping = self.arrays.bar("viscous")[pulls_only] / (self.arrays.bar("spring")[pulls_only] * limit)
         return SAFETY if float(damping.min()) >= LEAST_DAMPING else SAFETY_UNDAMPED
+
+    def _surfaces(self, start: State) -> tuple[Any, Any]:
+        """Return what the kernels take of sheets and of dense mass blocks; the frames of blocks count from as built."""
+        arrays, network = self.arrays, self.network
+        own = arrays.node("mass") + arrays.node("added_mass")
+        for end in (arrays.start, arrays.end):
+            np.add.at(own, end, arrays.bar("added_normal"))
+        free = arrays.nodes[9:12]
+        packed = pack_blocks(network.blocks, network.nodes.position.T, own, free)
+        whole = network.blocks is not None and network.blocks.convective
+        blocks = (
+            packed.nodes, packed.guides, packed.frames, packed.added, packed.inverse, packed.along,
+            own[packed.nodes], whole,
+        )  # fmt: skip
+        sheets = network.sheets
+        count = 0 if sheets is None else len(sheets)
+        table = np.zeros((0, 1)) if sheets is None else sheets.constants(network.water)
+        triangles = np.zeros((0, 3), dtype=np.int64) if sheets is None else sheets.triangles.copy()
+        return (table, triangles, packed.light, np.zeros(1), np.zeros(count)), blocks
+
+    def kick(self, push: float) -> None:
+        """Advance all velocities by ``push`` seconds of the present forces."""
+        if self.network.blocks is not None:
+            kernel.kick_sections(self.packed.memory, self.blocks, push, -1e300)
+        kernel.kick_and_drift(self.packed.memory, self.packed.sizes[0], push, 0.0)
 
     @property
     def place(self) -> Array:
@@ -109,8 +145,10 @@ class ExplicitRun:
         water = self.network.water
         kernel.loads(
             self.packed.memory, self.packed.sizes, self.packed.runs, self.arrays.attached, water.density, water.gravity,
-            self._near_surface(), not self.flow.steady, 0.0,
+            self._near_surface(), not self.flow.steady, 0.0, self.sheets,
         )  # fmt: skip
+        if self.network.blocks is not None:
+            kernel.section_loads(self.packed.memory, self.blocks, not self.flow.steady)
 
     def _near_surface(self) -> bool:
         """Whether any bar may cross the surface before the next chunk."""
@@ -131,10 +169,15 @@ class ExplicitRun:
         places[0] = self.place.T[nodes]
         pulls[0] = peaks[0] = self.packed.bar_row(kernel.PULL)[bars]
         level = -1e300 if self.network.bed is None else self.network.bed.level
-        energy[0, 0] = kernel.kinetic_energy(memory, sizes[0])
+        energy[0, 0] = kernel.kinetic_energy(memory, sizes[0]) + kernel.block_energy(
+            self.blocks[0], self.blocks[2], self.blocks[3], memory, kernel.U, kernel.ROW
+        )
         energy[0, 1] = kernel.elastic_energy(
             memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, level
-        )
+        ) + kernel.sheet_energy(*self.sheets[:2], memory, kernel.X, 1, kernel.ROW)
+        if self.rings.nodes.size:
+            place = np.ascontiguousarray(self.place.T)
+            energy[0, 1] += ring_forces(place, self.rings.system, np.zeros_like(place))
         energy[0, 2] = 0.0
 
     def limit(self) -> tuple[float, int]:
@@ -144,11 +187,13 @@ class ExplicitRun:
         inverse[:, dry] = 0.0
         for row, name in ((0, "free_x"), (3, "free_y"), (5, "free_z")):
             inverse[row, dry] = (self.arrays.node(name) / self.arrays.node("mass"))[dry]
-        return step_limit(self.arrays, self.place, inverse)
+            # nodes of dense blocks count with their own mass: along the cable they have no other
+            inverse[row, self.blocks[0]] = self.arrays.node(name)[self.blocks[0]] / self.blocks[6]
+        return step_limit(self.arrays, self.place, inverse, self.rings.hinges, self.sheets[:2])
 
     def _load_rate(self) -> float:
         """Return the fastest rate at which drag damps or floats bob, thrice weighted, anywhere [1/s]."""
-        rate = float(self.packed.bar_row(kernel.RATE).max(initial=0.0))
+        rate = max(float(self.packed.bar_row(kernel.RATE).max(initial=0.0)), float(self.sheets[3][0]))
         # also at the speed of what drives the network, which the bars may not have yet
         lively = 2.0 * self.arrays.bar("drag_normal") * self.arrays.bar("per_mass")
         rate = max(rate, self.fastest_drive * float(lively.max(initial=0.0)))
@@ -192,7 +237,7 @@ class ExplicitRun:
         packed, arrays = self.packed, self.arrays
         if self.step and abs(step - self.step) > 1e-12 * step:
             # velocities stand half an old step before now: bring them to half a new step before now
-            kernel.kick_and_drift(packed.memory, packed.sizes[0], 0.5 * (self.step - step), 0.0)
+            self.kick(0.5 * (self.step - step))
         self.step, self.per_load = step, per_load
         end = self.time + rows * row_interval
         rate = np.zeros_like(self.water)
@@ -207,7 +252,8 @@ class ExplicitRun:
             self.driving,
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first),
-            self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]),
+            self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.nets,
+            self.sheets, self.blocks,
         )  # fmt: skip
         self.time = end
         if not self.flow.steady:
@@ -216,9 +262,9 @@ class ExplicitRun:
 
     def state(self) -> State:
         """Return the state at the present time (the forces of the last row give the half step)."""
-        memory, before = self.packed.memory, self.speed.copy()
+        before = self.speed.copy()
         if self.step:
-            kernel.kick_and_drift(memory, self.packed.sizes[0], 0.5 * self.step, 0.0)
+            self.kick(0.5 * self.step)
         speed = self.speed.copy()
         self.speed[:] = before
         return State(self.time, self.place.T.copy(), np.ascontiguousarray(speed.T))

@@ -19,6 +19,11 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from moyai.flexible.mass_block_kernel import block_energy, block_loads, kick_blocks, set_frames
+from moyai.flexible.panel_kernel import screen_loads
+from moyai.flexible.ring_kernel import ring_loads
+from moyai.flexible.sheet_kernel import sheet_energy, sheet_forces, sheet_loads
+
 #: Which re-orderings the compiler may make: none that assumes the absence of NaN, which marks a blow-up.
 FAST: Any = {"contract", "arcp", "nsz", "reassoc"}
 
@@ -402,8 +407,40 @@ def invert_blocks(A: Any, count: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
+def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
+    """Advance the velocities of the nodes of dense mass blocks; the rows of the new load hold their forces meanwhile.
+
+    Their own inverse blocks are zero, so that the kick of all nodes passes them by.
+    """
+    nodes, _, frames, _, inverse, along, _, _ = blocks
+    for g in range(nodes.shape[0]):
+        for i in range(nodes.shape[1]):
+            node = nodes[g, i]
+            for axis in range(3):
+                row = axis * ROW + node
+                A[QX + row] = A[TX + row] + A[FX + row] - A[FX + row - 1]
+    kick_blocks(nodes, frames, inverse, along, A, U, QX, ROW, X, push, level, STIFF, DAMP)
+
+
+@njit(cache=True, error_model="numpy")
+def section_loads(A: Any, blocks: Any, moving: bool) -> None:
+    """Turn the frames of dense mass blocks, add their loads, and take their nodes out of the kick of all nodes."""
+    nodes, guides, frames, added, _, _, own, whole = blocks
+    set_frames(nodes, guides, frames, A, X, ROW, whole)
+    block_loads(nodes, guides, frames, added, A, U, WU, QX, ROW, moving, whole)
+    for g in range(nodes.shape[0]):
+        for i in range(nodes.shape[1]):
+            node = nodes[g, i]
+            for row in range(6):
+                A[IXX + row * ROW + node] = 0.0
+                A[MXX + row * ROW + node] = 0.0
+            A[MXX + node] = A[MYY + node] = A[MZZ + node] = own[g, i]
+
+
+@njit(cache=True, error_model="numpy")
 def loads(
-    A: Any, sizes: Any, runs: Any, attached: Any, rho: float, gravity: float, surface: bool, waves: bool, ahead: float
+    A: Any, sizes: Any, runs: Any, attached: Any, rho: float, gravity: float, surface: bool, waves: bool, ahead: float,
+    sheets: Any,
 ) -> None:  # fmt: skip
     """Write weight, buoyancy, drag and inertia of the water at every node, and the inverse mass blocks."""
     count, spine = sizes[0], sizes[1]
@@ -419,7 +456,55 @@ def loads(
         add_ribs(A, runs)
     if attached.size > 0:
         attached_loads(A, attached, rho, gravity, ahead)
+    table, triangles, light, gauge, _ = sheets
+    if triangles.shape[0] > 0:
+        gauge[0] = sheet_loads(table, triangles, A, X, A, U, A, WU, A, QX, 1, ROW, light, ahead)
     invert_blocks(A, count)
+
+
+@njit(cache=True, error_model="numpy")
+def screens(A: Any, count: int, panels: Any, half_density: float, screen: Any, ahead: float, step: float) -> None:
+    """Write the loads of net panels as R - C velocity and inverse mass blocks that hold half a step of C.
+
+    The step then takes the damping at the mean of its velocities, so that light nets in fast water ask for no shorter
+    step [eq:cage-panel-implicit].
+    """
+    x, y, z, u, v, w = A[X : X + count], A[Y : Y + count], A[Z : Z + count], A[U : U + count], A[V : V + count], A[W:]
+    screen_loads(
+        x, y, z, u, v, w, A[WU:], A[WV:], A[WW:], A[WA:], A[WB:], A[WC:], A[ETA:], panels, half_density, ahead, screen
+    )
+    half = 0.5 * step
+    for row in range(6):
+        for i in range(screen.shape[1]):
+            A[MXX + row * ROW + i] += half * screen[row, i]
+    invert_blocks(A, count)
+    for row in range(6):
+        for i in range(screen.shape[1]):
+            A[MXX + row * ROW + i] -= half * screen[row, i]
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def screen_forces(A: Any, screen: Any) -> None:
+    """Add the forces of the panels at the present velocity to the total and keep that velocity."""
+    for i in range(screen.shape[1]):
+        u, v, w = A[U + i], A[V + i], A[W + i]
+        screen[9, i], screen[10, i], screen[11, i] = u, v, w
+        A[TX + i] += screen[6, i] - screen[0, i] * u - screen[1, i] * v - screen[2, i] * w
+        A[TY + i] += screen[7, i] - screen[1, i] * u - screen[3, i] * v - screen[4, i] * w
+        A[TZ + i] += screen[8, i] - screen[2, i] * u - screen[4, i] * v - screen[5, i] * w
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def screen_work(A: Any, screen: Any, step: float) -> float:
+    """Return the work of the panels over the last step, with the mean of its velocities [J]."""
+    work = 0.0
+    for i in range(screen.shape[1]):
+        u, v, w = A[U + i], A[V + i], A[W + i]
+        p, q, s = 0.5 * (u + screen[9, i]), 0.5 * (v + screen[10, i]), 0.5 * (w + screen[11, i])
+        work += u * (screen[6, i] - screen[0, i] * p - screen[1, i] * q - screen[2, i] * s)
+        work += v * (screen[7, i] - screen[1, i] * p - screen[3, i] * q - screen[4, i] * s)
+        work += w * (screen[8, i] - screen[2, i] * p - screen[4, i] * q - screen[5, i] * s)
+    return step * work
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -520,7 +605,7 @@ def _load_work(A: Any, count: int, sign: float) -> float:
 @njit(cache=True, error_model="numpy", fastmath=FAST)
 def march(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, waves: Any,
-    driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any,
+    driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any, nets: Any, sheets: Any, blocks: Any,
 ) -> int:  # fmt: skip
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
@@ -530,8 +615,8 @@ def march(
     of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
     velocities stand half a step behind, and from ``LEDGER`` on the impulses on driven points. ``saved`` is (position
     (rows, nodes, 3), tension (rows, bars), highest tension since the last row, energies and work (rows, 3), kept nodes,
-    kept bars as places in ``A``). Returns the number of good rows, fewer than asked for when values are no longer
-    finite.
+    kept bars as places in ``A``). ``nets`` is (panels, their matrices (12, n), rings, their moments). Returns the
+    number of good rows, fewer than asked for when values are no longer finite.
     """
     count, spine = sizes[0], sizes[1]
     driven, rest, tables, table_start, table_step = driving
@@ -539,7 +624,13 @@ def march(
     moving, surface, water, water_rate, water_time = waves
     start, step, per_load, per_row, rows, first_row = timing
     places, pulls, peaks, energy, keep_nodes, keep_bars = saved
-    loose = runs.shape[0] > 0 or hinges.shape[0] > 0
+    table, triangles, _, _, sheet_peak = sheets
+    cloth, dense = triangles.shape[0] > 0, blocks[0].shape[0] > 0
+    floor = level if has_bed else -1e300
+    panels, screen, rings, ring_moments = nets
+    screened, ringed = panels[0].shape[0] > 0, rings[0].size > 0
+    spare = np.zeros((3, screen.shape[1]))
+    loose = runs.shape[0] > 0 or hinges.shape[0] > 0 or screened or ringed or cloth
     moved, drawn = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3))
     keep = np.empty((3, count))
     for row in range(rows):
@@ -550,8 +641,12 @@ def march(
                 for r in range(7):
                     for i in range(water.shape[1]):
                         A[WU + r * ROW + i] = water[r, i] + (now - water_time) * water_rate[r, i]
-            turning = kinetic_energy(A, count)
-            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, per_load * step)
+            turning = kinetic_energy(A, count) + block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
+            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, per_load * step, sheets)
+            if screened:
+                screens(A, count, panels, 0.5 * fluid[0], screen, per_load * step, step)
+            if dense:
+                section_loads(A, blocks, moving)
             if ledger[4] == 0.0:
                 for axis in range(3):
                     for i in range(count):
@@ -559,6 +654,7 @@ def march(
                 ledger[4] = 1.0
             else:
                 ledger[2] += kinetic_energy(A, count) - turning
+                ledger[2] += block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
             extrapolate(A, count)
             ledger[0] += _load_work(A, count, -1.0)
             touching = has_bed and _touching(A, count, level, per_load * step)
@@ -569,6 +665,12 @@ def march(
                             A[TX + axis * ROW + i] = A[PX + axis * ROW + i]
                     rib_forces(A, runs, curves)
                     bending_forces(A, hinges, bending)
+                    if screened:
+                        screen_forces(A, screen)
+                    if cloth:
+                        sheet_forces(table, triangles, A, X, A, U, A, TX, 1, ROW, sheet_peak)
+                    if ringed:
+                        ring_loads(A[X:], A[Y:], A[Z:], rings, A[TX:], A[TY:], A[TZ:], ring_moments)
                 spine_forces(A, spine)
                 for d in range(driven.shape[0]):
                     node = driven[d, 0]
@@ -589,6 +691,8 @@ def march(
                 if ledger[5] == 0.0:
                     push = 0.5 * step
                     ledger[5] = 1.0
+                if dense:
+                    kick_sections(A, blocks, push, floor)
                 if touching and friction > 0.0:
                     kick_rub_and_drift(A, count, level, friction, push, step)
                 elif touching:
@@ -599,6 +703,8 @@ def march(
                 for d in range(driven.shape[0]):
                     for axis in range(3):
                         moved[d, axis] = A[X + axis * ROW + driven[d, 0]] - moved[d, axis]
+                if screened:
+                    ledger[0] += screen_work(A, screen, step)
             ledger[0] += _load_work(A, count, 1.0)
         # the state at the time of the row: forces here, half a kick
         if loose:
@@ -607,6 +713,12 @@ def march(
                     A[TX + axis * ROW + i] = A[PX + axis * ROW + i]
             rib_forces(A, runs, curves)
             bending_forces(A, hinges, bending)
+            if screened:
+                screen_forces(A, screen)
+            if cloth:
+                sheet_forces(table, triangles, A, X, A, U, A, TX, 1, ROW, sheet_peak)
+            if ringed:
+                ring_loads(A[X:], A[Y:], A[Z:], rings, A[TX:], A[TY:], A[TZ:], ring_moments)
         spine_forces(A, spine)
         gone = (row + 1) * per_row * per_load * step
         for d in range(driven.shape[0]):
@@ -620,18 +732,23 @@ def march(
         for axis in range(3):
             for i in range(count):
                 keep[axis, i] = A[U + axis * ROW + i]
+        if dense:
+            kick_sections(A, blocks, 0.5 * step, -1e300)
         kick_and_drift(A, count, 0.5 * step, 0.0)
-        kinetic = kinetic_energy(A, count)
+        kinetic = kinetic_energy(A, count) + block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
         # the product of the velocities half a step before and after: with it leapfrog keeps the energy of linear motion
         # exactly, at any step [eq:flexible-discrete-energy]
         for axis in range(3):
             for i in range(count):
                 A[U + axis * ROW + i] -= keep[axis, i]
-        kinetic -= kinetic_energy(A, count)
+        kinetic -= kinetic_energy(A, count) + block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
         for axis in range(3):
             for i in range(count):
                 A[U + axis * ROW + i] = keep[axis, i]
-        elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, level if has_bed else -1e300)
+        elastic = elastic_energy(A, sizes, runs, curves, hinges, bending, floor)
+        elastic += sheet_energy(table, triangles, A, X, 1, ROW)
+        if ringed:
+            elastic += ring_loads(A[X:], A[Y:], A[Z:], rings, spare[0], spare[1], spare[2], ring_moments)
         out = first_row + row
         energy[out, 0], energy[out, 1], energy[out, 2] = kinetic, elastic, ledger[0] + ledger[1] + ledger[2]
         for j in range(keep_nodes.size):

@@ -15,6 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.flexible.mass_blocks import MassBlocks
+from moyai.flexible.panels import NetPanels
+from moyai.flexible.rings import Ring
+from moyai.flexible.sheets import Sheets
 from moyai.sea.water import Water
 from moyai.tables.lines import LineProperties
 
@@ -387,6 +391,14 @@ class Network:
         Named nodes.
     motion_names : tuple of str
         Names of the prescribed motions that driven nodes follow.
+    sheets : Sheets, optional
+        Triangles between nodes.
+    blocks : MassBlocks, optional
+        Dense added mass of groups of nodes.
+    panels : NetPanels, optional
+        Pieces of net that the water loads by a law.
+    rings : tuple of Ring
+        Elastic rings that are curved at rest.
 
     Raises
     ------
@@ -402,6 +414,10 @@ class Network:
     strands: tuple[Strand, ...] = ()
     points: Mapping[str, int] = field(default_factory=dict)
     motion_names: tuple[str, ...] = ()
+    sheets: Sheets | None = None
+    blocks: MassBlocks | None = None
+    panels: NetPanels | None = None
+    rings: tuple[Ring, ...] = ()
 
     def __post_init__(self) -> None:
         from moyai.flexible.checks import check_network
@@ -437,21 +453,21 @@ class Network:
 
     @property
     def node_mass(self) -> Array:
-        """Mass of every node: what is attached and half of each bar [kg]."""
+        """Mass of every node: what is attached, half of each bar and a third of each triangle [kg]."""
         half = 0.5 * self.bars.of_type("mass_per_length") * self.bars.length
         mass = np.array(self.nodes.mass)
         np.add.at(mass, self.bars.start, half)
         np.add.at(mass, self.bars.end, half)
-        return mass
+        return mass if self.sheets is None else mass + self.sheets.node_share(self.sheets.bulk[0], len(self.nodes))
 
     @property
     def node_volume(self) -> Array:
-        """Displaced volume of every node, wholly wet: what is attached and half of each bar [m3]."""
+        """Displaced volume of every node, wholly wet: what is attached, half of each bar, a third of each triangle."""
         half = 0.5 * self.bars.of_type("volume_per_length") * self.bars.length
         volume = np.array(self.nodes.volume)
         np.add.at(volume, self.bars.start, half)
         np.add.at(volume, self.bars.end, half)
-        return volume
+        return volume if self.sheets is None else volume + self.sheets.node_share(self.sheets.bulk[1], len(self.nodes))
 
     @property
     def node_contact_area(self) -> Array:

@@ -19,10 +19,17 @@ def refined(network: Network, factor: int, state: State | None = None) -> tuple[
     Raises
     ------
     InputError
-        For a factor below 1.
+        For a factor below 1, and for a network with sheets or sections of added mass, which a builder has to mesh.
     """
     if factor < 1:
         raise InputError(f"a mesh refined {factor} times", path="factor", allowed="1 or more")
+    if network.sheets is not None or network.blocks is not None:
+        raise InputError(
+            "sheets and sections of added mass are not refined here",
+            path="network.sheets",
+            allowed="bars alone",
+            remedy="build the network again with twice the cells",
+        )
     old, bars = network.nodes, network.bars
     now = state or State.at_rest(network)
     number = np.full(len(old), -1, dtype=np.int64)

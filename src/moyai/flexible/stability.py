@@ -10,8 +10,10 @@ from numba import njit
 from numpy.typing import NDArray
 
 from moyai.flexible.arrays import KernelArrays
+from moyai.flexible.sheet_kernel import sheet_stiffness
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 
 @njit(cache=True, error_model="numpy")
@@ -53,10 +55,12 @@ def _largest_eigenvalue(p: Any, q: Any) -> float:
 
 @njit(cache=True, error_model="numpy")
 def _limit(
-    place: Any, inverse: Any, start: Any, end: Any, spring: Any, viscous: Any, hinges: Any, bending: Any
-) -> tuple[float, int]:
+    place: Any, inverse: Any, start: Any, end: Any, spring: Any, viscous: Any, hinges: Any, bending: Any,
+    sheets: Any,
+) -> tuple[float, int]:  # fmt: skip
     count = place.shape[1]
     stiff, damp, bend = np.zeros((count, 6)), np.zeros((count, 6)), np.zeros(count)
+    sheet_stiffness(sheets[0], sheets[1], place, stiff, damp)
     for k in range(start.size):
         a, b = start[k], end[k]
         x, y, z = place[0, b] - place[0, a], place[1, b] - place[1, a], place[2, b] - place[2, a]
@@ -91,7 +95,13 @@ def _limit(
     return least, worst
 
 
-def step_limit(arrays: KernelArrays, position: Array, inverse: Array) -> tuple[float, int]:
+def step_limit(
+    arrays: KernelArrays,
+    position: Array,
+    inverse: Array,
+    rings: tuple[IntArray, Array] | None = None,
+    sheets: tuple[Array, IntArray] | None = None,
+) -> tuple[float, int]:
     """Return a step that central differences bear in any state of the bars, and the node that sets it.
 
     Twice the stiffness of the bars at a node bounds the whole matrix from above, block by block, so the largest
@@ -108,9 +118,20 @@ def step_limit(arrays: KernelArrays, position: Array, inverse: Array) -> tuple[f
         Present state.
     inverse : ndarray, shape (6, n)
         Inverse mass blocks (xx, xy, xz, yy, yz, zz), zero where held.
+    rings : tuple of ndarray, optional
+        Node triples and stiffness of rings (:attr:`moyai.flexible.rings.RingArrays.hinges`), which count as hinges:
+        neither rest curvature nor twist makes them stiffer.
+    sheets : (ndarray, ndarray of int), optional
+        Constants and nodes of triangles.
     """
+    if sheets is None:
+        sheets = np.zeros((0, 1)), np.zeros((0, 3), dtype=np.int64)
+    hinges, bending = arrays.hinges, arrays.bending
+    if rings is not None and len(rings[0]):
+        hinges, bending = np.concatenate([hinges, rings[0]]), np.concatenate([bending, rings[1]])
     limit, worst = _limit(
         np.ascontiguousarray(position), np.ascontiguousarray(inverse), arrays.start, arrays.end,
-        arrays.greatest_spring, arrays.bar("viscous").copy(), arrays.hinges, arrays.bending,
+        arrays.greatest_spring, arrays.bar("viscous").copy(), hinges, bending,
+        sheets,
     )  # fmt: skip
     return float(limit), int(worst)
