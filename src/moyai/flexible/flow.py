@@ -96,6 +96,13 @@ class Flow:
             return 2.0 * math.pi / float(fastest) / 50.0
         return self.ramp / 50.0 if self.ramp > 0.0 else 0.1
 
+    def growth(self, time: float) -> tuple[float, float]:
+        """Return the part of the flow that has grown at a time, and its rate [1/s]."""
+        if self.ramp <= 0.0 or time >= self.ramp:
+            return 1.0, 0.0
+        angle = math.pi * max(time, 0.0) / self.ramp
+        return 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.ramp * math.sin(angle)
+
     def at(self, time: float, position: Array) -> Array:
         """Return velocity, acceleration and elevation of the water at nodes, shape (7, n).
 
@@ -108,10 +115,7 @@ class Flow:
         """
         count = position.shape[1]
         out = np.zeros((7, count))
-        grown, rate = 1.0, 0.0
-        if self.ramp > 0.0 and time < self.ramp:
-            angle = math.pi * max(time, 0.0) / self.ramp
-            grown, rate = 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.ramp * math.sin(angle)
+        grown, rate = self.growth(time)
         out[:3] = np.asarray(self.velocity)[:, None]
         if self.current is not None:
             depth = self.waves.water.depth if self.waves is not None and self.waves.water is not None else math.inf

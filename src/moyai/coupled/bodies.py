@@ -1,0 +1,125 @@
+"""The kinds of body that hang in networks, and what is kept of their motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.attachment import PointCarrier
+from moyai.core.errors import InputError
+from moyai.coupled.joint import Joint
+from moyai.coupled.planar import PlanarBody, PlanarCarrier
+from moyai.coupled.rigid import RigidBody, RigidCarrier
+from moyai.flexible.network import Network
+from moyai.flexible.result import State
+from moyai.flexible.stepping import carried_nodes
+from moyai.mooring.rotations import roll_pitch_yaw
+
+Array = NDArray[np.float64]
+Body = RigidBody | PlanarBody
+
+#: How far a point of the network may stand from where its body has it, over the extent of the network.
+PLACE_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class BodyHistory:
+    """Motion of one body.
+
+    Parameters
+    ----------
+    position : ndarray (k, 3)
+        Of the origin of its axes in site axes [m].
+    rotation : ndarray (k, 3, 3)
+        Body to site.
+    velocity : ndarray (k, 6)
+        Of the centre of gravity and spin, site axes [m/s, rad/s].
+    reaction : ndarray (k, 6)
+        Mean force of the network over the last step, and its moment about the centre of gravity, site axes [N, N m].
+    point_force : ndarray (k, points, 3)
+        The same for every carried point [N].
+    points : tuple of str
+        Their names.
+    kinetic_energy : ndarray (k,)
+        With added mass at infinite frequency, without that of lumps [J].
+    """
+
+    position: Array
+    rotation: Array
+    velocity: Array
+    reaction: Array
+    point_force: Array
+    points: tuple[str, ...]
+    kinetic_energy: Array
+
+    @property
+    def angles(self) -> Array:
+        """Roll, pitch, yaw (k, 3) [rad]; yaw goes on beyond a half turn."""
+        found = roll_pitch_yaw(self.rotation)
+        found[:, 2] = np.unwrap(found[:, 2])
+        return found
+
+
+class BodyLog:
+    """Collects the rows of one body."""
+
+    def __init__(self, body: Body, carrier: PointCarrier) -> None:
+        self.body, self.carrier = body, carrier
+        self.rows: list[tuple[Array, ...]] = []
+
+    def keep(self, joint: Joint) -> None:
+        """Add the state after the last accepted step."""
+        carrier = self.carrier
+        if not isinstance(carrier, RigidCarrier | PlanarCarrier):
+            return
+        index = joint.carriers.index(carrier)
+        last = int(joint.ends[index])
+        force = joint.reaction[0, last - joint.sizes[index] : last]
+        place, _ = carrier.place_and_velocity()
+        moment = np.sum(np.cross(place - carrier.centre, force * carrier.copies[:, None]), axis=0)
+        total = np.concatenate([np.sum(force * carrier.copies[:, None], axis=0), moment])
+        self.rows.append(
+            (
+                carrier.position.copy(), carrier.rotation.copy(), carrier.velocity.copy(), total, force.copy(),
+                np.array(carrier.kinetic_energy),
+            )
+        )  # fmt: skip
+
+    def history(self, size: int) -> BodyHistory:
+        """Return the first ``size`` rows."""
+        place, turn, speed, total, force, kinetic = (np.array(column) for column in zip(*self.rows[:size], strict=True))
+        return BodyHistory(place, turn, speed, total, force, tuple(self.carrier.points), kinetic)
+
+
+def check_points(
+    network: Network, bodies: Mapping[str, Body], carriers: Mapping[str, PointCarrier], start: State
+) -> None:
+    """Refuse points of bodies that the network does not drive, or that stand elsewhere.
+
+    Raises
+    ------
+    InputError
+        Names the point, both places and what mends it.
+    """
+    seen: list[str] = []
+    for body in bodies.values():
+        seen.extend(body.points)
+    nodes = dict(zip(seen, carried_nodes(network, seen), strict=True))
+    extent = max(float(np.max(np.ptp(start.position, axis=0))), 1e-3)
+    for name, body in bodies.items():
+        if name in carriers:
+            continue
+        for point, place in body.points_at_start.items():
+            there = start.position[nodes[point]]
+            off = float(np.linalg.norm(there - place))
+            if off > PLACE_TOLERANCE * extent:
+                raise InputError(
+                    f"the point {point!r} of body {name!r} is at ({', '.join(f'{v:.6g}' for v in place)}), "
+                    f"in the network at ({', '.join(f'{v:.6g}' for v in there)})",
+                    path=f"bodies.{name}.points.{point}",
+                    allowed="the same place",
+                    remedy="move the point of the network or the start of the body",
+                )

@@ -1,0 +1,151 @@
+"""The joint of bodies and network: both try the same step until they agree on the reaction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.attachment import PointCarrier, PointNetwork
+from moyai.core.errors import ConvergenceError
+
+Array = NDArray[np.float64]
+
+#: Passes of one step before it is cut in two, and how often a step is cut.
+MOST_PASSES, MOST_CUTS = 12, 10
+#: Differences of passes that the quasi-Newton step looks back on.
+MEMORY = 6
+
+
+class Joint:
+    """Bodies and network held together.
+
+    A step is tried with a reaction continued from the last ones; the network tells what reaction the bodies' path
+    really gives, and so on until both agree within ``tolerance`` of the largest reaction so far. From the third pass
+    on a quasi-Newton step (Anderson 1965) replaces the plain repetition, which converges like stiffness times step
+    squared over mass. What disagreement is left is added to the next step's reaction, so that no impulse is lost
+    [eq:coupled-carry].
+    """
+
+    def __init__(self, carriers: Sequence[PointCarrier], network: PointNetwork, tolerance: float) -> None:
+        self.carriers, self.network, self.tolerance = list(carriers), network, tolerance
+        self.sizes = [len(carrier.points) for carrier in carriers]
+        self.ends = np.cumsum(self.sizes)
+        count = int(sum(self.sizes))
+        self.reaction, self.before, self.carry = np.zeros((2, count, 3)), np.zeros((2, count, 3)), np.zeros((count, 3))
+        self.largest, self.passes, self.steps = 0.0, 0, 0
+        self._length = 0.0
+        self._work, self._lost, self._impulse = 0.0, 0.0, 0.0
+
+    @property
+    def lost_impulse(self) -> float:
+        """Impulse that is owed at the end, over the largest reaction times a step."""
+        return self._impulse / max(self.largest * self._length, 1e-300)
+
+    @property
+    def lost_work(self) -> float:
+        """Work that was given and not taken at the points, over the work exchanged."""
+        return abs(self._lost) / max(self._work, 1e-300)
+
+    def _bodies_try(self, end: float, reaction: Array) -> tuple[Array, Array]:
+        moved = []
+        first = 0
+        for carrier, last in zip(self.carriers, self.ends, strict=True):
+            moved.append(carrier.try_step(end, reaction[:, first:last]))
+            first = int(last)
+        if not moved:
+            return np.zeros((0, 3)), np.zeros((0, 3))
+        return np.concatenate([place for place, _ in moved]), np.concatenate([speed for _, speed in moved])
+
+    def places(self) -> tuple[Array, Array]:
+        """Return place and velocity of all points now."""
+        found = [carrier.place_and_velocity() for carrier in self.carriers]
+        if not found:
+            return np.zeros((0, 3)), np.zeros((0, 3))
+        return np.concatenate([place for place, _ in found]), np.concatenate([speed for _, speed in found])
+
+    def advance(self, end: float, cuts: int = 0) -> None:
+        """Move everything to ``end`` [s].
+
+        Raises
+        ------
+        ConvergenceError
+            When bodies and network do not agree even in the smallest steps.
+        """
+        begin = self.network.time
+        length = end - begin
+        if not self._agree(end, length):
+            if cuts >= MOST_CUTS:
+                raise ConvergenceError(
+                    "bodies and network do not agree on their reaction",
+                    remedy="a shorter step of the bodies, or lighter points where lines meet a body",
+                )
+            middle = begin + 0.5 * length
+            self.advance(middle, cuts + 1)
+            self.advance(end, cuts + 1)
+
+    def _agree(self, end: float, length: float) -> bool:
+        """Try one step; accept it and return whether both sides agree."""
+        guess = self.reaction.copy()
+        if self._length > 0.0:
+            # straight on through the means of the last two steps
+            guess[0] += (self.reaction[0] - self.before[0]) * 0.5 * (1.0 + length / self._length)
+            guess[1] *= length / self._length
+            owed = self.carry * self._length / length
+        else:
+            owed = np.zeros_like(self.carry)
+        start = self.places()
+        inputs: list[Array] = []
+        misses: list[Array] = []
+        settled = False
+        for _ in range(MOST_PASSES):
+            given = guess.copy()
+            given[0] += owed
+            place, speed = self._bodies_try(end, given)
+            answer = self.network.try_step(end, place, speed)
+            self.passes += 1
+            miss = answer - guess
+            size = float(np.max(np.abs(answer[0]), initial=0.0))
+            wanted = self.tolerance * max(self.largest, size)
+            if not np.isfinite(miss).all():
+                return False
+            if float(np.max(np.abs(miss), initial=0.0)) <= wanted or (wanted == 0.0 and size == 0.0):
+                settled = True
+                break
+            inputs.append(guess.ravel().copy())
+            misses.append(miss.ravel().copy())
+            guess = self._better(inputs, misses).reshape(guess.shape)
+        if not settled:
+            return False
+        self._book(start, (place, speed), given, answer, length)
+        self._impulse = float(np.max(np.abs(miss[0]), initial=0.0)) * length
+        for carrier in self.carriers:
+            carrier.accept()
+        self.network.accept()
+        previous, self.reaction = self.reaction, answer
+        self.before = previous if self._length > 0.0 else answer.copy()
+        self.carry = miss[0]
+        self.largest, self._length, self.steps = max(self.largest, size), length, self.steps + 1
+        return True
+
+    @staticmethod
+    def _better(inputs: list[Array], misses: list[Array]) -> Array:
+        """Return the next guess: repetition first, then the step that would cancel the misses if they were linear."""
+        if len(inputs) < 2:
+            return inputs[-1] + misses[-1]
+        first = max(0, len(inputs) - MEMORY - 1)
+        moved = np.stack([b - a for a, b in zip(inputs[first:-1], inputs[first + 1 :], strict=True)], axis=1)
+        change = np.stack([b - a for a, b in zip(misses[first:-1], misses[first + 1 :], strict=True)], axis=1)
+        weight, *_ = np.linalg.lstsq(change, misses[-1], rcond=1e-10)
+        return inputs[-1] + misses[-1] - (moved + change) @ weight
+
+    def _book(
+        self, start: tuple[Array, Array], end: tuple[Array, Array], given: Array, answer: Array, length: float
+    ) -> None:
+        """Add up the work of both reactions along the cubic of the points, and the impulse that is owed."""
+        moved, turned = end[0] - start[0], length / 6.0 * (end[1] - start[1])
+        taken = np.sum(given[0] * moved + given[1] * turned)
+        offered = np.sum(answer[0] * moved + answer[1] * turned)
+        self._lost += float(offered - taken)
+        self._work += 0.5 * float(np.sum(np.abs(answer[0] * moved)))

@@ -1,0 +1,222 @@
+"""A planar floating body (sway, heave, roll with the memory of the water) that carries points of a network.
+
+The step is that of :mod:`moyai.floating.time`, to the letter: the lines come from outside instead of from a table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.flexible.flow import Flow
+from moyai.floating import kernel
+from moyai.floating.forcing import Forcing
+from moyai.floating.memory import StateSpaceMemory
+from moyai.floating.time import CumminsModel, exponential_weights
+from moyai.sea.water import Water
+
+Array = NDArray[np.float64]
+
+#: Places of the force's table in its shortest period; a cubic between them keeps 1e-7.
+SAMPLES_PER_PERIOD = 160
+
+
+@dataclass(frozen=True, eq=False)
+class PlanarBody:
+    """A floating body in the modes sway, heave, roll of [eq:floating-cummins] that carries points of a network.
+
+    Parameters
+    ----------
+    name : str
+    model : CumminsModel
+        Without nonlinear lines of its own; its memory as states.
+    forcing : Forcing
+        Waves, drift, steady loads.
+    duration : float
+        How long the forcing is needed [s].
+    points : mapping of str to array_like (3,)
+        Carried points from the centre of gravity at rest: x, y, z [m].
+    copies : mapping of str to int
+        How many identical lines one point stands for (1 when left out).
+    centre_at_rest : array_like (3,)
+        Centre of gravity at rest in site axes [m].
+    reaction_at_rest : array_like (3,)
+        Pull of the network at rest that weight and buoyancy balance (F_x, F_z, M_y), copies included [N, N, N m]
+        [eq:coupled-rest].
+    initial_position, initial_velocity : array_like (3,)
+        Motion at the start, relative to rest.
+
+    Raises
+    ------
+    InputError
+        For a model with lines of its own or with a memory that is not in states.
+    """
+
+    name: str
+    model: CumminsModel
+    forcing: Forcing
+    duration: float
+    points: Mapping[str, ArrayLike]
+    copies: Mapping[str, int] = field(default_factory=dict)
+    centre_at_rest: ArrayLike = (0.0, 0.0, 0.0)
+    reaction_at_rest: ArrayLike = (0.0, 0.0, 0.0)
+    initial_position: ArrayLike = (0.0, 0.0, 0.0)
+    initial_velocity: ArrayLike = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if self.model.mooring is not None:
+            raise InputError(
+                f"body {self.name!r} has quasi-static lines beside those of the network", path=f"bodies.{self.name}"
+            )
+        if len(self.model.modes) != 3:
+            raise InputError(
+                f"body {self.name!r} has {len(self.model.modes)} modes", path=f"bodies.{self.name}", allowed="three"
+            )
+        if not isinstance(self.model.memory, StateSpaceMemory):
+            raise InputError(
+                "lines in motion need the memory of the water as states, not as a convolution",
+                path="analyses.time.memory",
+                allowed="state_space",
+                remedy="give memory: state_space, or leave the lines quasi-static",
+            )
+
+    @property
+    def points_at_start(self) -> dict[str, Array]:
+        """Where the carried points stand at the start, in site axes [m]."""
+        place, _ = _places(
+            np.asarray(self.initial_position, dtype=float),
+            np.zeros(3),
+            np.array([np.asarray(place, dtype=float) for place in self.points.values()]).reshape(-1, 3),
+            np.asarray(self.centre_at_rest, dtype=float),
+        )
+        return dict(zip(self.points, place, strict=True))
+
+    def carrier(self, water: Water, flow: Flow | None = None, time: float = 0.0) -> PlanarCarrier:
+        """Return the body in motion; water and flow are in its model already."""
+        return PlanarCarrier(self, time)
+
+
+def _places(q: Array, v: Array, arms: Array, centre: Array) -> tuple[Array, Array]:
+    """Return place and velocity of points at a planar motion."""
+    c, s = np.cos(q[2]), np.sin(q[2])
+    x, z = c * arms[:, 0] + s * arms[:, 2], -s * arms[:, 0] + c * arms[:, 2]
+    place = centre + np.stack([q[0] + x, arms[:, 1], q[1] + z], axis=1)
+    return place, np.stack([v[0] + v[2] * z, np.zeros(len(arms)), v[1] - v[2] * x], axis=1)
+
+
+class PlanarCarrier:
+    """A planar body in motion; follows :class:`moyai.core.attachment.PointCarrier`."""
+
+    def __init__(self, body: PlanarBody, time: float = 0.0) -> None:
+        from scipy.interpolate import CubicSpline
+
+        self.body, self.time, self.points = body, time, tuple(body.points)
+        self.arms = np.array([np.asarray(place, dtype=float) for place in body.points.values()]).reshape(-1, 3)
+        self.copies = np.array([float(body.copies.get(name, 1)) for name in self.points])
+        self.rest = np.asarray(body.centre_at_rest, dtype=float)
+        self.q = np.array(body.initial_position, dtype=float)
+        self.v = np.array(body.initial_velocity, dtype=float)
+        memory = body.model.memory
+        assert isinstance(memory, StateSpaceMemory)
+        self._memory, self.z = memory, np.zeros(len(memory.poles), np.complex128)
+        shortest = body.forcing.shortest_period
+        grid = body.duration / 64.0
+        if np.isfinite(shortest):
+            grid = min(grid, shortest / SAMPLES_PER_PERIOD)
+        grid = body.forcing.fitted_step(grid)
+        count = int(np.ceil(body.duration / grid)) + 3
+        force, elevation = body.forcing.sample(grid, count)
+        at = grid * np.arange(count)
+        self._force, self._surface = CubicSpline(at, force), CubicSpline(at, elevation)
+        model = body.model
+        self._packed = (
+            np.ascontiguousarray(np.linalg.inv(model.inertia)),
+            np.ascontiguousarray(np.asarray(model.linear_damping, dtype=float) + memory.dashpot),
+            np.ascontiguousarray(model.stiffness, dtype=float),
+            np.zeros((0, 3)) if model.quadratic is None else np.ascontiguousarray(model.quadratic.directions),
+            np.zeros(0) if model.quadratic is None else np.ascontiguousarray(model.quadratic.coefficients),
+        )
+        none = (
+            np.zeros((0, 16)), np.zeros((0, 8), dtype=np.int64), np.zeros(1), np.zeros(1, dtype=np.int64), np.zeros(3),
+            np.zeros(0),
+        )  # fmt: skip
+        self._lines = none
+        self._saved = (np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 0)))
+        self._weights: dict[float, tuple[NDArray[np.complex128], ...]] = {}
+        self._tried = (self.q.copy(), self.v.copy(), self.z.copy(), time)
+        self._guess: tuple[float, Array, Array] | None = None
+        self._rate = np.zeros(3)
+
+    @property
+    def centre(self) -> Array:
+        """Centre of gravity in site axes [m]."""
+        return np.asarray(self.rest + np.array([self.q[0], 0.0, self.q[1]]))
+
+    @property
+    def position(self) -> Array:
+        """The same: the origin of the body is its centre of gravity."""
+        return self.centre
+
+    @property
+    def rotation(self) -> Array:
+        """Rotation matrix, body to site."""
+        c, s = np.cos(self.q[2]), np.sin(self.q[2])
+        return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity and spin in site axes [m/s, rad/s]."""
+        return np.array([self.v[0], 0.0, self.v[1], 0.0, self.v[2], 0.0])
+
+    @property
+    def kinetic_energy(self) -> float:
+        """With added mass at infinite frequency [J]."""
+        return float(0.5 * self.v @ self.body.model.inertia @ self.v)
+
+    def elevation(self, time: Array) -> Array:
+        """Return the incident surface at the body [m]."""
+        return np.asarray(self._surface(time))
+
+    def place_and_velocity(self) -> tuple[Array, Array]:
+        """Return place [m] and velocity [m/s] of the carried points, (points, 3), in site axes."""
+        return _places(self.q, self.v, self.arms, self.rest)
+
+    def modal(self, angle: float, pulls: Array) -> Array:
+        """Return the force of pulls on the points in the three modes, at an angle of roll [rad]."""
+        c, s = np.cos(angle), np.sin(angle)
+        x, z = c * self.arms[:, 0] + s * self.arms[:, 2], -s * self.arms[:, 0] + c * self.arms[:, 2]
+        fx, fz = self.copies * pulls[:, 0], self.copies * pulls[:, 2]
+        return np.array([fx.sum(), fz.sum(), float(np.sum(z * fx - x * fz))])
+
+    def try_step(self, end: float, reaction: Array) -> tuple[Array, Array]:
+        """Move to ``end`` [s] under mean and tilt of the forces on the points; return place and velocity there."""
+        h = end - self.time
+        q, v, z = self.q.copy(), self.v.copy(), self.z.copy()
+        last_q, last_v = self.q + h * self.v + 0.5 * h * h * self._rate, self.v + h * self._rate
+        if self._guess is not None and self._guess[0] == end:
+            last_q, last_v = self._guess[1], self._guess[2]
+        angles = (q[2], 0.5 * (q[2] + last_q[2]) + 0.125 * h * (v[2] - last_v[2]), last_q[2])
+        force = np.array(self._force(np.array([self.time, self.time + 0.5 * h, end])))
+        for row, angle in enumerate(angles):
+            force[row] += self.modal(angle, reaction[0] + (row - 1.0) * reaction[1])
+        key = round(h, 14)
+        if key not in self._weights:
+            self._weights[key] = exponential_weights(self._memory.poles, h)
+        kernel.run_state_space(
+            q, v, z, 0, 1, h, force, self._packed, self._lines, np.asarray(self.body.reaction_at_rest, dtype=float),
+            self._weights[key], np.ascontiguousarray(self._memory.inputs), np.ascontiguousarray(self._memory.outputs),
+            np.full(3, 1e30), 1 << 40, self._saved,
+        )  # fmt: skip
+        self._tried, self._guess = (q, v, z, end), (end, q.copy(), v.copy())
+        return _places(q, v, self.arms, self.rest)
+
+    def accept(self) -> None:
+        """Keep the last tried step."""
+        h = self._tried[3] - self.time
+        if h > 0.0:
+            self._rate = (self._tried[1] - self.v) / h
+        self.q, self.v, self.z, self.time = self._tried

@@ -1,0 +1,435 @@
+"""A rigid body in six degrees of freedom: what it is made of, how it moves under waves and the pull of a network."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.coupled import rigid_kernel as kernel
+from moyai.coupled.hulls import Lumps, no_lumps
+from moyai.coupled.wave_loads import WaveLoads
+from moyai.flexible.flow import Flow
+from moyai.floating.time import exponential_weights
+from moyai.mooring.rotations import rotation_from_vector, rotation_matrix
+from moyai.sea.water import Water
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+def _vector(value: ArrayLike, size: int, path: str) -> Array:
+    given = np.array(value, dtype=np.float64)
+    if given.shape != (size,) or not np.isfinite(given).all():
+        raise InputError(f"{path} is {value!r}", path=path, allowed=f"{size} finite numbers")
+    given.setflags(write=False)
+    return given
+
+
+def _matrix(value: ArrayLike | None, size: int, path: str, *, positive: bool) -> Array:
+    given = np.zeros((size, size)) if value is None else np.array(value, dtype=np.float64)
+    if given.shape == (size,):
+        given = np.diag(given)
+    if given.shape != (size, size) or not np.isfinite(given).all():
+        raise InputError(f"{path} has shape {given.shape} or is not finite", path=path, allowed=f"({size}, {size})")
+    if positive:
+        scale = float(np.abs(given).max(initial=0.0))
+        if float(np.abs(given - given.T).max(initial=0.0)) > 1e-6 * scale:
+            raise InputError(f"{path} is not symmetric", path=path, allowed="a symmetric matrix")
+        if float(np.linalg.eigvalsh(0.5 * (given + given.T))[0]) < -1e-9 * scale:
+            raise InputError(f"{path} has a negative eigenvalue", path=path, allowed="0 or more in every direction")
+    given.setflags(write=False)
+    return given
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBody:
+    """A rigid body that hangs in a network or floats by itself [eq:coupled-newton-euler].
+
+    Body axes are fixed in the body; their origin is any point of it. Rotations are finite and exact.
+
+    Parameters
+    ----------
+    name : str
+        For messages and results.
+    mass : float
+        [kg].
+    inertia : array_like, shape (3, 3) or (3,)
+        About the centre of gravity in body axes [kg m2]; three numbers stand for a diagonal.
+    centre_of_gravity : array_like (3,)
+        In body axes [m].
+    position : array_like (3,)
+        Of the origin of the body axes at the start, in site axes [m].
+    rotation : array_like (3,)
+        Roll, pitch, yaw at the start [rad]: R = Rz(yaw) Ry(pitch) Rx(roll).
+    points : mapping of str to array_like (3,)
+        Points of the network that the body carries, in body axes [m].
+    lumps : Lumps, optional
+        What the water meets: buoyancy, drag, inertia part by part (see :mod:`moyai.coupled.hulls`).
+    added_mass : array_like, shape (6, 6) or (6,), optional
+        About the origin in body axes [kg, kg m, kg m2]; answers to the motion relative to the water at the centre of
+        gravity, with its turning [eq:coupled-added-mass].
+    linear_damping : array_like, shape (6, 6) or (6,), optional
+        About the centre of gravity in body axes, on the velocity through the site [N s/m ... N m s].
+    quadratic_damping : array_like (6,), optional
+        About the centre of gravity, axis by axis: force b u|u| of the velocity relative to the water [N s2/m2, N m s2].
+    stiffness : array_like, shape (6, 6) or (6,), optional
+        Linear restoring about the centre of gravity at the start pose, in axes that turn with the yaw
+        [eq:coupled-restoring] (springs of a test rig); that of the water comes with ``loads`` or ``lumps``.
+    loads : WaveLoads, optional
+        Coefficients of a three-dimensional program: excitation, radiation with memory, linear hydrostatics.
+    force : array_like (6,)
+        Constant force and moment about the centre of gravity in site axes [N, N m].
+    free : six bools
+        Translations along site axes and rotations about body axes that may change.
+
+    Raises
+    ------
+    InputError
+        For values out of range, each with its name.
+    """
+
+    name: str
+    mass: float
+    inertia: Array
+    centre_of_gravity: Array = field(default_factory=lambda: np.zeros(3))
+    position: Array = field(default_factory=lambda: np.zeros(3))
+    rotation: Array = field(default_factory=lambda: np.zeros(3))
+    points: Mapping[str, ArrayLike] = field(default_factory=dict)
+    lumps: Lumps | None = None
+    added_mass: Array | None = None
+    linear_damping: Array | None = None
+    quadratic_damping: Array = field(default_factory=lambda: np.zeros(6))
+    stiffness: Array | None = None
+    loads: WaveLoads | None = None
+    force: Array = field(default_factory=lambda: np.zeros(6))
+    free: tuple[bool, ...] = (True,) * 6
+
+    def __post_init__(self) -> None:
+        path = f"bodies.{self.name}"
+        if not (math.isfinite(self.mass) and self.mass > 0.0):
+            raise InputError(
+                f"mass of body {self.name!r} is {self.mass:g} kg", path=f"{path}.mass", allowed="greater than 0"
+            )
+        for name, size in (("centre_of_gravity", 3), ("position", 3), ("rotation", 3), ("force", 6)):
+            object.__setattr__(self, name, _vector(getattr(self, name), size, f"{path}.{name}"))
+        quadratic = _vector(self.quadratic_damping, 6, f"{path}.quadratic_damping")
+        if np.any(quadratic < 0.0):
+            raise InputError(
+                f"quadratic damping of body {self.name!r} is {quadratic.min():g}",
+                path=f"{path}.quadratic_damping",
+                allowed="0 or more",
+            )
+        object.__setattr__(self, "quadratic_damping", quadratic)
+        inertia = _matrix(self.inertia, 3, f"{path}.inertia", positive=True)
+        moments = np.linalg.eigvalsh(inertia)
+        if not moments[0] > 0.0 or moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9):
+            raise InputError(
+                f"principal moments of inertia of body {self.name!r} are "
+                f"{', '.join(f'{m:.4g}' for m in moments)} kg m2",
+                path=f"{path}.inertia",
+                allowed="positive, none above the sum of the other two",
+            )
+        object.__setattr__(self, "inertia", inertia)
+        for name in ("added_mass", "stiffness"):
+            object.__setattr__(self, name, _matrix(getattr(self, name), 6, f"{path}.{name}", positive=True))
+        object.__setattr__(
+            self, "linear_damping", _matrix(self.linear_damping, 6, f"{path}.linear_damping", positive=False)
+        )
+        places = {name: _vector(place, 3, f"{path}.points.{name}") for name, place in self.points.items()}
+        object.__setattr__(self, "points", places)
+        if len(self.free) != 6:
+            raise InputError(f"{len(self.free)} degrees of freedom", path=f"{path}.free", allowed="six")
+        if self.loads is not None and self.lumps is not None and np.any(self.lumps.volume * self.lumps.length > 0.0):
+            raise InputError(
+                f"body {self.name!r} has both hydrodynamic coefficients and a hull: its buoyancy would count twice",
+                path=f"{path}.lumps",
+                remedy="leave one of them out; lumps without volume may carry drag",
+            )
+
+    @property
+    def start_rotation(self) -> Array:
+        """Rotation matrix at the start, body to site."""
+        return rotation_matrix(self.rotation)
+
+    @property
+    def points_at_start(self) -> dict[str, Array]:
+        """Where the carried points stand at the start, in site axes [m]."""
+        turn = self.start_rotation
+        return {name: self.position + turn @ np.asarray(place) for name, place in self.points.items()}
+
+    def carrier(self, water: Water, flow: Flow | None = None, time: float = 0.0) -> RigidCarrier:
+        """Return the body in motion from its start at rest."""
+        return RigidCarrier(self, water, flow or Flow(), time)
+
+
+def site_points(body: RigidBody) -> dict[str, Array]:
+    """Return where the carried points of a body stand at the start, in site axes [m]."""
+    return body.points_at_start
+
+
+def about(matrix: ArrayLike, offset: ArrayLike) -> Array:
+    """Return a 6x6 matrix about a point that lies ``offset`` from the old one."""
+    x, y, z = np.asarray(offset, dtype=float)
+    # the old point moves with v - offset x w
+    motion = np.eye(6)
+    motion[:3, 3:] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
+    return np.asarray(motion.T @ np.asarray(matrix, dtype=float) @ motion)
+
+
+def quaternion_of(rotation: ArrayLike) -> Array:
+    """Return the unit quaternion (scalar first) of a rotation matrix."""
+    r = np.asarray(rotation, dtype=float)
+    squares = np.array(
+        [
+            1.0 + r[0, 0] + r[1, 1] + r[2, 2],
+            1.0 + r[0, 0] - r[1, 1] - r[2, 2],
+            1.0 - r[0, 0] + r[1, 1] - r[2, 2],
+            1.0 - r[0, 0] - r[1, 1] + r[2, 2],
+        ]
+    )
+    largest = int(np.argmax(squares))
+    s = 2.0 * math.sqrt(squares[largest])
+    rows = (
+        (0.25 * s, (r[2, 1] - r[1, 2]) / s, (r[0, 2] - r[2, 0]) / s, (r[1, 0] - r[0, 1]) / s),
+        ((r[2, 1] - r[1, 2]) / s, 0.25 * s, (r[0, 1] + r[1, 0]) / s, (r[0, 2] + r[2, 0]) / s),
+        ((r[0, 2] - r[2, 0]) / s, (r[0, 1] + r[1, 0]) / s, 0.25 * s, (r[1, 2] + r[2, 1]) / s),
+        ((r[1, 0] - r[0, 1]) / s, (r[0, 2] + r[2, 0]) / s, (r[1, 2] + r[2, 1]) / s, 0.25 * s),
+    )
+    return np.array(rows[largest])
+
+
+class RigidCarrier:
+    """A rigid body in motion; follows :class:`moyai.core.attachment.PointCarrier`.
+
+    Parameters
+    ----------
+    body : RigidBody
+    water : Water
+    flow : Flow
+        Current and waves around it.
+    time : float
+        Start [s].
+    """
+
+    def __init__(self, body: RigidBody, water: Water, flow: Flow, time: float = 0.0) -> None:
+        self.body, self.water, self.flow, self.time = body, water, flow, time
+        self.points, self.copies = tuple(body.points), np.ones(len(body.points))
+        centre = np.asarray(body.centre_of_gravity)
+        self.arms = np.array([np.asarray(body.points[name]) - centre for name in self.points]).reshape(-1, 3)
+        self.lumps = (body.lumps or no_lumps()).arrays(centre)
+        self.state, self.states_of_memory = np.zeros(13), np.zeros(0, np.complex128)
+        self.place_body(np.asarray(body.position), body.start_rotation)
+        loads = body.loads
+        rigid = np.zeros((6, 6))
+        rigid[:3, :3], rigid[3:, 3:] = body.mass * np.eye(3), body.inertia
+        radiated, inputs, outputs = np.zeros((6, 6)), np.zeros((0, 6), np.complex128), np.zeros((6, 0), np.complex128)
+        self.poles = np.zeros(0, np.complex128)
+        rest = np.array([*self.state[:3], float(body.rotation[2])])
+        stiffness, linear = np.array(body.stiffness), np.array(body.linear_damping)
+        constant = np.array(body.force)
+        constant[2] -= body.mass * water.gravity
+        self.excitation = None
+        if loads is not None:
+            found = loads.about(centre, np.asarray(body.position))
+            radiated, self.poles = found.infinite_frequency_added_mass, found.memory.poles
+            inputs, outputs = found.memory.inputs, found.memory.outputs
+            linear = linear + found.memory.dashpot
+            stiffness = stiffness + found.stiffness
+            constant[2] += water.density * water.gravity * found.displaced_volume
+            rest = np.array([*(found.rest + rotation_matrix((0.0, 0.0, found.rest_yaw)) @ centre), found.rest_yaw])
+            self.excitation = found.excitation(flow.waves)
+            self.states_of_memory = np.zeros(self.poles.size, np.complex128)
+        self._body = (
+            rigid, about(np.asarray(body.added_mass), centre), np.ascontiguousarray(radiated), linear,
+            np.array(body.quadratic_damping), stiffness, rest, constant, np.array(body.free, dtype=np.float64),
+        )  # fmt: skip
+        self._memory = (np.ascontiguousarray(inputs), np.ascontiguousarray(outputs))
+        self._fluid = np.array([water.density, water.gravity])
+        self._weights: dict[float, tuple[ComplexArray, ...]] = {}
+        self._tried = (self.state.copy(), self.states_of_memory.copy(), time)
+        self._guess: tuple[float, Array] | None = None
+        self.spent = np.zeros(6)
+
+    # -- state ---------------------------------------------------------------------------------------------------------
+
+    def place_body(self, position: ArrayLike, rotation: ArrayLike, velocity: ArrayLike = (0.0,) * 6) -> None:
+        """Put the origin at ``position`` [m] with a rotation matrix; ``velocity`` of the centre of gravity and spin in
+        site axes [m/s, rad/s]."""
+        turn, speed = np.asarray(rotation, dtype=float), np.asarray(velocity, dtype=float)
+        self.state[:3] = np.asarray(position, dtype=float) + turn @ np.asarray(self.body.centre_of_gravity)
+        self.state[3:7] = quaternion_of(turn)
+        self.state[7:10], self.state[10:13] = speed[:3], turn.T @ speed[3:]
+        self._guess = None
+
+    @property
+    def rotation(self) -> Array:
+        """Rotation matrix, body to site."""
+        out = np.empty((3, 3))
+        kernel.rotation_of(self.state[3:7], out)
+        return out
+
+    @property
+    def position(self) -> Array:
+        """Place of the origin of the body axes [m]."""
+        return self.state[:3] - self.rotation @ np.asarray(self.body.centre_of_gravity)
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity of the centre of gravity and spin, site axes [m/s, rad/s]."""
+        return np.concatenate([self.state[7:10], self.rotation @ self.state[10:13]])
+
+    @property
+    def centre(self) -> Array:
+        """Centre of gravity in site axes [m]."""
+        return self.state[:3]
+
+    @property
+    def inertia(self) -> Array:
+        """Mass and added mass (6, 6) about the centre of gravity, in site axes now; held components are heavy."""
+        turn = np.zeros((6, 6))
+        turn[:3, :3] = turn[3:, 3:] = self.rotation
+        whole = self._body[0] + self._body[1] + self._body[2]
+        held = np.where(self._body[8] > 0.0, 0.0, 1e9 * np.abs(np.diag(whole)))
+        out = turn @ whole @ turn.T
+        out[:3, :3] += np.diag(held[:3])
+        out[3:, 3:] += self.rotation @ np.diag(held[3:]) @ self.rotation.T
+        return np.asarray(out)
+
+    @property
+    def restoring(self) -> Array:
+        """Restoring of water and springs (6, 6), for the choice of the step; that of a hull by differences."""
+        out, calm = np.zeros((6, 6)), Flow()
+        scale = 1e-4 * max(float(np.max(np.abs(self.lumps[0]), initial=0.0)), 1e-2)
+        kept = self.state.copy()
+        for axis in range(6):
+            step = scale if axis < 3 else 1e-4
+            ends = []
+            for sign in (1.0, -1.0):
+                self.displace(axis, sign * step)
+                ends.append(self.imbalance(np.zeros_like(self.arms), self.time, calm))
+                self.state[:] = kept
+            out[:, axis] = -(ends[0] - ends[1]) / (2.0 * step)
+        return out
+
+    def displace(self, axis: int, amount: float) -> None:
+        """Move the body along a site axis [m] or turn it about one through its centre of gravity [rad]."""
+        if axis < 3:
+            self.state[axis] += amount
+        else:
+            turn = rotation_from_vector(amount * np.eye(3)[axis - 3])
+            self.state[3:7] = quaternion_of(turn @ self.rotation)
+
+    @property
+    def kinetic_energy(self) -> float:
+        """Of the body with its added mass, without that of lumps [J]."""
+        nu = np.empty(6)
+        kernel.body_velocity(self.state, nu)
+        return float(0.5 * nu @ (self._body[0] + self._body[1] + self._body[2]) @ nu)
+
+    def place_and_velocity(self) -> tuple[Array, Array]:
+        """Return place [m] and velocity [m/s] of the carried points, (points, 3), in site axes."""
+        return self._points_of(self.state)
+
+    def _points_of(self, state: Array) -> tuple[Array, Array]:
+        place, velocity = np.empty_like(self.arms), np.empty_like(self.arms)
+        kernel.points_of(state, self.arms, place, velocity)
+        return place, velocity
+
+    # -- loads of the water --------------------------------------------------------------------------------------------
+
+    def _water_at(self, time: float, state: Array) -> Array:
+        """Return the water at all lumps and at the centre of gravity (7, lumps + 1)."""
+        arms = np.concatenate([self.lumps[0], np.zeros((1, 3))])
+        place, _ = np.empty_like(arms), np.empty_like(arms)
+        kernel.points_of(state, arms, place, _)
+        return self.flow.at(time, np.ascontiguousarray(place.T))
+
+    def _external(self, time: float, state: Array) -> Array:
+        """Return the exciting force in site axes about the centre of gravity (6,)."""
+        if self.excitation is None:
+            return np.zeros(6)
+        turn = np.empty((3, 3))
+        kernel.rotation_of(state[3:7], turn)
+        return self.excitation.force(time, state[:3], math.atan2(turn[1, 0], turn[0, 0]), self.flow.growth(time)[0])
+
+    def surroundings(self, time: float, state: Array) -> tuple[Array, Array]:
+        """Return water and exciting force at one instant."""
+        return self._water_at(time, state), self._external(time, state)
+
+    def _forecast(self, end: float) -> tuple[Array, Array]:
+        """Return where the body is expected in the middle and at the end of the step."""
+        start, h = self.state, end - self.time
+        if self._guess is not None and self._guess[0] == end:
+            last = self._guess[1]
+            middle = 0.5 * (start + last)
+            middle[:3] += 0.125 * h * (start[7:10] - last[7:10])
+            return middle, last
+        middle, last = start.copy(), start.copy()
+        for out, time in ((middle, 0.5 * h), (last, h)):
+            kernel._advance(start, start, self.spent, time, out)
+            out[:3] += 0.5 * time**2 * self.spent[:3]
+        return middle, last
+
+    def try_step(self, end: float, reaction: Array) -> tuple[Array, Array]:
+        """Move to ``end`` [s] under mean and tilt of the forces on the points; return place and velocity there."""
+        h = end - self.time
+        middle, last = self._forecast(end)
+        water = np.stack(
+            [
+                self._water_at(time, at)
+                for time, at in ((self.time, self.state), (self.time + 0.5 * h, middle), (end, last))
+            ]
+        )
+        external = np.stack(
+            [
+                self._external(time, at)
+                for time, at in ((self.time, self.state), (self.time + 0.5 * h, middle), (end, last))
+            ]
+        )
+        key = round(h, 14)
+        if key not in self._weights:
+            self._weights[key] = exponential_weights(self.poles, h)
+        new, states = np.empty(13), np.empty_like(self.states_of_memory)
+        kernel.step(
+            self.state, self.states_of_memory, h, self._body, self.lumps, water, self._fluid, external, self.arms,
+            np.ascontiguousarray(reaction, dtype=np.float64).reshape(2, -1, 3), self._weights[key], *self._memory,
+            new, states,
+        )  # fmt: skip
+        self._tried, self._guess = (new, states, end), (end, new.copy())
+        return self._points_of(new)
+
+    def accept(self) -> None:
+        """Keep the last tried step."""
+        h = self._tried[2] - self.time
+        if h > 0.0:
+            self.spent[:3] = (self._tried[0][7:10] - self.state[7:10]) / h
+            self.spent[3:] = (self._tried[0][10:13] - self.state[10:13]) / h
+        self.state, self.states_of_memory, self.time = self._tried
+
+    def imbalance(self, pulls: Array, time: float, calm: Flow) -> Array:
+        """Return force and moment about the centre of gravity left at rest under forces on the points (6,), site axes.
+
+        Held components are zero.
+        """
+        state = self.state.copy()
+        state[7:] = 0.0
+        arms = np.concatenate([self.lumps[0], np.zeros((1, 3))])
+        place, _ = np.empty_like(arms), np.empty_like(arms)
+        kernel.points_of(state, arms, place, _)
+        water = calm.at(time, np.ascontiguousarray(place.T))
+        water[3:7] = 0.0
+        huge = 1e12
+        heavy = (huge * np.eye(6), np.zeros((6, 6)), np.zeros((6, 6)), *self._body[3:])
+        result = np.empty(6)
+        lumps = (*self.lumps[:5], np.zeros_like(self.lumps[5]))
+        kernel.acceleration(
+            state, heavy, lumps, water, self._fluid, np.zeros(6), np.zeros(6), self.arms,
+            np.ascontiguousarray(pulls), result,
+        )  # fmt: skip
+        result[3:] = self.rotation @ result[3:]
+        return huge * result

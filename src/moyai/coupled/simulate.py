@@ -1,0 +1,242 @@
+"""Bodies and a network through time: every step of the bodies is many steps of the network, until both agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.attachment import PointCarrier
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.coupled.bodies import Body, BodyHistory, BodyLog, check_points
+from moyai.coupled.joint import Joint
+from moyai.coupled.pace import choose_body_step
+from moyai.flexible.explicit import LOAD_STEPS
+from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import Network
+from moyai.flexible.result import State
+from moyai.flexible.simulate import ENERGY_STOP, ENERGY_TOLERANCE
+from moyai.flexible.stepping import SteppedNetwork, StepRecord
+
+Array = NDArray[np.float64]
+Status = Literal["converged", "not_converged", "interrupted"]
+
+#: Disagreement of the reaction that is left to the next step, over the largest reaction so far.
+TOLERANCE = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledHistory:
+    """Bodies and their network through time; rows are the same for both.
+
+    Parameters
+    ----------
+    time : ndarray (k,)
+        [s].
+    bodies : mapping of str to BodyHistory
+    network : StepRecord
+        Positions, tensions and peaks.
+    body_step, network_step : float
+        Largest step of the bodies and smallest of the network [s].
+    passes : float
+        Runs of the network per step of the bodies, on average.
+    final : State
+        Of the network at the end.
+    status, message : str
+    checks, notices : tuple
+    """
+
+    time: Array
+    bodies: Mapping[str, BodyHistory]
+    network: StepRecord
+    body_step: float
+    network_step: float
+    passes: float
+    final: State
+    status: Status
+    message: str
+    checks: tuple[IdentityCheck, ...] = ()
+    notices: tuple[Notice, ...] = ()
+
+
+def simulate_coupled(
+    network: Network,
+    bodies: Mapping[str, Body],
+    *,
+    duration: float,
+    output_step: float,
+    flow: Flow | None = None,
+    motions: Mapping[str, Motion] | None = None,
+    start: State | None = None,
+    body_step: float | None = None,
+    step: float | None = None,
+    safety: float | None = None,
+    load_steps: int = LOAD_STEPS,
+    tolerance: float = TOLERANCE,
+    keep_nodes: ArrayLike | None = None,
+    keep_bars: ArrayLike | None = None,
+    carriers: Mapping[str, PointCarrier] | None = None,
+    progress: Progress = silent,
+) -> CoupledHistory:
+    """Run bodies on a network.
+
+    Parameters
+    ----------
+    network : Network
+        Its points that bodies carry are driven points of the same names, at the places that the bodies give them.
+    bodies : mapping of str to RigidBody or PlanarBody
+    duration, output_step : float
+        Length of the run and spacing of its rows [s]; peaks of tension are taken at every small step all the same.
+    flow : Flow, optional
+        Current and waves, around the network and around the bodies; still water when left out.
+    motions : mapping of str to Motion, optional
+        Of driven points that no body carries.
+    start : State, optional
+        Of the network, for instance from :func:`moyai.coupled.rest.find_rest`; as built when left out.
+    body_step : float, optional
+        Longest step of the bodies [s]; chosen from waves, restoring and lines when left out.
+    step, safety, load_steps
+        Of the network, as in :func:`moyai.flexible.simulate.simulate`.
+    tolerance : float
+        Disagreement of the reaction at which a step is accepted, over the largest reaction so far. What is left is
+        handed on to the next step, so that no impulse is lost [eq:coupled-carry].
+    keep_nodes, keep_bars : array_like of int, optional
+        What the record of the network holds.
+    carriers : mapping of str to PointCarrier, optional
+        Bodies that move already (a run that goes on, a velocity at the start), in place of fresh ones.
+    progress : Progress
+
+    Returns
+    -------
+    CoupledHistory
+        With status ``not_converged`` and all rows up to there when the run had to stop.
+
+    Raises
+    ------
+    InputError
+        For points that do not fit, motions that are missing, and numbers out of range.
+    """
+    for name, value in (("duration", duration), ("output_step", output_step)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"{name.replace('_', ' ')} is {value:g} s", path=name, allowed="greater than 0")
+    if body_step is not None and not body_step > 0.0:
+        raise InputError(f"step of the bodies is {body_step:g} s", path="body_step", allowed="greater than 0")
+    if not 0.0 < tolerance < 1.0:
+        raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
+    flow, start = flow or Flow(), start or State.at_rest(network)
+    check_points(network, bodies, carriers or {}, start)
+    moving = {
+        name: (carriers or {}).get(name) or body.carrier(network.water, flow, start.time)
+        for name, body in bodies.items()
+    }
+    rows = max(1, round(duration / output_step))
+    interval = duration / rows
+    notices: list[Notice] = []
+    if body_step is None:
+        body_step, notice = choose_body_step(network, bodies, moving, flow)
+        notices.append(notice)
+    per_row = max(1, math.ceil(interval / body_step * (1.0 - 1e-9)))
+    names = [point for carrier in moving.values() for point in carrier.points]
+    velocity = np.concatenate([carrier.place_and_velocity()[1] for carrier in moving.values()]).reshape(-1, 3)
+    stepped = SteppedNetwork(
+        network, names, motions=motions, flow=flow, start=start, velocity=velocity, step=step, safety=safety,
+        load_steps=load_steps, keep_nodes=keep_nodes, keep_bars=keep_bars,
+    )  # fmt: skip
+    joint = Joint(list(moving.values()), stepped, tolerance)
+    logs = {name: BodyLog(bodies[name], moving[name]) for name in bodies}
+    status, message = _drive(joint, stepped, logs, start.time, interval, rows, per_row, network, progress)
+    return _history(joint, stepped, logs, interval / per_row, status, message, tuple(notices), network)
+
+
+def _drive(
+    joint: Joint,
+    stepped: SteppedNetwork,
+    logs: Mapping[str, BodyLog],
+    begin: float,
+    interval: float,
+    rows: int,
+    per_row: int,
+    network: Network,
+    progress: Progress,
+) -> tuple[Status, str]:
+    """Take all steps; return how it ended."""
+    start = stepped.energy
+    throughput = 1e-12 * float(np.sum(network.bars.of_type("axial_stiffness") * network.bars.length)) + 1e-12
+    row = 0
+    try:
+        for log in logs.values():
+            log.keep(joint)
+        for row in range(1, rows + 1):
+            for part in range(1, per_row + 1):
+                joint.advance(begin + (row - 1) * interval + part * interval / per_row)
+            stepped.keep_row()
+            for log in logs.values():
+                log.keep(joint)
+            energy = stepped.energy
+            throughput = max(throughput, energy[0] + energy[1], abs(energy[2]))
+            gain = (energy[0] + energy[1]) - (start[0] + start[1]) - (energy[2] - start[2])
+            if not gain <= ENERGY_STOP * throughput:
+                return "not_converged", (
+                    f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
+                    "network; more viscosity of the bars or a smaller step calms it"
+                )
+            progress("bodies and network", row * interval, rows * interval)
+    except KeyboardInterrupt:
+        return "interrupted", f"interrupted at t = {begin + row * interval:g} s"
+    except ConvergenceError as error:
+        return "not_converged", f"stopped at t = {stepped.time:g} s: {error.fault.message}"
+    return "converged", ""
+
+
+def _history(
+    joint: Joint,
+    stepped: SteppedNetwork,
+    logs: Mapping[str, BodyLog],
+    body_step: float,
+    status: Status,
+    message: str,
+    notices: tuple[Notice, ...],
+    network: Network,
+) -> CoupledHistory:
+    record = stepped.record()
+    total = record.kinetic_energy + record.elastic_energy
+    gain = float(np.max(total - total[0] - (record.work - record.work[0])))
+    through = max(float(np.max(total)), float(np.max(np.abs(record.work))), 1e-12)
+    checks = (
+        IdentityCheck(
+            "energy from nowhere in the network", max(gain, 0.0) / through, ENERGY_TOLERANCE,
+            "rise of kinetic and elastic energy beyond the work done, over the energy that went through",
+        ),
+        IdentityCheck(
+            "impulse between bodies and network", joint.lost_impulse, 10.0 * joint.tolerance,
+            "difference of the impulses given and taken, over the largest reaction times a step",
+        ),
+        IdentityCheck(
+            "work between bodies and network", joint.lost_work, 1e-2,
+            "difference of the work given and taken at the points, over the work exchanged",
+        ),
+    )  # fmt: skip
+    size = min(len(log.rows) for log in logs.values()) if logs else record.time.size
+    return CoupledHistory(
+        record.time[:size],
+        {name: log.history(size) for name, log in logs.items()},
+        record,
+        body_step,
+        stepped.smallest,
+        joint.passes / max(joint.steps, 1),
+        stepped.state(),
+        status,
+        message,
+        checks,
+        notices,
+    )
+
+
+__all__: Sequence[str] = ("CoupledHistory", "simulate_coupled")

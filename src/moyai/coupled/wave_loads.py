@@ -1,0 +1,294 @@
+"""Coefficients of a three-dimensional program as loads of a body in time: excitation, memory, hydrostatics."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.memory import StateSpaceMemory
+from moyai.sea.components import WaveComponents
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+DOFS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
+#: Accuracy and size of the states that carry the memory.
+STATE_TOLERANCE, MOST_POLES = 1e-3, 24
+
+
+@dataclass(frozen=True, eq=False)
+class WaveLoads:
+    """First-order loads of waves on a body, about one point, in axes of the body at rest [eq:coupled-excitation].
+
+    The axes of the coefficients are those of the body at rest; radiation and restoring turn with the body, the heading
+    of the waves is counted from its yaw.
+
+    Parameters
+    ----------
+    omega : ndarray (n,)
+        [rad/s].
+    headings : ndarray (m,)
+        Directions of travel [rad], increasing.
+    amplitude : ndarray (n, m, 6)
+        Exciting force per unit amplitude, Re(X exp(-i omega t)), phase at the origin of the coefficients.
+    infinite_frequency_added_mass, stiffness : ndarray (6, 6)
+    memory : StateSpaceMemory
+    displaced_volume : float
+        At rest [m3].
+    reference : ndarray (3,)
+        Point that rotations and moments are about, in the axes of the coefficients (z from still water) [m].
+    rest : ndarray (3,)
+        Where the origin of the body axes stands at rest in site axes [m].
+    rest_yaw : float
+        Yaw at rest [rad].
+    origin : (float, float)
+        Origin of the coefficients in body axes, x and y [m].
+    follow : bool
+        Phases of the waves at the present place of the body instead of its place at rest.
+    checks, notices : tuple
+        Identities of the memory.
+    """
+
+    omega: Array
+    headings: Array
+    amplitude: ComplexArray
+    infinite_frequency_added_mass: Array
+    stiffness: Array
+    memory: StateSpaceMemory
+    displaced_volume: float
+    reference: Array
+    rest: Array
+    rest_yaw: float = 0.0
+    origin: tuple[float, float] = (0.0, 0.0)
+    follow: bool = False
+    checks: tuple[IdentityCheck, ...] = ()
+    notices: tuple[Notice, ...] = ()
+
+    @classmethod
+    def from_dataset(
+        cls,
+        dataset: xr.Dataset,
+        *,
+        displaced_volume: float,
+        rest: ArrayLike,
+        rest_yaw: float = 0.0,
+        origin: tuple[float, float] = (0.0, 0.0),
+        stiffness: ArrayLike | None = None,
+        follow: bool = False,
+        memory: bool = True,
+    ) -> WaveLoads:
+        """Take over a dataset in Capytaine's names (what :func:`moyai.interop.read.read_coefficients` returns).
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+            All six rigid-body degrees of freedom, with infinite-frequency added mass.
+        displaced_volume : float
+            At rest [m3].
+        rest : array_like (3,)
+            Where the origin of the body axes stands when the body floats as the coefficients say [m].
+        rest_yaw, origin, follow
+            As for the class.
+        stiffness : array_like (6, 6), optional
+            Hydrostatic with the weight of the body, about the reference point; that of the dataset when left out.
+        memory : bool
+            Whether the damping becomes a memory; without it the body radiates nothing.
+
+        Raises
+        ------
+        InputError
+            For missing degrees of freedom, added mass at infinite frequency or stiffness.
+        """
+        names = [str(name) for name in dataset["radiating_dof"].values]
+        if set(names) != set(DOFS):
+            raise InputError(
+                f"the coefficients have {', '.join(names)}", path="loads.coefficients", allowed=", ".join(DOFS),
+                remedy="compute all six rigid-body motions",
+            )  # fmt: skip
+        for needed in ("infinite_frequency_added_mass", "excitation_force"):
+            if needed not in dataset:
+                raise InputError(
+                    f"the coefficients have no {needed.replace('_', ' ')}", path="loads.coefficients",
+                    remedy="compute it, or give more frequencies so that it can be found from the damping",
+                )  # fmt: skip
+        if stiffness is None and "hydrostatic_stiffness" not in dataset:
+            raise InputError(
+                "the coefficients have no hydrostatic stiffness", path="loads.stiffness", remedy="give the stiffness"
+            )
+        if not (math.isfinite(displaced_volume) and displaced_volume > 0.0):
+            raise InputError(
+                f"displaced volume is {displaced_volume:g} m3", path="loads.displaced_volume", allowed="greater than 0"
+            )
+        data = dataset.sel(radiating_dof=list(DOFS), influenced_dof=list(DOFS)).sortby("wave_direction")
+        infinite = 0.5 * (data["infinite_frequency_added_mass"].values + data["infinite_frequency_added_mass"].values.T)
+        states = StateSpaceMemory.none(6)
+        checks: tuple[IdentityCheck, ...] = ()
+        notices: tuple[Notice, ...] = ()
+        if memory:
+            states, checks, notices = _memory(data["omega"].values, data["radiation_damping"].values, infinite)
+        given = data["hydrostatic_stiffness"].values if stiffness is None else np.asarray(stiffness, dtype=float)
+        return cls(
+            np.array(data["omega"].values),
+            np.array(data["wave_direction"].values),
+            np.array(data["excitation_force"].transpose("omega", "wave_direction", "influenced_dof").values),
+            infinite,
+            np.array(given),
+            states,
+            float(displaced_volume),
+            np.array(data["reference_point"].values, dtype=float),
+            np.asarray(rest, dtype=float),
+            float(rest_yaw),
+            origin,
+            follow,
+            checks,
+            notices,
+        )
+
+    def about(self, centre: Array, position: Array) -> WaveLoads:
+        """Return the loads about the centre of gravity, given in body axes [m]."""
+        old = self.reference
+        new = np.array([centre[0] - self.origin[0], centre[1] - self.origin[1], centre[2] + self.rest[2]])
+        dx, dy, dz = old - new
+        motion = np.eye(6)
+        motion[:3, 3:] = np.array([[0.0, dz, -dy], [-dz, 0.0, dx], [dy, -dx, 0.0]])
+        memory = StateSpaceMemory(
+            self.memory.poles,
+            np.ascontiguousarray(self.memory.inputs @ motion),
+            np.ascontiguousarray(motion.T @ self.memory.outputs),
+            np.asarray(motion.T @ self.memory.dashpot @ motion),
+        )
+        return replace(
+            self,
+            amplitude=self.amplitude @ motion,
+            infinite_frequency_added_mass=motion.T @ self.infinite_frequency_added_mass @ motion,
+            stiffness=motion.T @ self.stiffness @ motion,
+            memory=memory,
+            reference=new,
+        )
+
+    def excitation(self, waves: WaveComponents | None) -> Excitation | None:
+        """Return the exciting force of these waves, or None in calm water.
+
+        Raises
+        ------
+        InputError
+            When the waves are outside the frequencies of the coefficients.
+        """
+        if waves is None or not np.any(waves.amplitude != 0.0):
+            return None
+        return Excitation(self, waves)
+
+
+class Excitation:
+    """Exciting force of a sea on a body that may turn; see :class:`WaveLoads`."""
+
+    def __init__(self, loads: WaveLoads, waves: WaveComponents) -> None:
+        from scipy.interpolate import CubicSpline
+
+        low, high = float(loads.omega[0]), float(loads.omega[-1])
+        strong = waves.amplitude**2 > 1e-6 * float(np.sum(waves.amplitude**2))
+        used = waves.omega[strong]
+        if used.min() < low * (1.0 - 1e-9) or used.max() > high * (1.0 + 1e-9):
+            raise InputError(
+                f"waves of {used.min():.4g} to {used.max():.4g} rad/s meet coefficients of {low:.4g} to {high:.4g} "
+                "rad/s",
+                path="loads.omega",
+                allowed=f"{low:.4g} to {high:.4g} rad/s",
+                remedy="compute the coefficients at more frequencies",
+            )
+        order = np.clip(waves.omega, low, high)
+        if loads.omega.size > 1:
+            self.table = np.asarray(CubicSpline(loads.omega, loads.amplitude)(order))
+        else:
+            self.table = np.repeat(loads.amplitude, order.size, axis=0)
+        self.loads, self.waves = loads, waves
+        turn = loads.rest_yaw
+        c, s = math.cos(turn), math.sin(turn)
+        x, y = loads.origin
+        self.place = np.array([loads.rest[0] + c * x - s * y, loads.rest[1] + s * x + c * y])
+        # of the centre of gravity from the origin of the coefficients
+        self.arm = loads.reference[:2]
+
+    def _at_heading(self, relative: Array) -> ComplexArray:
+        """Return the exciting force of every component at its heading relative to the body (n, 6)."""
+        known = self.loads.headings
+        wrapped = np.mod(relative - known[0] + 1e-12, 2.0 * math.pi) - 1e-12 + known[0]
+        span = known[-1] - known[0]
+        if known.size == 1 or span == 0.0:
+            off = np.abs(np.mod(relative - known[0] + math.pi, 2.0 * math.pi) - math.pi)
+            return self._checked(off < HEADING_SLACK, relative, self.table[:, 0])
+        closed = span > 2.0 * math.pi - 1.5 * float(np.diff(known).max())
+        grid = np.append(known, known[0] + 2.0 * math.pi) if closed else known
+        # just before the first heading is also just there
+        wrapped = np.where(
+            ~np.asarray(closed) & (wrapped > 2.0 * math.pi + known[0] - HEADING_SLACK), known[0], wrapped
+        )
+        inside = wrapped <= grid[-1] + HEADING_SLACK
+        right = np.clip(np.searchsorted(grid, wrapped), 1, grid.size - 1)
+        part = np.clip((wrapped - grid[right - 1]) / (grid[right] - grid[right - 1]), 0.0, 1.0)[:, None]
+        rows, count = np.arange(relative.size), known.size
+        found = (1.0 - part) * self.table[rows, right - 1] + part * self.table[rows, right % count]
+        return self._checked(inside, relative, found)
+
+    def _checked(self, inside: NDArray[np.bool_], relative: Array, found: ComplexArray) -> ComplexArray:
+        if not np.all(inside | (self.waves.amplitude == 0.0)):
+            worst = math.degrees(float(relative[~inside][0]))
+            known = ", ".join(f"{math.degrees(value):.4g}" for value in self.loads.headings)
+            raise InputError(
+                f"a wave meets the body at {worst:.4g} degrees, outside the headings of the coefficients",
+                path="loads.wave_direction",
+                allowed=known,
+                remedy="compute more headings",
+            )
+        return found
+
+    def force(self, time: float, place: Array, yaw: float, growth: float) -> Array:
+        """Return force and moment about the centre of gravity in site axes (6,)."""
+        waves = self.waves
+        c, s = math.cos(yaw), math.sin(yaw)
+        x, y = self.place
+        if self.loads.follow:
+            x, y = place[0] - (c * self.arm[0] - s * self.arm[1]), place[1] - (s * self.arm[0] + c * self.arm[1])
+        along = waves.wave_number * (x * np.cos(waves.heading) + y * np.sin(waves.heading))
+        turn = waves.amplitude * np.exp(1j * (along - waves.omega * time + waves.phase))
+        own = growth * np.real(turn @ self._at_heading(waves.heading - yaw))
+        out = own.copy()
+        for first in (0, 3):
+            out[first], out[first + 1] = c * own[first] - s * own[first + 1], s * own[first] + c * own[first + 1]
+        return out
+
+
+#: A wave this near to a heading counts as at it [rad].
+HEADING_SLACK = math.radians(2.0)
+
+
+def _memory(
+    omega: Array, damping: Array, infinite: Array
+) -> tuple[StateSpaceMemory, tuple[IdentityCheck, ...], tuple[Notice, ...]]:
+    """Return the memory of radiation damping as states, with its checks."""
+    from moyai.potential.damping_model import fit_damping
+    from moyai.potential.state_space import fit_memory
+
+    even = 0.5 * (damping + np.swapaxes(damping, 1, 2))
+    model = fit_damping(omega, even, start="zero")
+    try:
+        fit = fit_memory(model, tolerance=STATE_TOLERANCE, highest_order=MOST_POLES)
+    except ConvergenceError as error:
+        raise InputError(
+            f"no memory can be made of the radiation damping: {error.fault.message}",
+            path="loads.radiation_damping",
+            remedy="give more and higher frequencies, or leave the memory out",
+        ) from error
+    told = Notice(
+        "memory", f"{len(fit.poles)} poles carry the memory of the water within {fit.error:.1e}", severity="information"
+    )
+    return StateSpaceMemory.of(fit), tuple(fit.checks), (told,)

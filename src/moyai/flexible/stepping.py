@@ -1,0 +1,309 @@
+"""A network that is stepped from outside: points go where a body takes them, and the network tells what they feel.
+
+The explicit scheme does the small steps; a step that is tried again with a better path starts from the last accepted
+state. See :mod:`moyai.core.attachment` for the two sides of the joint and docs/theory/coupled.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.flexible import explicit_kernel as kernel
+from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
+from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import DRIVEN, Network
+from moyai.flexible.result import State
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Rows of the array of the kernels that hold history; everything else is computed again or never changes.
+_HISTORY = (
+    kernel.X, kernel.Y, kernel.Z, kernel.U, kernel.V, kernel.W, kernel.PX, kernel.PY, kernel.PZ, kernel.QX, kernel.QY,
+    kernel.QZ, kernel.BX, kernel.BY, kernel.BZ, kernel.TX, kernel.TY, kernel.TZ, *range(kernel.IXX, kernel.MASS,
+    kernel.ROW), *range(kernel.WU, kernel.TX, kernel.ROW),
+)  # fmt: skip
+_BAR_HISTORY = (*range(kernel.FX, kernel.RATE + kernel.ROW, kernel.ROW), *range(kernel.AX, kernel.DZZ + 1, kernel.ROW))
+
+
+@dataclass(frozen=True, eq=False)
+class StepRecord:
+    """What a network did in its accepted steps; rows are the ends of kept steps, the first is the start.
+
+    Parameters
+    ----------
+    time : ndarray, shape (k,)
+        [s].
+    nodes, bars : ndarray of int
+        Which nodes and bars the arrays hold.
+    position : ndarray, shape (k, nodes, 3)
+        [m].
+    tension, tension_peak, tension_trough : ndarray, shape (k, bars)
+        At the row, and the highest and lowest since the row before [N]; the highest counts every small step, the
+        lowest the accepted ones.
+    kinetic_energy, elastic_energy, work : ndarray, shape (k,)
+        As in :class:`moyai.flexible.result.History` [J].
+    """
+
+    time: Array
+    nodes: IntArray
+    bars: IntArray
+    position: Array
+    tension: Array
+    tension_peak: Array
+    tension_trough: Array
+    kinetic_energy: Array
+    elastic_energy: Array
+    work: Array
+
+
+class SteppedNetwork:
+    """A network whose carried points are moved step by step.
+
+    Parameters
+    ----------
+    network : Network
+        Its carried points are of the kind ``DRIVEN``.
+    carried : sequence of str
+        Names of points that bodies carry; the other driven points follow ``motions``.
+    motions : mapping of str to Motion
+        Prescribed motions of the other driven points.
+    flow : Flow
+        Motion of the water.
+    start : State
+        Start.
+    velocity : array_like, shape (points, 3), optional
+        Velocities of the carried points at the start; 0 when left out.
+    step : float, optional
+        Time step [s]; the largest stable one when left out.
+    safety : float, optional
+        Part of the stable step, as in :func:`moyai.flexible.simulate.simulate`.
+    keep_nodes, keep_bars : array_like of int, optional
+        What the record holds; everything when left out.
+
+    Raises
+    ------
+    InputError
+        For a carried point that the network does not have or does not drive.
+    """
+
+    def __init__(
+        self,
+        network: Network,
+        carried: Sequence[str],
+        *,
+        motions: Mapping[str, Motion] | None = None,
+        flow: Flow | None = None,
+        start: State | None = None,
+        velocity: ArrayLike | None = None,
+        step: float | None = None,
+        safety: float | None = None,
+        load_steps: int = LOAD_STEPS,
+        keep_nodes: ArrayLike | None = None,
+        keep_bars: ArrayLike | None = None,
+    ) -> None:
+        self.network, self.points, self.wanted = network, tuple(carried), step
+        self._given = dict(motions or {})
+        nodes = carried_nodes(network, self.points)
+        start = start or State.at_rest(network)
+        self.run = ExplicitRun(
+            network,
+            self._all_motions(nodes, start.time),
+            flow or Flow(),
+            start,
+            safety=safety,
+            load_steps=load_steps,
+        )
+        driven = np.flatnonzero(network.nodes.kind == DRIVEN)
+        where = {int(node): row for row, node in enumerate(driven)}
+        self._rows = np.array([where[int(node)] for node in nodes], dtype=np.int64)
+        self._nodes = nodes
+        self._others = [(row, network.motion_names[network.nodes.motion[node]]) for node, row in where.items()]
+        self._others = [(row, name) for row, name in self._others if row not in set(self._rows.tolist())]
+        self._rest = np.array(network.nodes.position[driven])
+        pairs = np.stack([driven, np.arange(driven.size)], axis=1).astype(np.int64)
+        self._tables = np.zeros((max(driven.size, 1), 2, 6))
+        self.run.driving = (pairs, np.zeros((driven.size, 3)), self._tables, start.time, 1.0)
+        self._now = np.zeros((2, driven.size, 3))
+        self._now[0, self._rows] = start.position[nodes]
+        if velocity is not None:
+            self._now[1, self._rows] = velocity
+        for row, name in self._others:
+            moved, rate = self._given[name].at(start.time)
+            self._now[:, row] = self._rest[row] + moved, rate
+        self.run.place[:, driven], self.run.speed[:, driven] = self._now[0].T, self._now[1].T
+        self._next = self._now.copy()
+        self._impulse = np.zeros((2, driven.size, 3))
+        count, bars = len(network.nodes), len(network.bars)
+        self.keep_nodes = np.arange(count) if keep_nodes is None else np.atleast_1d(np.asarray(keep_nodes, np.int64))
+        self.keep_bars = np.arange(bars) if keep_bars is None else np.atleast_1d(np.asarray(keep_bars, np.int64))
+        shapes = ((1, self.keep_nodes.size, 3), (1, self.keep_bars.size), (1, self.keep_bars.size), (1, 3))
+        self._row = (*(np.zeros(shape) for shape in shapes), self.keep_nodes, self.keep_bars)
+        self.run.first_row(self._row)
+        self._history: list[tuple[Array, ...]] = []
+        self._before = start.time
+        self._peak, self._trough = self._row[2][0].copy(), self._row[1][0].copy()
+        self.keep_row()
+        self._kept, self._energy = self._snapshot(), self._row[3][0].copy()
+        self.steps, self.smallest = 0, math.inf
+
+    def _all_motions(self, nodes: IntArray, time: float) -> dict[str, Motion]:
+        """Return the given motions and stillness for carried points, to start the scheme with."""
+        network, motions = self.network, dict(self._given)
+        for node in nodes:
+            name = network.motion_names[network.nodes.motion[node]]
+            if name in self._given:
+                raise InputError(
+                    f"the point {name!r} is carried by a body and driven by a motion", path="motions", allowed="one"
+                )
+            motions[name] = Motion(time, 1.0, np.zeros((2, 3)), np.zeros((2, 3)))
+        for name in network.motion_names:
+            if name not in motions:
+                raise InputError(
+                    f"the point {name!r} is driven, but no body carries it and no motion is given for it",
+                    path="motions",
+                    allowed=", ".join(network.motion_names),
+                )
+        return motions
+
+    @property
+    def time(self) -> float:
+        """Time of the accepted state [s]."""
+        return float(self._kept[3][0])
+
+    @property
+    def energy(self) -> tuple[float, float, float]:
+        """Kinetic and elastic energy and the work done, at the accepted state [J]."""
+        kinetic, elastic, work = self._energy
+        return float(kinetic), float(elastic), float(work)
+
+    def state(self) -> State:
+        """Return the accepted state."""
+        self._restore()
+        return self.run.state()
+
+    def _snapshot(self) -> tuple[Array, Array, Array, tuple[float, float], Array, Array]:
+        run = self.run
+        memory, width = run.packed.memory, int(run.packed.sizes.max()) + 8
+        ribs = int(run.packed.runs[:, 3].sum()) if len(run.packed.runs) else 0
+        rows = np.stack([memory[first : first + width] for first in _HISTORY])
+        spine = np.stack([memory[first : first + width] for first in _BAR_HISTORY])
+        rib = np.stack([memory[kernel.RIB + first : kernel.RIB + first + ribs] for first in _BAR_HISTORY])
+        return rows, spine, rib, (run.time, run.step), run.water.copy(), run.ledger.copy()
+
+    def _restore(self) -> None:
+        rows, spine, rib, (self.run.time, self.run.step), water, ledger = self._kept
+        memory, width = self.run.packed.memory, rows.shape[1]
+        for first, values in zip(_HISTORY, rows, strict=True):
+            memory[first : first + width] = values
+        for first, values, others in zip(_BAR_HISTORY, spine, rib, strict=True):
+            memory[first : first + width] = values
+            memory[kernel.RIB + first : kernel.RIB + first + others.size] = others
+        self.run.water, self.run.ledger[:] = water.copy(), ledger
+
+    def try_step(self, end: float, place: Array, velocity: Array) -> Array:
+        """Move to ``end`` [s] while the carried points go to ``place`` [m] with ``velocity`` [m/s] there.
+
+        Returns
+        -------
+        ndarray, shape (2, points, 3)
+            Mean and tilt of the force of the network on every carried point [N] [eq:coupled-reaction], with the
+            inertia of the mass that is lumped at the point.
+
+        Raises
+        ------
+        ConvergenceError
+            When values are no longer finite.
+        """
+        self._restore()
+        run, interval = self.run, end - self.run.time
+        self._next[0, self._rows], self._next[1, self._rows] = place, velocity
+        for row, name in self._others:
+            moved, rate = self._given[name].at(end)
+            self._next[:, row] = self._rest[row] + moved, rate
+        self._tables[: self._now.shape[1], 0] = self._now.transpose(1, 0, 2).reshape(-1, 6)
+        self._tables[: self._now.shape[1], 1] = self._next.transpose(1, 0, 2).reshape(-1, 6)
+        run.driving = (*run.driving[:3], run.time, interval)
+        run.fastest_drive = float(np.sqrt(np.max(np.sum(self._next[1] ** 2, axis=-1), initial=0.0)))
+        run.ledger[kernel.LEDGER :] = 0.0
+        good = run.advance(1, 0, interval, self.wanted, self._row)
+        if good < 1 or not np.isfinite(place).all():
+            raise ConvergenceError(
+                f"the network blew up between t = {end - interval:g} and {end:g} s",
+                remedy="a smaller step or more viscosity of the bars",
+            )
+        impulse = run.ledger[kernel.LEDGER :].reshape(-1, 2, 3)[self._rows].transpose(1, 0, 2)
+        before, after = self._now[:, self._rows], self._next[:, self._rows]
+        pushed, moment = -self._carried_mass(np.stack([
+            after[1] - before[1],
+            0.5 * interval * (before[1] + after[1]) - (after[0] - before[0]),
+        ]))  # fmt: skip
+        mean = (impulse[0] + pushed) / interval
+        tilt = 6.0 / interval**2 * (impulse[1] - 0.5 * interval * impulse[0] + moment)
+        return np.stack([mean, tilt])
+
+    def _carried_mass(self, values: Array) -> Array:
+        """Return the mass blocks lumped at the carried points times vectors (..., points, 3)."""
+        m = self.run.packed.node_rows(kernel.MXX, 6)[:, self._nodes]
+        x, y, z = values[..., 0], values[..., 1], values[..., 2]
+        product = (m[0] * x + m[1] * y + m[2] * z, m[1] * x + m[3] * y + m[4] * z, m[2] * x + m[4] * y + m[5] * z)
+        return np.stack(product, axis=-1)
+
+    def accept(self) -> None:
+        """Keep the last tried step."""
+        self._kept = self._snapshot()
+        self._now = self._next.copy()
+        np.maximum(self._peak, self._row[2][0], out=self._peak)
+        np.minimum(self._trough, self._row[1][0], out=self._trough)
+        self.steps += round((self.run.time - self._before) / self.run.step) if self.run.step else 0
+        self._before = self.run.time
+        self._energy = self._row[3][0].copy()
+        self.smallest = min(self.smallest, self.run.step)
+
+    def keep_row(self) -> None:
+        """Add the accepted state to the record."""
+        places, pulls, _, energy, _, _ = self._row
+        self._history.append(
+            (np.array(self.run.time), places[0].copy(), pulls[0].copy(), self._peak, self._trough, energy[0].copy())
+        )
+        self._peak, self._trough = np.full_like(self._peak, -np.inf), np.full_like(self._trough, np.inf)
+
+    def record(self) -> StepRecord:
+        """Return what the network did at the kept rows."""
+        time, position, pull, peak, trough, energy = (np.array(column) for column in zip(*self._history, strict=True))
+        return StepRecord(
+            time, self.keep_nodes, self.keep_bars, position, pull, peak, trough,
+            energy[:, 0], energy[:, 1], energy[:, 2],
+        )  # fmt: skip
+
+
+def carried_nodes(network: Network, names: Sequence[str]) -> IntArray:
+    """Return the nodes of carried points.
+
+    Raises
+    ------
+    InputError
+        For a point that the network does not have, does not drive, or that is named twice.
+    """
+    driven = [name for name, node in network.points.items() if network.nodes.kind[node] == DRIVEN]
+    nodes: list[int] = []
+    for name in names:
+        node = network.points.get(name)
+        if node is None or network.nodes.kind[node] != DRIVEN:
+            raise InputError(
+                f"a body carries the point {name!r}, which "
+                + ("the network does not have" if node is None else "is not a driven point"),
+                path=f"bodies.points.{name}",
+                allowed=", ".join(driven) or "driven points",
+            )
+        if node in nodes:
+            raise InputError(f"two bodies carry the point {name!r}", path=f"bodies.points.{name}", allowed="one body")
+        nodes.append(int(node))
+    return np.array(nodes, dtype=np.int64)
