@@ -31,6 +31,7 @@ from moyai.cli.console import (
 )
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
+from moyai.cli.query import query
 from moyai.cli.scale import scale
 from moyai.cli.study import study
 
@@ -48,6 +49,7 @@ app = typer.Typer(
     help="How moored floating and flexible coastal structures answer waves and currents.",
 )
 app.command()(study)
+app.command()(query)
 app.command()(fit)
 app.add_typer(measure)
 app.command()(compare)

@@ -30,6 +30,8 @@ def study(
     ] = None,
     on: Annotated[str | None, typer.Option("--on", help="Cluster to run on: dask://host:port.")] = None,
     retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Run cases again that failed before.")] = False,
+    each: Annotated[bool, typer.Option("--each", help="Print a line for every case that ends.")] = False,
+    as_zarr: Annotated[bool, typer.Option("--zarr", help="Write the results as study.zarr too.")] = False,
     report: Annotated[bool, typer.Option(help="Write the report of the study, and of its governing cases.")] = True,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
@@ -40,6 +42,10 @@ def study(
         from moyai.study.plan import load_study
 
         started = time.perf_counter()
+        if as_zarr:
+            from moyai.study.zarr_file import require_zarr
+
+            require_zarr()
         if workers is not None and workers < 1:
             raise InputError(f"{workers} workers cannot run anything", path="--workers", allowed="1 or more")
         with progress_bars(quiet) as progress:
@@ -59,7 +65,9 @@ def study(
         if not quiet and not as_json:
             points = " x ".join(f"{len(axis.points)} {axis.name}" for axis in plan.axes)
             tell(f"{plan.title}: {_count(len(plan.cases), 'case')}" + (f" ({points})" if points else ""))
-        teller = _Teller(plan, quiet or as_json)
+        for word in _refused(plan) if not quiet and not as_json else ():
+            tell(word)
+        teller = _Teller(plan, quiet or as_json, each)
         with progress_bars(quiet or as_json) as progress:
             result = run_study(
                 plan, folder, run_case, workers=count, on=on, retry_failed=retry_failed, progress=progress, watch=teller
@@ -73,6 +81,10 @@ def study(
         if report:
             result = _with_replays(plan, result, governs, folder, quiet or as_json)
         files = [result.write(folder / "study.nc")]
+        if as_zarr:
+            from moyai.study.zarr_file import write_zarr
+
+            files.append(write_zarr(result, folder / "study.zarr"))
         from moyai.study.summary import write_table
 
         files.append(write_table(plan, result, folder / "study.csv"))
@@ -153,12 +165,13 @@ def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any
     from moyai.study.work import run_case as run_one
 
     task = Task(plan.base, plan.base_path.resolve(), plan.wanted, None, run_case)
-    middle = plan.cases[len(plan.cases) // 2]
+    sound = [case for case in plan.cases if case.index not in set(plan.refused)]
+    middle = sound[len(sound) // 2]
     first = case_at(plan, middle)
     # The first run of a process loads and compiles; the ones after it tell what a case costs, and must be other cases,
     # since a case of its own hydrodynamics finds nothing in memory
     require_responses(plan, run_case(first, progress).tree)
-    others = [case for case in (plan.cases[0], plan.cases[-1]) if case is not middle] or [middle]
+    others = [case for case in (sound[0], sound[-1]) if case is not middle] or [middle]
     # What a search takes from a case (the step of a trade-off) means nothing to a single run
     plain = [replace(case, options=()) for case in others]
     records = [record for case in plain if (record := run_one(task, case)) is not None]
@@ -171,6 +184,7 @@ def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any
         "title": plan.title,
         "base": str(plan.base_path),
         "cases": len(plan.cases),
+        "refused": len(plan.refused),
         "axes": [{"name": axis.name, "points": len(axis.points)} for axis in plan.axes],
         "seconds_per_case": seconds * runs,
         "runs_per_case": runs,
@@ -183,6 +197,13 @@ def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any
     }
 
 
+def _refused(plan: Study) -> list[str]:
+    """Return what is to be said of cases that the check refused."""
+    if not plan.refused:
+        return []
+    return [f"{_count(len(plan.refused), 'case')} refused by the check: rows with the reason, not run"]
+
+
 def _print_plan(file: Path, record: dict[str, Any]) -> None:
     say(f"{file}: no faults")
     for axis in record["axes"]:
@@ -190,6 +211,8 @@ def _print_plan(file: Path, record: dict[str, Any]) -> None:
     runs = f", a search of up to {record['runs_per_case']} runs" if record["runs_per_case"] > 1 else ""
     each = f"{record['seconds_per_case']:.2f} s each as tried now ({record['trial_status']})"
     say(f"  {_count(record['cases'], 'case')}, {each}{runs}")
+    if record["refused"]:
+        say(f"  {_count(record['refused'], 'case')} refused by the check: rows with the reason, not run")
     if record["trial_message"]:
         say(f"  the trial said: {record['trial_message']}")
     say(f"  about {_duration(record['expected_seconds'])} on {_count(record['workers'], 'worker')}")
@@ -209,12 +232,14 @@ def _duration(seconds: float) -> str:
 class _Teller:
     """Says on standard error how far the study is, where no bar can be drawn and for what a bar cannot say."""
 
-    def __init__(self, plan: Study, silent: bool) -> None:
-        self.plan, self.silent = plan, silent
+    def __init__(self, plan: Study, silent: bool, each: bool = False) -> None:
+        self.plan, self.silent, self.each = plan, silent, each
         self.told = time.monotonic()
 
     def __call__(self, standing: Standing) -> None:
         now = time.monotonic()
+        if self.each and not self.silent and standing.latest is not None:
+            tell(self._case(standing))
         if self.silent or (now - self.told < 5.0 and standing.done < standing.total):
             return
         self.told = now
@@ -228,6 +253,22 @@ class _Teller:
                 where = ", ".join(self.plan.cases[entry[1]].labels)
                 parts.append(f"{word} {self.plan.watch} {entry[0]:.4g} ({where})")
         tell("; ".join(parts))
+
+    def _case(self, standing: Standing) -> str:
+        """Return the line of the case that ended last."""
+        import numpy as np
+
+        record = standing.latest
+        assert record is not None
+        words = ", ".join(self.plan.cases[record.index].labels)
+        text = (
+            f"[{standing.done}/{standing.total}] case {record.index} ({words}): {record.status}, {record.seconds:.2f} s"
+        )
+        item = record.values.get(self.plan.watch)
+        if item is not None and np.isfinite(np.asarray(item["values"], dtype=float)).any():
+            largest, unit = float(np.nanmax(item["values"])), item["units"]
+            text += f", {largest:.4g}" + (f" {unit}" if unit not in ("", "1") else "")
+        return text + (f": {record.message}" if record.status != "converged" and record.message else "")
 
 
 __all__ = ["BAD_INPUT", "study"]

@@ -39,7 +39,13 @@ _FITTED = {
     "acer": "Average conditional exceedance of the peaks, tail fitted by least squares",
 }
 _MOST_ROWS = 500
-_WORDS = {"converged": "run", "outside_validity": "run with doubts", "failed": "failed", "not run": "not run"}
+_WORDS = {
+    "converged": "run",
+    "outside_validity": "run with doubts",
+    "failed": "failed",
+    "refused": "refused",
+    "not run": "not run",
+}
 
 
 def compose(result: Result) -> Document:
@@ -354,7 +360,7 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
     blocks: list[Block] = []
     if count > _MOST_ROWS:
         # Failures always, then the largest of the first response
-        failed = np.flatnonzero(pages.status == "failed")[: _MOST_ROWS // 2]
+        failed = np.flatnonzero(np.isin(pages.status, ("failed", "refused")))[: _MOST_ROWS // 2]
         rank = np.argsort(-np.nan_to_num(responses[0][1][0], nan=-np.inf)) if responses else chosen
         chosen = np.unique(np.concatenate([failed, rank[: _MOST_ROWS - len(failed)]]))
         blocks.append(Paragraph(f"{len(chosen)} of {count} cases: failures and the largest. All are in study.csv."))
@@ -366,7 +372,7 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
     )
     for _, (flat, unit, label) in responses:
         columns.append(Column(label, [float(flat[index]) for index in chosen], unit))
-    failures = tuple(n for n, index in enumerate(chosen) if pages.status[index] == "failed")
+    failures = tuple(n for n, index in enumerate(chosen) if pages.status[index] in ("failed", "refused"))
     governs = tuple(n for n, index in enumerate(chosen) if int(index) in {one.index for one in pages.governing})
     blocks.append(Table("matrix", "Cases", tuple(columns), emphasised=governs, failed=failures, collapsed=count > 60))
     if failures:
@@ -374,7 +380,7 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
         blocks.append(
             Table(
                 "failures",
-                "Cases that failed",
+                "Cases that failed or were refused",
                 (
                     Column("Case", [str(index) for index in told]),
                     Column("Where", [pages.case_words(index) for index in told]),

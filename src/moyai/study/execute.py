@@ -31,11 +31,13 @@ class Standing:
     Parameters
     ----------
     done, total, failed : int
-        Cases.
+        Cases; refused ones count as failed.
     seconds_left : float
         Estimated from the rate so far, NaN at the start [s].
     largest, smallest : tuple of (float, int) or None
         Of the watched response: value and number of the case.
+    latest : Record or None
+        The case that ended last.
     """
 
     done: int
@@ -44,6 +46,7 @@ class Standing:
     seconds_left: float
     largest: tuple[float, int] | None
     smallest: tuple[float, int] | None
+    latest: Record | None = None
 
 
 Watcher = Callable[[Standing], None]
@@ -101,7 +104,7 @@ def run_study(
         stopped = False
         if left:
             watching = _Watching(study, known, watch, progress)
-            records = _backend(on, workers)(task, left)
+            records = _backend(on, workers, progress)(task, left)
             try:
                 for record in records:
                     ledger.add(record)
@@ -118,7 +121,7 @@ def run_study(
     return study_result(study, known.values(), interrupted=stopped)
 
 
-def _backend(on: Any, workers: int) -> Backend:
+def _backend(on: Any, workers: int, progress: Progress) -> Backend:
     if on is not None:
         from moyai.study.on_dask import run_on_dask
 
@@ -126,7 +129,7 @@ def _backend(on: Any, workers: int) -> Backend:
     if workers < 1:
         raise InputError(f"{workers} workers cannot run anything", path="workers", allowed="1 or more")
     if workers == 1:
-        return run_here
+        return lambda task, cases: run_here(task, cases, progress)
     return lambda task, cases: run_processes(task, cases, workers)
 
 
@@ -136,7 +139,7 @@ class _Watching:
     def __init__(self, study: Study, known: dict[int, Record], watch: Watcher | None, progress: Progress) -> None:
         self.study, self.watch, self.progress = study, watch, progress
         self.done, self.total = len(known), len(study.cases)
-        self.failed = sum(record.status == "failed" for record in known.values())
+        self.failed = sum(record.status in ("failed", "refused") for record in known.values())
         self.before = self.done
         self.started = time.monotonic()
         self.extremes: list[tuple[float, int]] = []
@@ -154,11 +157,11 @@ class _Watching:
 
     def tell(self, record: Record) -> None:
         self.done += 1
-        self.failed += record.status == "failed"
+        self.failed += record.status in ("failed", "refused")
         self._look(record)
         self.progress("cases", self.done, self.total)
         if self.watch is not None:
             rate = (self.done - self.before) / max(time.monotonic() - self.started, 1e-9)
             left = (self.total - self.done) / rate if rate > 0 else math.nan
             smallest, largest = (self.extremes[0], self.extremes[-1]) if self.extremes else (None, None)
-            self.watch(Standing(self.done, self.total, self.failed, left, largest, smallest))
+            self.watch(Standing(self.done, self.total, self.failed, left, largest, smallest, record))

@@ -32,7 +32,7 @@ class Record:
     index : int
         Number of the case.
     status : str
-        Status of its result, or ``failed``.
+        Status of its result, ``failed``, or ``refused`` where the check of the case refused it.
     message : str
         One sentence behind it.
     seconds : float

@@ -13,6 +13,7 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
 from moyai.study.ledger import Record
 from moyai.study.variations import Combination
 from moyai.study.work import Task, run_case
@@ -24,10 +25,10 @@ _DEATHS = 2
 _GRACE = 3.0
 
 
-def run_here(task: Task, cases: tuple[Combination, ...]) -> Iterator[Record]:
-    """Run the cases in this process."""
+def run_here(task: Task, cases: tuple[Combination, ...], progress: Progress = silent) -> Iterator[Record]:
+    """Run the cases in this process, telling the steps of each."""
     for combination in cases:
-        record = run_case(task, combination)
+        record = run_case(task, combination, progress=progress)
         if record is None:
             raise KeyboardInterrupt
         yield record

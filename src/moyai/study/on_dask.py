@@ -16,6 +16,10 @@ from moyai.study.work import Task, run_case
 
 _FLIGHT = 4
 _CONNECT = 10.0
+_ASK = 1.0
+_ASKS = 100.0
+"""Every task asks the scheduler once a second whether the study was stopped; many of them more rarely, so that no more
+than a hundred questions come a second."""
 
 
 def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator[Record]:
@@ -45,12 +49,14 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
         waiting = iter(cases)
         jobs: dict[str, Combination] = {}
 
+        threads = max(1, sum(client.nthreads().values()))
+        room, pause = _FLIGHT * threads, max(_ASK, threads / _ASKS)
+
         def submit(combination: Combination) -> Any:
-            future = client.submit(_run, shared, combination, cancel.name, pure=False, retries=0)
+            future = client.submit(_run, shared, combination, cancel.name, pause, pure=False, retries=0)
             jobs[future.key] = combination
             return future
 
-        room = max(1, _FLIGHT * sum(client.nthreads().values()))
         futures = as_completed([submit(case) for case in islice(waiting, room)], loop=client.loop)
         try:
             for future in futures:
@@ -76,30 +82,32 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
                     pass
 
 
-def _run(task: Task, combination: Combination, flag: str) -> Record | None:
+def _run(task: Task, combination: Combination, flag: str, pause: float = _ASK) -> Record | None:
     """Run one case on a worker of the cluster."""
     import os
 
     # One thread a task, whatever the cluster's environment says; read by numpy only where it is not loaded yet
     for name in THREADS:
         os.environ.setdefault(name, "1")
-    return run_case(task, combination, _flag(flag))
+    return run_case(task, combination, _flag(flag, pause))
 
 
-def _flag(name: str) -> Any:
-    """Return a function that asks the scheduler at most once a second whether the study was stopped."""
+def _flag(name: str, pause: float) -> Any:
+    """Return a function that asks the scheduler at most once in ``pause`` seconds whether the study was stopped."""
     import time
 
     from distributed import Event, get_client
 
-    event = Event(name, client=get_client())
-    state = {"asked": time.monotonic(), "set": False}
+    state: dict[str, Any] = {"asked": time.monotonic(), "set": False, "event": None}
 
     def cancelled() -> bool:
         now = time.monotonic()
-        if not state["set"] and now - state["asked"] > 1.0:
+        if not state["set"] and now - state["asked"] > pause:
             state["asked"] = now
-            state["set"] = bool(event.is_set())
+            # Short cases never ask: neither a client nor a word to the scheduler for them
+            if state["event"] is None:
+                state["event"] = Event(name, client=get_client())
+            state["set"] = bool(state["event"].is_set())
         return bool(state["set"])
 
     return cancelled

@@ -57,6 +57,10 @@ class Study:
         What is made of all cases together.
     replays : int
         Number of governing cases that are run again with a report of their own.
+    skips_refused : bool
+        Cases that the check refuses become rows with the reason, instead of stopping the study.
+    refused : tuple of int
+        Numbers of the cases that were refused, of those that were checked beforehand.
     """
 
     title: str
@@ -71,6 +75,8 @@ class Study:
     search: schema.LimitSearch | schema.Optimisation | None = None
     assessment: schema.Assessment | None = None
     replays: int = 3
+    skips_refused: bool = False
+    refused: tuple[int, ...] = ()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -147,9 +153,10 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     study = Study(
         block.title, base, base_path, tuple(axes), cases, tuple(dict.fromkeys(wanted)), block.watch, keep, "", search
     )
-    study = replace(study, assessment=block.assess, replays=block.replays)
-    named = check_cases(study, progress)
-    return replace(study, key=_key(study, named))
+    skips = block.on_refused == "skip"
+    study = replace(study, assessment=block.assess, replays=block.replays, skips_refused=skips)
+    named, refused = check_cases(study, progress)
+    return replace(study, key=_key(study, named), refused=refused)
 
 
 def _wanted_of_assessment(document: Document, assess: schema.Assessment | None) -> list[Wanted]:
@@ -199,23 +206,27 @@ def varied(base: Document, combination: Combination) -> Document:
     return replace(base, data=data)
 
 
-def check_cases(study: Study, progress: Progress = silent) -> str:
-    """Check the cases of a study without running them; return the hash of the base case.
+def check_cases(study: Study, progress: Progress = silent) -> tuple[str, tuple[int, ...]]:
+    """Check the cases of a study without running them; return the hash of their content and who was refused.
 
     Raises
     ------
     CaseError
-        With the faults of the cases, each once, with the first case that shows it.
+        With the faults of the cases, each once, with the first case that shows it. Where the study skips refused cases:
+        only when all are refused.
     """
     chosen = _to_check(study)
     found: dict[tuple[str, str], Fault] = {}
     refused: dict[tuple[str, str], int] = {}
     hashes = hashlib.sha256()
+    left_out: list[int] = []
     for done, index in enumerate(chosen):
         combination = study.cases[index]
         try:
             hashes.update(case_at(study, combination).case_hash.encode())
         except CaseError as error:
+            left_out.append(index)
+            hashes.update(b"refused")
             for fault in error.faults:
                 key = (fault.path, fault.message)
                 refused[key] = refused.get(key, 0) + 1
@@ -223,13 +234,17 @@ def check_cases(study: Study, progress: Progress = silent) -> str:
                 here = replace(fault, file="", line=0, column=0) if fault.path in changed else fault
                 found.setdefault(key, replace(here, message=f"case {_name(study, combination)}: {fault.message}"))
         progress("check", done + 1, len(chosen))
-    if found:
+    some = len(left_out) < len(chosen)
+    if found and not (study.skips_refused and some):
         faults = []
         for key, fault in list(found.items())[:20]:
             more = refused[key] - 1
             faults.append(replace(fault, message=fault.message + (f" (and {more} more cases)" if more else "")))
+        if some:
+            skip = "to go on without such cases: 'on_refused: skip' in the study"
+            faults[-1] = replace(faults[-1], remedy="; ".join(part for part in (faults[-1].remedy, skip) if part))
         raise CaseError(faults)
-    return hashes.hexdigest()
+    return hashes.hexdigest(), tuple(left_out)
 
 
 def _places(study: Study, path: str) -> tuple[KeyPath, ...]:

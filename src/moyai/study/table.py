@@ -66,18 +66,23 @@ def _axis(axis: Axis) -> dict[str, Any]:
 
 def _status(study: Study, known: dict[int, Record], interrupted: bool) -> tuple[Status, str]:
     failed = sum(record.status == "failed" for record in known.values())
-    doubtful = sum(record.status not in ("converged", "failed") for record in known.values())
+    refused = sum(record.status == "refused" for record in known.values())
+    doubtful = sum(record.status not in ("converged", "failed", "refused") for record in known.values())
     parts = [f"{len(known)} of {len(study.cases)} cases run"]
     if failed:
         parts.append(f"{failed} failed")
+    if refused:
+        parts.append(f"{refused} refused by the check")
     if doubtful:
         parts.append(f"{doubtful} ran with doubts")
     message = ", ".join(parts)
     if interrupted or len(known) < len(study.cases):
         return "interrupted", message
-    if failed == len(study.cases):
+    if failed + refused == len(study.cases):
         return "failed", message
-    return ("outside_validity" if failed or doubtful else "converged"), message
+    # Refused cases are what the study file asked for where it says 'on_refused: skip'
+    spoilt = failed or doubtful or (refused and not study.skips_refused)
+    return ("outside_validity" if spoilt else "converged"), message
 
 
 def _root(study: Study, known: dict[int, Record]) -> xr.Dataset:

@@ -382,10 +382,20 @@ def _seeds(given: schema.Seeds, base: Any, folder: Path) -> tuple[Axis, ...]:
 def _lines_lost(given: schema.LinesLost | bool, base: Any, folder: Path) -> tuple[Axis, ...]:
     settings = schema.LinesLost() if given is True else given
     assert isinstance(settings, schema.LinesLost)
-    places = resolve(base, settings.path)
-    lines = value_of(base, places[0])
+    try:
+        lines = value_of(base, resolve(base, settings.path)[0])
+    except InputError:
+        lines = None
+    if isinstance(lines, dict):
+        # A list of one may stand in the file as a block
+        raise InputError("the only line of the structure cannot be lost", path="lines_lost")
     if not isinstance(lines, list) or not lines:
-        raise InputError(f"the case has no list '{settings.path}'", path="lines_lost.path")
+        raise InputError(
+            f"the case has no list '{settings.path}' of which one could be lost",
+            path="lines_lost",
+            allowed=", ".join(_lists(base)) or "no list of blocks is in this case",
+            remedy="name the list under 'path', or write the losses as a 'list' of cases with 'set' and 'remove'",
+        )
     points = [Point("intact")] if settings.intact else []
     for index, line in enumerate(lines):
         name = str(line.get("name", index)) if isinstance(line, dict) else str(index)
@@ -398,6 +408,17 @@ def _lines_lost(given: schema.LinesLost | bool, base: Any, folder: Path) -> tupl
         else:
             raise InputError("the only line of the structure cannot be lost", path="lines_lost")
     return (Axis(settings.name, tuple(points), lost_line=True),)
+
+
+def _lists(data: Any, place: str = "") -> list[str]:
+    """Return the paths of all lists with more than one block."""
+    found: list[str] = []
+    for key, value in data.items() if isinstance(data, dict) else ():
+        where = f"{place}.{key}" if place else str(key)
+        if isinstance(value, list) and len(value) > 1 and all(isinstance(item, dict) for item in value):
+            found.append(where)
+        found += _lists(value, where)
+    return found
 
 
 def _text(value: Any) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from moyai.case.yaml_reader import Document
-from moyai.core.errors import CaseError, MoyaiError
-from moyai.core.progress import Progress
+from moyai.core.errors import CaseError, InputError, MoyaiError
+from moyai.core.progress import Progress, silent
 from moyai.study.ledger import Record
 from moyai.study.plan import RunCase, varied
 from moyai.study.responses import Wanted, kept
@@ -43,7 +43,12 @@ class Task:
     run: RunCase
 
 
-def run_case(task: Task, combination: Combination, cancelled: Callable[[], bool] | None = None) -> Record | None:
+def run_case(
+    task: Task,
+    combination: Combination,
+    cancelled: Callable[[], bool] | None = None,
+    progress: Progress = silent,
+) -> Record | None:
     """Run one case and return what is kept of it, ``None`` when it was cancelled.
 
     Whatever goes wrong in the case becomes its record; nothing is raised but what ends the process.
@@ -54,15 +59,22 @@ def run_case(task: Task, combination: Combination, cancelled: Callable[[], bool]
     combination : Combination
     cancelled : callable, optional
         Asked a few times a second whether to stop.
+    progress : Progress
+        Told the steps of the case.
     """
     from moyai.case.reader import case_of
 
     started = time.perf_counter()
     try:
         case = case_of(varied(task.base, combination), task.base_path)
+    except (CaseError, InputError) as error:
+        faults = error.faults[:3] if isinstance(error, CaseError) else (error.fault,)
+        message = "; ".join(str(replace(fault, file="", line=0, column=0)) for fault in faults)
+        return Record(combination.index, "refused", message, time.perf_counter() - started, {})
+    try:
         options = dict(combination.options)
         run = task.run.bind(options) if options else task.run  # type: ignore[attr-defined]
-        result = run(case, _listener(cancelled))
+        result = run(case, _listener(cancelled, progress))
         if cancelled is not None and cancelled():
             return None
         if task.results_folder is not None:
@@ -84,11 +96,12 @@ def run_case(task: Task, combination: Combination, cancelled: Callable[[], bool]
     return Record(combination.index, status, message, time.perf_counter() - started, values)
 
 
-def _listener(cancelled: Callable[[], bool] | None) -> Progress:
+def _listener(cancelled: Callable[[], bool] | None, progress: Progress) -> Progress:
     asked = time.monotonic()
 
     def listen(what: str, done: float, total: float) -> None:
         nonlocal asked
+        progress("this case", done, total)
         now = time.monotonic()
         if cancelled is not None and now - asked > _POLL:
             asked = now
