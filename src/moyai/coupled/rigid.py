@@ -86,6 +86,8 @@ class RigidBody:
         Constant force and moment about the centre of gravity in site axes [N, N m].
     free : six bools
         Translations along site axes and rotations about body axes that may change.
+    rest : (array_like (3,), float), optional
+        Place of the origin [m] and yaw [rad] that ``stiffness`` counts from; those of the start when left out.
 
     Raises
     ------
@@ -108,6 +110,7 @@ class RigidBody:
     loads: WaveLoads | None = None
     force: Array = field(default_factory=lambda: np.zeros(6))
     free: tuple[bool, ...] = (True,) * 6
+    rest: tuple[Array, float] | None = None
 
     def __post_init__(self) -> None:
         path = f"bodies.{self.name}"
@@ -150,6 +153,11 @@ class RigidBody:
                 path=f"{path}.lumps",
                 remedy="leave one of them out; lumps without volume may carry drag",
             )
+
+    @property
+    def rest_pose(self) -> tuple[Array, float]:
+        """Place of the origin and yaw that the stiffness counts from."""
+        return (np.asarray(self.position), float(self.rotation[2])) if self.rest is None else self.rest
 
     @property
     def start_rotation(self) -> Array:
@@ -229,7 +237,9 @@ class RigidCarrier:
         rigid[:3, :3], rigid[3:, 3:] = body.mass * np.eye(3), body.inertia
         radiated, inputs, outputs = np.zeros((6, 6)), np.zeros((0, 6), np.complex128), np.zeros((6, 0), np.complex128)
         self.poles = np.zeros(0, np.complex128)
-        rest = np.array([*self.state[:3], float(body.rotation[2])])
+        rest_place, rest_yaw = body.rest_pose
+        upright = rotation_matrix((0.0, 0.0, rest_yaw))
+        rest = np.array([*(np.asarray(rest_place) + upright @ centre), rest_yaw])
         stiffness, linear = np.array(body.stiffness), np.array(body.linear_damping)
         constant = np.array(body.force)
         constant[2] -= body.mass * water.gravity

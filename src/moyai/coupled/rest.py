@@ -1,0 +1,241 @@
+"""Bodies and network at rest together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.coupled.bodies import Body
+from moyai.coupled.rigid import RigidBody, RigidCarrier
+from moyai.flexible.flow import Flow
+from moyai.flexible.network import Network, Nodes
+from moyai.flexible.result import State
+from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.flexible.stepping import carried_nodes
+from moyai.mooring.rotations import roll_pitch_yaw
+
+Array = NDArray[np.float64]
+
+#: Force left over the largest force at work.
+TOLERANCE = 1e-8
+MOST_ROUNDS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledRest:
+    """Bodies and network at rest.
+
+    Parameters
+    ----------
+    network : Network
+        With its carried points where the bodies rest.
+    state : State
+        Of the network.
+    bodies : mapping of str to RigidBody
+        The same bodies, starting from rest.
+    tension : ndarray (m,)
+        [N].
+    residual : float
+        Force left on the bodies over the largest weight or pull.
+    rounds : int
+        Solves of the network.
+    """
+
+    network: Network
+    state: State
+    bodies: dict[str, RigidBody]
+    tension: Array
+    residual: float
+    rounds: int
+
+
+def moved_network(network: Network, places: Mapping[str, Array]) -> Network:
+    """Return the network with driven points at other places [m]."""
+    nodes = carried_nodes(network, list(places))
+    position = np.array(network.nodes.position)
+    for node, place in zip(nodes, places.values(), strict=True):
+        position[node] = place
+    names = (
+        "kind", "held", "motion", "mass", "volume", "drag_area", "added_mass", "contact_area", "height", "form",
+    )  # fmt: skip
+    moved = Nodes(position, *(getattr(network.nodes, name) for name in names))
+    return replace(network, nodes=moved)
+
+
+def point_pulls(network: Network, rest: Equilibrium, names: list[str]) -> Array:
+    """Return the force of a network at rest on its carried points: bars, and weight less buoyancy of half of them."""
+    bars, place = network.bars, rest.state.position
+    along = place[bars.end] - place[bars.start]
+    unit = along / np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
+    water = network.water
+    wet = 0.5 * bars.length * (
+        bars.of_type("mass_per_length") - water.density * bars.of_type("volume_per_length")
+    ) * water.gravity  # fmt: skip
+    out = np.zeros((len(names), 3))
+    for row, node in enumerate(carried_nodes(network, names)):
+        starts, ends = bars.start == node, bars.end == node
+        out[row] = (rest.tension[starts, None] * unit[starts]).sum(axis=0)
+        out[row] -= (rest.tension[ends, None] * unit[ends]).sum(axis=0)
+        own = network.nodes.mass[node] - water.density * network.nodes.volume[node]
+        out[row, 2] -= float(wet[starts | ends].sum()) + float(own) * water.gravity
+    return out
+
+
+def find_rest(
+    network: Network,
+    bodies: Mapping[str, Body],
+    *,
+    flow: Flow | None = None,
+    tolerance: float = TOLERANCE,
+) -> CoupledRest:
+    """Find the poses in which bodies and network rest under weight, buoyancy, pulls and steady current.
+
+    Newton's method on the poses, the network at rest for each; a body alone that nothing holds in a direction stays
+    where it is in that direction.
+
+    Parameters
+    ----------
+    network : Network
+        Carried points at the places that the bodies give them.
+    bodies : mapping of str to RigidBody
+    flow : Flow, optional
+        Its steady current acts, waves are left out.
+    tolerance : float
+        Force left over the largest force at work.
+
+    Raises
+    ------
+    InputError
+        For a planar body, whose rest is known already.
+    ConvergenceError
+        When no rest is found; names the body and what is left.
+    """
+    for name, body in bodies.items():
+        if not isinstance(body, RigidBody):
+            raise InputError(f"body {name!r} is planar: its rest is known", path=f"bodies.{name}", allowed="rigid bodies")
+    calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
+    search = _Search(network, {name: body for name, body in bodies.items() if isinstance(body, RigidBody)}, calm)
+    return search.run(tolerance)
+
+
+class _Search:
+    """Newton's method with a line search; sizes and signs in one place."""
+
+    def __init__(self, network: Network, bodies: dict[str, RigidBody], calm: Flow) -> None:
+        self.network, self.bodies, self.calm = network, bodies, calm
+        self.carriers = {name: body.carrier(network.water, Flow()) for name, body in bodies.items()}
+        self.names = [point for carrier in self.carriers.values() for point in carrier.points]
+        self.state: State | None = None
+        self.solves = 0
+        self.scale = max(
+            [body.mass * network.water.gravity for body in bodies.values()]
+            + [float(np.max(np.abs(body.force[:3]))) for body in bodies.values()]
+        )
+        arms = [float(np.max(np.abs(c.arms), initial=0.0)) for c in self.carriers.values()]
+        lumps = [float(np.max(np.abs(c.lumps[0]), initial=0.0)) for c in self.carriers.values()]
+        self.size = max(*arms, *lumps, 1e-3)
+        self.last: tuple[Network, Equilibrium] | None = None
+
+    def imbalance(self) -> Array:
+        """Return forces [N] and moments over the size of the body [N] left on all bodies."""
+        places = {}
+        for carrier in self.carriers.values():
+            places.update(dict(zip(carrier.points, carrier.place_and_velocity()[0], strict=True)))
+        network = moved_network(self.network, places) if places else self.network
+        rest = solve_equilibrium(network, flow=self.calm, start=self._start(network))
+        self.solves += 1
+        self.last = (network, rest)
+        self.state = rest.state
+        pulls = point_pulls(network, rest, self.names)
+        self.scale = max(self.scale, float(np.max(np.abs(pulls), initial=0.0)))
+        out, first = [], 0
+        for carrier in self.carriers.values():
+            count = len(carrier.points)
+            force = carrier.imbalance(pulls[first : first + count], math.inf, self.calm)
+            force[3:] /= self.size
+            out.append(force)
+            first += count
+        return np.concatenate(out) if out else np.zeros(0)
+
+    def _start(self, network: Network) -> State | None:
+        if self.state is None:
+            return None
+        position = self.state.position.copy()
+        fixed = network.nodes.kind != 0
+        position[fixed] = network.nodes.position[fixed]
+        return State(0.0, position, np.zeros_like(position))
+
+    def move(self, change: Array) -> None:
+        for row, carrier in enumerate(self.carriers.values()):
+            for axis in range(6):
+                amount = float(change[6 * row + axis])
+                if amount != 0.0:
+                    carrier.displace(axis, amount if axis < 3 else amount / self.size)
+
+    def keep(self) -> list[Array]:
+        return [carrier.state.copy() for carrier in self.carriers.values()]
+
+    def back(self, kept: list[Array]) -> None:
+        for carrier, state in zip(self.carriers.values(), kept, strict=True):
+            carrier.state[:] = state
+
+    def jacobian(self, base: Array) -> Array:
+        count, step = base.size, 1e-5 * self.size
+        out, kept, state = np.zeros((count, count)), self.keep(), self.state
+        for column in range(count):
+            change = np.zeros(count)
+            change[column] = step
+            ends = []
+            for sign in (1.0, -1.0):
+                self.move(sign * change)
+                ends.append(self.imbalance())
+                self.back(kept)
+                self.state = state
+            out[:, column] = (ends[0] - ends[1]) / (2.0 * step)
+        return out
+
+    def run(self, tolerance: float) -> CoupledRest:
+        force = self.imbalance()
+        longest = 0.25 * max(self.size, 0.02 * float(np.max(np.ptp(self.network.nodes.position, axis=0))))
+        for _ in range(MOST_ROUNDS):
+            left = float(np.max(np.abs(force), initial=0.0))
+            if left <= tolerance * self.scale:
+                break
+            slope = self.jacobian(force)
+            # what nothing holds has no stiffness: the least step that balances the rest
+            change = -np.linalg.lstsq(slope, force, rcond=1e-9)[0]
+            change *= min(1.0, longest / max(float(np.max(np.abs(change))), 1e-300))
+            kept, state, part = self.keep(), self.state, 1.0
+            while True:
+                self.move(part * change)
+                new = self.imbalance()
+                if float(np.linalg.norm(new)) < float(np.linalg.norm(force)) * (1.0 - 1e-4 * part) or part < 1e-3:
+                    break
+                self.back(kept)
+                self.state, part = state, 0.5 * part
+            force = new
+        left = float(np.max(np.abs(force), initial=0.0)) / self.scale
+        if not left <= max(tolerance, 1e-6):
+            worst = list(self.bodies)[int(np.argmax(np.abs(force))) // 6]
+            raise ConvergenceError(
+                f"no rest found: {left * self.scale:.3g} N are left on body {worst!r}",
+                remedy="start nearer to rest, or check weight, buoyancy and lines of the body",
+            )
+        network, rest = self.last if self.last is not None else (self.network, None)
+        if rest is None:
+            raise ConvergenceError("nothing to bring to rest")
+        bodies = {name: self._rested(self.bodies[name], carrier) for name, carrier in self.carriers.items()}
+        state = State(0.0, rest.state.position, np.zeros_like(rest.state.position))
+        return CoupledRest(network, state, bodies, rest.tension, left, self.solves)
+
+    @staticmethod
+    def _rested(body: RigidBody, carrier: RigidCarrier) -> RigidBody:
+        """Return the body at its rest; springs and coefficients keep the pose that they were given for."""
+        return replace(
+            body, position=carrier.position, rotation=roll_pitch_yaw(carrier.rotation), rest=body.rest_pose
+        )
