@@ -51,6 +51,20 @@ STRUCTURES = {
         derived="moyai.case.derived_curtain:derived_numbers",
         run="moyai.curtain.analysis:run",
     ),
+    "cage": Structure(
+        schema="moyai.case.schema_cage:CageCase",
+        check="moyai.case.check_cage:check",
+        build="moyai.case.build_cage:build_problem",
+        derived="moyai.case.derived_cage:derived_numbers",
+        run="moyai.cage.analysis:run",
+    ),
+    "network": Structure(
+        schema="moyai.case.schema_network:NetworkCase",
+        check="moyai.case.check_network:check",
+        build="moyai.case.build_network:build_problem",
+        derived="moyai.case.derived_network:derived_numbers",
+        run="moyai.network.analysis:run",
+    ),
     "member": Structure(
         schema="moyai.case.schema_member:MemberCase",
         check="moyai.case.check_member:check",

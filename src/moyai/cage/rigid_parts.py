@@ -1,0 +1,327 @@
+"""The parts of a rigid cage: spherical floats, net in patches, rods, weights, and the body that they make together."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.morison.net_law import Net, NetLaw
+
+Array = NDArray[np.float64]
+
+
+def _points(values: object, name: str) -> Array:
+    array = np.array(values, dtype=float).reshape(-1, 3)
+    if not np.isfinite(array).all():
+        raise InputError(f"{name} holds a value that is not finite", path=name)
+    array.setflags(write=False)
+    return array
+
+
+def _not_negative(owner: object, *names: str) -> None:
+    for name in names:
+        value = getattr(owner, name)
+        if not (math.isfinite(value) and value >= 0.0):
+            raise InputError(f"{name} is {value:g}", path=name, allowed="at least 0")
+
+
+@dataclass(frozen=True, eq=False)
+class Floats:
+    """Equal spheres.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Centres from the middle of the cage [m].
+    diameter, mass : float
+        Of one sphere [m], [kg].
+    drag, added_mass : float
+        C_d on the disc of the sphere, C_a on its volume [-].
+    """
+
+    points: Array
+    diameter: float
+    mass: float
+    drag: float
+    added_mass: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", _points(self.points, "floats"))
+        _not_negative(self, "mass", "drag", "added_mass")
+        if not (math.isfinite(self.diameter) and self.diameter > 0.0):
+            raise InputError(f"diameter is {self.diameter:g} m", path="floats.diameter", allowed="greater than 0 m")
+
+    @property
+    def volume(self) -> float:
+        """Volume of one sphere [m3]."""
+        return math.pi / 6.0 * self.diameter**3
+
+
+@dataclass(frozen=True, eq=False)
+class Patches:
+    """Small plane pieces of net.
+
+    Parameters
+    ----------
+    points, normals : ndarray, shape (n, 3)
+        Middles from the middle of the cage [m]; unit normals, either side.
+    areas : ndarray, shape (n,)
+        Outline areas [m2].
+    halves : ndarray, shape (n,)
+        Half extent in the panel along its line of steepest slope [m].
+    spread : ndarray, shape (n,)
+        Mean of (x^2 + z^2) over the patch about its own middle [m2].
+    """
+
+    points: Array
+    normals: Array
+    areas: Array
+    halves: Array
+    spread: Array
+
+    @property
+    def area(self) -> float:
+        """Outline area of all patches [m2]."""
+        return float(self.areas.sum())
+
+
+def join(parts: list[Patches]) -> Patches:
+    """Return all patches of several faces."""
+    if not parts:
+        none = np.zeros(0)
+        return Patches(np.zeros((0, 3)), np.zeros((0, 3)), none, none, none)
+    names = ("points", "normals", "areas", "halves", "spread")
+    return Patches(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+
+def rectangle(corner: object, first: object, second: object, count: int) -> Patches:
+    """Return a rectangular face cut into ``count`` x ``count`` equal patches.
+
+    Parameters
+    ----------
+    corner, first, second : array_like, shape (3,)
+        A corner and the two edges that leave it [m].
+    count : int
+        Patches along each edge.
+    """
+    origin, a, b = (np.asarray(item, dtype=float) for item in (corner, first, second))
+    share = (np.arange(count) + 0.5) / count
+    i, j = (item.reshape(-1) for item in np.meshgrid(share, share, indexing="ij"))
+    normal = np.cross(a, b)
+    area = float(np.linalg.norm(normal))
+    steep = max(abs(float(a[2])), abs(float(b[2])))
+    # a level face has no steepest line; its larger half edge serves when it tilts
+    half = 0.5 * (steep if steep > 1e-9 * math.sqrt(area) else max(np.linalg.norm(a), np.linalg.norm(b))) / count
+    spread = (a[0] ** 2 + a[2] ** 2 + b[0] ** 2 + b[2] ** 2) / (12.0 * count**2)
+    size = count * count
+    return Patches(
+        origin + i[:, None] * a + j[:, None] * b,
+        np.tile(normal / area, (size, 1)),
+        np.full(size, area / size),
+        np.full(size, float(half)),
+        np.full(size, float(spread)),
+    )
+
+
+def cylinder_wall(radius: float, low: float, high: float, count: int) -> Patches:
+    """Return an upright cylindrical wall in ``4 count`` x ``count`` patches between two heights [m]."""
+    around, rows = 4 * count, count
+    angle = (np.arange(around) + 0.5) * 2.0 * math.pi / around
+    height = (high - low) / rows
+    level = low + (np.arange(rows) + 0.5) * height
+    a, z = (item.reshape(-1) for item in np.meshgrid(angle, level, indexing="ij"))
+    half_arc = math.pi / around
+    # the middle of mass of an arc lies inside its radius; kept on the mean square so that the inertia is exact
+    reach = radius * math.sin(half_arc) / half_arc
+    normals = np.column_stack([np.cos(a), np.sin(a), np.zeros(a.size)])
+    points = np.column_stack([reach * np.cos(a), reach * np.sin(a), z])
+    mean_square = radius**2 * (0.5 + np.cos(2.0 * a) * math.sin(2.0 * half_arc) / (4.0 * half_arc))
+    spread = mean_square - points[:, 0] ** 2 + height**2 / 12.0
+    area = 2.0 * math.pi * radius * (high - low) / (around * rows)
+    return Patches(points, normals, np.full(a.size, area), np.full(a.size, 0.5 * height), spread)
+
+
+def disc(radius: float, level: float, count: int) -> Patches:
+    """Return a level disc in ``4 count`` sectors of ``count`` rings of equal width [m]."""
+    around = 4 * count
+    edges = radius * np.arange(count + 1) / count
+    angle = (np.arange(around) + 0.5) * 2.0 * math.pi / around
+    half = math.pi / around
+    points, areas, halves, spread = [], [], [], []
+    for inner, outer in itertools.pairwise(edges):
+        area = half * (outer**2 - inner**2)
+        reach = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2) * math.sin(half) / half
+        square = 0.25 * (outer**4 - inner**4) * (half + 0.5 * np.cos(2.0 * angle) * math.sin(2.0 * half)) / area
+        for n, a in enumerate(angle):
+            points.append((reach * math.cos(a), reach * math.sin(a), level))
+            areas.append(area)
+            halves.append(0.5 * (outer - inner))
+            spread.append(square[n] - (reach * math.cos(a)) ** 2)
+    normals = np.tile([0.0, 0.0, 1.0], (len(points), 1))
+    return Patches(np.array(points), normals, np.array(areas), np.array(halves), np.array(spread))
+
+
+@dataclass(frozen=True)
+class Rod:
+    """A round rod.
+
+    Parameters
+    ----------
+    start, end : tuple of three float
+        From the middle of the cage [m].
+    diameter, mass : float
+        [m], [kg].
+    """
+
+    start: tuple[float, float, float]
+    end: tuple[float, float, float]
+    diameter: float
+    mass: float
+
+    @property
+    def length(self) -> float:
+        """[m]."""
+        return math.dist(self.start, self.end)
+
+    @property
+    def volume(self) -> float:
+        """[m3]."""
+        return 0.25 * math.pi * self.diameter**2 * self.length
+
+
+@dataclass(frozen=True)
+class PointWeight:
+    """A weight (or buoy, where it displaces more) at a point: place from the middle [m], mass [kg], volume [m3]."""
+
+    name: str
+    point: tuple[float, float, float]
+    mass: float
+    volume: float
+
+
+@dataclass(frozen=True, eq=False)
+class RigidCage:
+    """A rigid cage, symmetric about the plane y = 0.
+
+    Parameters
+    ----------
+    floats : Floats
+    patches : Patches
+        Its net.
+    net : Net
+        Twine and mesh.
+    law : NetLaw
+        Drag of the net.
+    net_mass, net_volume : float
+        Mass and solid volume per outline area [kg/m2], [m].
+    net_added_mass : float
+        C_a of twine [-].
+    rods : tuple of Rod
+    rod_drag, rod_added_mass : float
+        [-].
+    weights : tuple of PointWeight
+    extent : tuple of float
+        Length along x, width and height, for drawings and attachment points [m].
+    outline : str
+        ``box`` or ``cylinder``.
+
+    Raises
+    ------
+    InputError
+        When parts lie aside of the plane of symmetry or masses are not positive.
+    """
+
+    floats: Floats
+    patches: Patches
+    net: Net
+    law: NetLaw
+    net_mass: float
+    net_volume: float
+    net_added_mass: float
+    rods: tuple[Rod, ...]
+    rod_drag: float
+    rod_added_mass: float
+    extent: tuple[float, float, float]
+    weights: tuple[PointWeight, ...] = ()
+    outline: str = "box"
+    frame_mass: float = field(default=0.0)
+
+    def __post_init__(self) -> None:
+        _not_negative(self, "net_mass", "net_volume", "net_added_mass", "rod_drag", "rod_added_mass")
+        if not self.mass > 0.0:
+            raise InputError("the cage has no mass", path="mass", allowed="greater than 0 kg")
+
+    @cached_property
+    def _masses(self) -> tuple[Array, Array, Array]:
+        """Mass, middle and own mean square (x, z) of every part."""
+        mass, middle, own = [], [], []
+        size = len(self.floats.points)
+        mass.append(np.full(size, self.floats.mass))
+        middle.append(self.floats.points)
+        own.append(np.full(size, 0.1 * self.floats.diameter**2))  # 2/5 R^2 of a solid sphere about its diameter
+        mass.append(self.net_mass * self.patches.areas)
+        middle.append(self.patches.points)
+        own.append(self.patches.spread)
+        for rod in self.rods:
+            a, b = np.array(rod.start), np.array(rod.end)
+            along = (b - a) ** 2
+            mass.append(np.array([rod.mass]))
+            middle.append(0.5 * (a + b)[None, :])
+            own.append(np.array([(along[0] + along[2]) / 12.0 + rod.diameter**2 / 16.0]))
+        for weight in self.weights:
+            mass.append(np.array([weight.mass]))
+            middle.append(np.array([weight.point]))
+            own.append(np.zeros(1))
+        return np.concatenate(mass), np.concatenate(middle), np.concatenate(own)
+
+    @property
+    def mass(self) -> float:
+        """Dry mass [kg]."""
+        return float(self._masses[0].sum())
+
+    @cached_property
+    def centre(self) -> tuple[float, float]:
+        """Centre of gravity x, z from the middle of the cage [m]."""
+        mass, middle, _ = self._masses
+        x, z = (mass @ middle[:, [0, 2]]) / mass.sum()
+        return float(x), float(z)
+
+    @cached_property
+    def inertia(self) -> float:
+        """Moment of inertia about the y axis through the centre of gravity [kg m2]."""
+        mass, middle, own = self._masses
+        x, z = self.centre
+        return float(mass @ ((middle[:, 0] - x) ** 2 + (middle[:, 2] - z) ** 2 + own))
+
+    @property
+    def solid_volume(self) -> float:
+        """Volume of net, rods and weights, floats left out [m3]."""
+        rods = sum(rod.volume for rod in self.rods)
+        return self.net_volume * self.patches.area + rods + sum(weight.volume for weight in self.weights)
+
+    @property
+    def float_volume(self) -> float:
+        """Volume of all floats [m3]."""
+        return self.floats.volume * len(self.floats.points)
+
+    @property
+    def enclosed_volume(self) -> float:
+        """Volume that the nets enclose [m3]."""
+        length, width, height = self.extent
+        return length * width * height * (1.0 if self.outline == "box" else 0.25 * math.pi)
+
+    @property
+    def mass_without_floats(self) -> float:
+        """Mass of net, frame and weights [kg]."""
+        return self.mass - self.floats.mass * len(self.floats.points)
+
+    def attachment(self, where: str, side: float) -> tuple[float, float]:
+        """Return a point of the cage: ``top``, ``middle`` or ``bottom`` of the side at +x (side 1) or -x (-1) [m]."""
+        level = {"top": 0.5, "middle": 0.0, "bottom": -0.5}[where]
+        return side * 0.5 * self.extent[0], level * self.extent[2]

@@ -1,0 +1,85 @@
+"""Names, units and meanings of everything that a run of a rigid cage writes; the one file that owns them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# name: (units, long name)
+VARIABLES: dict[str, tuple[str, str]] = {
+    "mass": ("kg", "mass in air"),
+    "mass_without_floats": ("kg", "mass in air of net, frame and weights"),
+    "solid_volume": ("m3", "solid volume of net, frame and weights"),
+    "float_volume": ("m3", "volume of all floats"),
+    "enclosed_volume": ("m3", "volume that the nets enclose"),
+    "centre_of_gravity_x": ("m", "centre of gravity from the middle of the cage, along x"),
+    "centre_of_gravity_z": ("m", "centre of gravity above the middle of the cage"),
+    "inertia": ("kg m2", "moment of inertia about the axis across the waves through the centre of gravity"),
+    "submerged_weight": ("N", "weight in water of net, frame and weights"),
+    "reserve_buoyancy": ("N", "what the floats carry beyond the whole cage under water"),
+    "net_area": ("m2", "outline area of the net"),
+    "solidity": ("1", "geometric solidity of the net"),
+    "solidity_listed": ("1", "listed solidity of the net"),
+    "outline_x": ("m", "section of the cage from its middle, along x"),
+    "outline_z": ("m", "section of the cage from its middle, upwards"),
+    "float_x": ("m", "float from the middle of the cage, along x"),
+    "float_z": ("m", "float above the middle of the cage"),
+    "float_diameter": ("m", "diameter of a float"),
+    "rest_x": ("m", "middle of the cage at rest, x"),
+    "rest_z": ("m", "middle of the cage at rest above still water"),
+    "rest_roll": ("rad", "rotation at rest"),
+    "immersion": ("1", "share of the floats' volume under water"),
+    "residual": ("1", "largest unbalanced force over the weight in air"),
+    "tension_at_rest": ("N", "tension at rest, at the cage"),
+    "line_length": ("m", "unstretched length of the line"),
+    "line_stiffness": ("N/m", "stiffness of line and gauge"),
+    "attachment_x": ("m", "where the line meets the cage, from its middle, along x"),
+    "attachment_z": ("m", "where the line meets the cage, above its middle"),
+    "anchor_x": ("m", "anchor, x"),
+    "anchor_z": ("m", "anchor above still water"),
+    "line_submerged_weight": ("N/m", "weight of the line in water"),
+    "breaking_load": ("N", "breaking load of the line"),
+    "stiffness": ("N/m", "stiffness at rest, rotation in N and N m/rad"),
+    "natural_period": ("s", "undamped natural period at rest, added mass included"),
+    "natural_shape": ("1", "shape of the natural mode: sway and heave over the size of the cage, rotation in rad"),
+    "wave_height": ("m", "wave height H, or significant height"),
+    "period": ("s", "wave period T, or peak period"),
+    "wavelength": ("m", "wave length L"),
+    "orbit_ratio": ("1", "horizontal over vertical axis of the water's orbit at the surface, coth kh"),
+    "range": ("m", "mean range of the motion from crest to trough (roll in rad)"),
+    "largest_range": ("m", "largest range within a wave period (roll in rad)"),
+    "range_ratio": ("1", "mean range over the wave height (sway, heave)"),
+    "mean": ("m", "mean of the motion from rest (roll in rad)"),
+    "maximum": ("m", "largest value from rest (roll in rad)"),
+    "minimum": ("m", "smallest value from rest (roll in rad)"),
+    "deviation": ("m", "standard deviation of the motion (roll in rad)"),
+    "first_harmonic": ("m", "amplitude of the first harmonic (roll in rad)"),
+    "first_phase": ("rad", "phase of the first harmonic after the crest at x = 0"),
+    "drift_velocity": ("m/s", "mean velocity of the cage along x"),
+    "minimum_tension": ("N", "smallest tension"),
+    "mean_tension": ("N", "mean tension"),
+    "peak_tension": ("N", "largest tension"),
+    "mean_peak_tension": ("N", "mean of the largest tension in each wave period"),
+    "slack_share": ("1", "share of the time that the line is slack"),
+    "steps_per_period": ("1", "time steps in a wave period"),
+    "time": ("s", "time"),
+    "surface_elevation": ("m", "surface at x = 0"),
+    "sway": ("m", "centre of gravity from rest, along x"),
+    "heave": ("m", "centre of gravity from rest, upwards"),
+    "roll": ("rad", "rotation from rest, positive with the top towards +x"),
+    "tension": ("N", "tension of the line at either end"),
+    "tension_peak": ("N", "largest tension around the row, at the cage"),
+    "varied_stiffness": ("N/m", "stiffness of the lines"),
+}
+
+
+def labelled(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
+    out = dataset.copy()
+    for name in list(out.variables):
+        entry = VARIABLES.get(str(name))
+        if entry is not None:
+            out[name].attrs = {"units": entry[0], "long_name": entry[1], **out[name].attrs}
+    return out
