@@ -19,6 +19,7 @@ LEVELS = {
     "coupled": 4,
     "breakwater": 5,
     "curtain": 5,
+    "network": 5,
     "cage": 5,
     "member": 5,
     "measure": 5,

@@ -1,0 +1,268 @@
+"""Checks of a network case: names, motions over the run, the network itself, seas, what a run would cost."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from moyai.case import schema_network_parts as parts
+from moyai.case.check_sea import check_file, check_surroundings, check_waves
+from moyai.case.faults import did_you_mean
+from moyai.case.findings import Findings, duplicates
+from moyai.case.schema_network import NetworkCase
+from moyai.core.errors import InputError
+
+if TYPE_CHECKING:
+    from moyai.network.model import NetworkProblem
+
+#: Nodes with which a case still answers in a sitting, and rows of results that a run may reasonably have.
+_MANY_NODES, _MANY_ROWS = 20_000, 2_000_000
+
+
+def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
+    """Record every fault and warning of a network case in ``findings``."""
+    check_surroundings(model, findings, folder)
+    _check_names(model, findings)
+    _check_lines(model, findings)
+    _check_nets(model, findings)
+    _check_files(model, findings, folder)
+    _check_settings(model, findings, folder)
+    if not findings.sound("site", "waves", "structure", "current", "settings"):
+        return
+    from moyai.case.build_network import build_problem
+    from moyai.network.assembly import assemble
+
+    try:
+        problem = build_problem(model, folder)
+        for _, level in problem.environment.water_levels:
+            assemble(problem, level)
+    except InputError as error:
+        _raised(error, findings)
+        return
+    check_waves(model, problem.environment, findings, lambda *_: None)
+    _check_runs(problem, findings)
+    _check_places(model, problem, findings)
+
+
+def _raised(error: InputError, findings: Findings) -> None:
+    """Record an error of the room that builds networks, at the point or line that it names."""
+    fault = error.fault
+    known: Any = findings.document.values
+    for kind in ("points", "lines", "nets"):
+        for path in list(known):
+            if len(path) == 3 and path[:2] == ("structure", kind) and f"'{path[2]}'" in fault.message:
+                findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+                return
+    path = findings.path_of(fault.path) or _longest(fault.path, findings)
+    findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+
+
+def _longest(text: str, findings: Findings) -> tuple[str | int, ...]:
+    """Return the longest path of the document that a dotted text begins with; names may hold dots and blanks."""
+    best: tuple[str | int, ...] = ("structure",)
+    for path in findings.document.values:
+        words = ".".join(str(step) for step in path)
+        if (text == words or text.startswith((words + ".", words + "["))) and len(path) > len(best):
+            best = path
+    return best
+
+
+def _check_names(model: NetworkCase, findings: Findings) -> None:
+    unit = model.structure
+    for group in ("points", "lines", "nets"):
+        for name in getattr(unit, group):
+            if any(letter in name for letter in "[],"):
+                findings.fault(
+                    ("structure", group, name), f"'{name}' holds a bracket or comma, which knots of nets are named by",
+                    remedy="use letters, digits and blanks",
+                )  # fmt: skip
+    both = [name for name in unit.lines if name in unit.nets]
+    for name in both:
+        findings.fault(("structure", "nets", name), f"a line is called '{name}' too", remedy="rename one")
+    moved: list[tuple[tuple[str, ...], str | None]] = [
+        (("structure", "points", name, "motion"), point.motion)
+        for name, point in unit.points.items()
+        if isinstance(point, parts.DrivenPoint)
+    ]
+    moved += [(("structure", "nets", name, "motion"), net.motion) for name, net in unit.nets.items()]
+    for path, motion in moved:
+        if motion is not None and motion not in unit.motions:
+            findings.fault(
+                path, f"there is no motion '{motion}'", allowed=", ".join(unit.motions) or "a name in 'motions'",
+                remedy=did_you_mean(motion, unit.motions),
+            )  # fmt: skip
+    for name, net in unit.nets.items():
+        if net.motion is not None and net.first_row != "driven":
+            findings.fault(
+                ("structure", "nets", name, "motion"), f"the first row is {net.first_row} and follows no motion",
+                remedy="set first_row: driven",
+            )  # fmt: skip
+    used = {motion for _, motion in moved}
+    for name in unit.motions:
+        if name not in used:
+            findings.warn(("structure", "motions", name), f"no point follows the motion '{name}'")
+    every = [part for line in unit.lines.values() for part in line.parts or ()]
+    types = {part.type for part in every if isinstance(part, parts.LinePart)}
+    types |= {line.type for line in unit.lines.values() if line.type is not None}
+    types |= {net.type for net in unit.nets.values() if net.type is not None}
+    for name in unit.line_types:
+        if name not in types:
+            findings.warn(("structure", "line_types", name), f"no line is made of '{name}'")
+
+
+def _check_lines(model: NetworkCase, findings: Findings) -> None:
+    unit = model.structure
+    knots = {f"{name}[{i},{j}]" for name, net in unit.nets.items() for i in range(net.rows) for j in range(net.columns)}
+    for name, line in unit.lines.items():
+        for key in ("start", "end"):
+            point = getattr(line, key)
+            if point not in unit.points and point not in knots:
+                findings.fault(
+                    ("structure", "lines", name, key), f"there is no point '{point}'",
+                    allowed=", ".join(list(unit.points)[:12]) or "a name in 'points'",
+                    remedy=did_you_mean(point, unit.points),
+                )  # fmt: skip
+        if line.start == line.end:
+            findings.fault(("structure", "lines", name, "end"), f"the line starts and ends at '{line.end}'")
+        named = [(("structure", "lines", name, "type"), line.type)] if line.type is not None else []
+        named += [
+            (("structure", "lines", name, "parts", index, "type"), part.type)  # type: ignore[misc]
+            for index, part in enumerate(line.parts or ())
+            if isinstance(part, parts.LinePart)
+        ]
+        for path, kind in named:
+            if kind not in unit.line_types:
+                findings.fault(
+                    path, f"there is no line type '{kind}'",
+                    allowed=", ".join(unit.line_types) or "a name in 'line_types'",
+                    remedy=did_you_mean(str(kind), unit.line_types),
+                )  # fmt: skip
+        if line.type is not None:
+            for key in ("length", "segments"):
+                if getattr(line, key) is None:
+                    findings.fault(
+                        ("structure", "lines", name), f"'{key}' is missing",
+                        remedy="a line of one type has a length and a number of segments",
+                    )  # fmt: skip
+        for key in ("length", "segments"):
+            if line.parts is not None and getattr(line, key) is not None:
+                findings.fault(
+                    ("structure", "lines", name, key), f"'{key}' and 'parts' exclude each other", remedy="remove it"
+                )
+
+
+def _check_nets(model: NetworkCase, findings: Findings) -> None:
+    unit = model.structure
+    for name, net in unit.nets.items():
+        path = ("structure", "nets", name)
+        if net.type is not None and net.type not in unit.line_types:
+            findings.fault(
+                (*path, "type"), f"there is no line type '{net.type}'",
+                allowed=", ".join(unit.line_types) or "a name in 'line_types'",
+                remedy=did_you_mean(net.type, unit.line_types),
+            )  # fmt: skip
+        if net.twine is not None and net.twine.mesh_pitch <= net.twine.diameter:
+            findings.fault(
+                (*path, "twine", "mesh_pitch"),
+                f"meshes of {net.twine.mesh_pitch:g} m are closed by twines of {net.twine.diameter:g} m",
+                allowed="greater than the diameter",
+            )  # fmt: skip
+        for index in duplicates([repr(corner) for corner in net.corners]):
+            findings.fault((*path, "corners", index), "two corners stand at the same place", remedy="move one")
+
+
+def _check_files(model: NetworkCase, findings: Findings, folder: Path) -> None:
+    unit = model.structure
+    for name, motion in unit.motions.items():
+        if isinstance(motion, parts.TableMotion) and motion.file is not None:
+            check_file(("structure", "motions", name, "file"), motion.file, folder, findings)
+    for name, kind in unit.line_types.items():
+        if kind.curve is not None and kind.curve.file is not None:
+            check_file(("structure", "line_types", name, "curve", "file"), kind.curve.file, folder, findings)
+    if model.settings.resume is not None:
+        check_file(("settings", "resume"), model.settings.resume, folder, findings)
+
+
+def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> None:
+    settings = model.settings
+    if not isinstance(settings.water_levels, str):
+        for index, name in enumerate(settings.water_levels):
+            if name not in model.site.water_levels:
+                findings.fault(
+                    ("settings", "water_levels", index), f"there is no water level '{name}'",
+                    allowed=", ".join(model.site.water_levels), remedy=did_you_mean(name, model.site.water_levels),
+                )  # fmt: skip
+        for index in duplicates(settings.water_levels):
+            findings.fault(("settings", "water_levels", index), "it stands twice", remedy="remove one")
+    if settings.wave_front and settings.method not in ("auto", "explicit"):
+        findings.fault(("settings", "wave_front"), "only explicit steps go at the pace of the wave",
+                       remedy="set method: explicit")  # fmt: skip
+    if settings.snap_threshold is not None and settings.snap_threshold < settings.slack_level:
+        findings.fault(("settings", "snap_threshold"), "the threshold of a snap lies under the slack level",
+                       allowed=f"at least {settings.slack_level:g} N")  # fmt: skip
+    if settings.start == "rest_in_current" and model.current is None:
+        findings.fault(("settings", "start"), "there is no current to rest in", remedy="give 'current', or start: rest")
+    if model.structure.bed is not None and math.isinf(model.site.water_depth):
+        findings.fault(("structure", "bed"), "a bed needs a finite water depth", remedy="remove 'bed'")
+    dynamic = "dynamic" in model.analyses
+    if model.waves and not dynamic:
+        findings.warn(("analyses",), "the waves are not used: they need the analysis 'dynamic'")
+    if settings.duration is not None and dynamic and settings.skip >= settings.duration:
+        findings.fault(("settings", "skip"), f"{settings.skip:g} s leave nothing of the run",
+                       allowed=f"less than {settings.duration:g} s")  # fmt: skip
+
+
+def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
+    """Make every run's water and motions once: a table may be short, a current may stop the waves."""
+    if "dynamic" not in problem.settings.analyses:
+        return
+    from moyai.network.runs import motions_of, run_plans
+
+    for _, level in problem.environment.water_levels:
+        try:
+            for plan in run_plans(problem, problem.environment.water_at(level)):
+                motions_of(problem, plan.duration)
+                if plan.duration / plan.output_step > _MANY_ROWS:
+                    findings.fault(
+                        ("settings", "output_step"),
+                        f"the run '{plan.name}' of {plan.duration:g} s would have "
+                        f"{plan.duration / plan.output_step:.3g} rows", 
+                        allowed=f"at most {_MANY_ROWS}", remedy="lengthen output_step",
+                    )  # fmt: skip
+        except InputError as error:
+            fault = error.fault
+            path = findings.path_of(fault.path)
+            path = path if path in findings.document.values else _longest(fault.path, findings)
+            if path == ("structure",):
+                path = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
+            findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+            return
+
+
+def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Findings) -> None:
+    """Warn of what is allowed and odd: lines over-stretched as built, free points in the air, nets of many nodes."""
+    import numpy as np
+
+    from moyai.network.assembly import assemble
+
+    _, level = problem.environment.water_levels[0]
+    assembly = assemble(problem, level)
+    network = assembly.network
+    for line in problem.lines:
+        strand = assembly.lines[line.name]
+        distance = float(np.linalg.norm(np.diff(network.nodes.position[strand.nodes[[0, -1]]], axis=0)))
+        strain = distance / line.length - 1.0
+        if strain > 0.2:
+            findings.warn(
+                ("structure", "lines", line.name),
+                f"its ends stand {distance:.4g} m apart, {100 * strain:.0f} % more than its length",
+                remedy="check the length and the places of its points",
+            )  # fmt: skip
+    if problem.bed is None and math.isfinite(problem.environment.water.depth):
+        lowest = float(network.nodes.position[:, 2].min())
+        if lowest < -problem.environment.water_at(level).depth * (1.0 - 1e-6):
+            findings.warn(("structure",), "there is no 'bed', and nodes reach the bed: they will sink into it",
+                          remedy="give structure.bed")  # fmt: skip
+    if len(network.nodes) > _MANY_NODES:
+        findings.warn(("structure",), f"{len(network.nodes)} nodes take long")
