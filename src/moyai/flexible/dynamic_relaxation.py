@@ -20,6 +20,8 @@ from moyai.flexible.statics import Equilibrium
 
 #: Steps between two evaluations of the loads of the water, and between two looks at the current and the surface.
 EVERY, CHUNK = 5, 500
+#: Part of the pseudo velocity kept in a step, from how many steps on: slack net may flutter without any damping.
+KEEP = ((0, 1.0), (8_000, 0.999), (20_000, 0.998), (35_000, 0.996))
 
 
 def relax_network(
@@ -74,6 +76,7 @@ def relax_network(
         taken, left, worst = relax(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             fluid, run._near_surface(), run.nets, run.sheets, level, mass, pace, CHUNK, EVERY, tolerance * reference,
+            next(keep for begin, keep in reversed(KEEP) if done >= begin),
         )  # fmt: skip
         done += taken
         reference = max(float(np.max(np.abs(packed.bar_row(kernel.PULL)), initial=0.0)), 1e-9)

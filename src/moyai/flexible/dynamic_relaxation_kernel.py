@@ -37,12 +37,14 @@ from moyai.flexible.sheet_kernel import sheet_forces
 @njit(cache=True, error_model="numpy")
 def relax(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, surface: bool,
-    nets: Any, sheets: Any, level: float, mass: Any, pace: Any, steps: int, every: int, goal: float,
+    nets: Any, sheets: Any, level: float, mass: Any, pace: Any, steps: int, every: int, goal: float, keep: float,
 ) -> tuple[int, float, int]:  # fmt: skip
     """Move the nodes towards rest; return the steps taken, the largest force left and its node.
 
     ``mass`` (n) is chosen so that a pseudo step of 1 is stable [eq:cage-relaxation]; ``pace`` (3, n) keeps the pseudo
     velocities from call to call. Loads are taken anew every ``every`` steps. Ends when no force exceeds ``goal``.
+    ``keep`` is the part of its pseudo velocity that a node keeps in a step: below 1 it calms slack net that flutters
+    in its own lift.
     """
     count, nodes = sizes[0], mass.size
     panels, screen, rings, moments = nets
@@ -77,7 +79,7 @@ def relax(
                     force += max(A[STIFF + i] * (level - A[Z + i]), 0.0)
                 force *= free
                 part += force * force
-                pace[axis, i] += force / mass[i]
+                pace[axis, i] = keep * pace[axis, i] + force / mass[i]
                 now += mass[i] * pace[axis, i] * pace[axis, i]
             if not part <= left:
                 left, worst = part, i

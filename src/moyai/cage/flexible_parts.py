@@ -1,0 +1,147 @@
+"""Which nodes, bars and panels of a network belong to which part of a cage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.flexible.network import Network
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class CageParts:
+    """One cage in the network.
+
+    Parameters
+    ----------
+    name : str
+    centre : tuple of float
+        Where its middle stands as built (x, y) [m].
+    wall : ndarray of int, shape (down + 1, around)
+        Nodes of the wall, the first row on the collar.
+    bottom : tuple of ndarray of int
+        Rings of nodes of the bottom inside its rim.
+    hub : int
+        Node in the middle of the bottom; -1 without bottom net.
+    collar : tuple of ndarray of int
+        Nodes of the collar's rings, the inner first.
+    collar_bars : tuple of ndarray of int
+        Bars of each ring; bar k goes from node k to the next. Empty for a collar that is held.
+    ring_bars : ndarray of int
+        Bars of the sinker tube.
+    wall_panels, bottom_panels : ndarray of int
+        Panels.
+    net_bars : ndarray of int
+        Bars of grouped twines.
+    corners : ndarray of int, shape (p, 4)
+        Corners of its panels.
+    rest_volume : float
+        Inside the net as built [m3].
+    """
+
+    name: str
+    centre: tuple[float, float]
+    wall: IntArray
+    bottom: tuple[IntArray, ...]
+    hub: int
+    collar: tuple[IntArray, ...]
+    collar_bars: tuple[IntArray, ...]
+    ring_bars: IntArray
+    wall_panels: IntArray
+    bottom_panels: IntArray
+    net_bars: IntArray
+    corners: IntArray
+    rest_volume: float
+
+    def volume(self, position: Array) -> Array:
+        """Return the volume inside the net [m3] at places of all nodes (..., n, 3) [eq:cage-volume]."""
+        return enclosed_volume(self.corners, self.wall[0], self.wall[-1] if self.hub < 0 else None, position)
+
+    @property
+    def net_nodes(self) -> IntArray:
+        """All nodes of the net."""
+        hub = np.array([self.hub] if self.hub >= 0 else [], dtype=np.int64)
+        return np.concatenate([self.wall.ravel(), *(ring.ravel() for ring in self.bottom), hub]).astype(np.int64)
+
+
+@dataclass(frozen=True)
+class LinePart:
+    """One rope or line.
+
+    Parameters
+    ----------
+    name, kind : str
+        Kind: ``anchor``, ``bridle``, ``frame`` or ``buoy``.
+    strand : int
+        Index into the strands of the network, from the anchor, frame corner or lower end upwards.
+    breaking_load : float
+        The smallest of its segments [N].
+    """
+
+    name: str
+    kind: str
+    strand: int
+    breaking_load: float
+
+
+@dataclass(frozen=True, eq=False)
+class CageNetwork:
+    """A cage, or several, as a network.
+
+    Parameters
+    ----------
+    network : Network
+    cages : tuple of CageParts
+    lines : tuple of LinePart
+    anchors : ndarray of int
+        Nodes of the anchors.
+    buoys, sinkers : ndarray of int
+        Nodes.
+    """
+
+    network: Network
+    cages: tuple[CageParts, ...]
+    lines: tuple[LinePart, ...]
+    anchors: IntArray
+    buoys: IntArray
+    sinkers: IntArray
+
+
+def _six(p: Array, q: Array, r: Array) -> Array:
+    """Return six times the volume between the origin and triangles, summed over them."""
+    return np.asarray(np.sum(np.cross(p, q) * r, axis=(-2, -1)))
+
+
+def _fan(ring: Array) -> Array:
+    """Return six times the volume between the origin and a ring closed by its mean point, (..., k, 3) -> (...)."""
+    return _six(ring, np.roll(ring, -1, axis=-2), np.broadcast_to(ring.mean(axis=-2, keepdims=True), ring.shape))
+
+
+def enclosed_volume(corners: IntArray, top: IntArray, rim: IntArray | None, position: Array) -> Array:
+    """Return the volume between the collar's plane and the panels of a net [m3] [eq:cage-volume].
+
+    Parameters
+    ----------
+    corners : ndarray of int, shape (p, 4)
+        Panels, all turned the same way; a quad counts as the mean of its two foldings.
+    top : ndarray of int
+        Knots of the collar, closed by a fan to their mean point.
+    rim : ndarray of int, optional
+        Lower rim of a net without bottom, closed alike.
+    position : ndarray, shape (..., n, 3)
+    """
+    base = position[..., top, :].mean(axis=-2, keepdims=True)
+    quad, flat = corners[corners[:, 3] >= 0], corners[corners[:, 3] < 0]
+    a, b, c, d = (position[..., quad[:, k], :] - base for k in range(4))
+    six = 0.5 * (_six(a, b, c) + _six(a, c, d) + _six(a, b, d) + _six(b, c, d))
+    if len(flat):
+        six = six + _six(*(position[..., flat[:, k], :] - base for k in range(3)))
+    six = six + _fan(position[..., top, :] - base)
+    if rim is not None:
+        six = six - _fan(position[..., rim, :] - base)
+    return np.asarray(np.abs(six) / 6.0)
