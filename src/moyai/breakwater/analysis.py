@@ -184,16 +184,24 @@ def _time_steps(
     collected.notices.extend(memory.notices)
     collected.groups[f"{root}/memory"] = memory.dataset
     histories: list[xr.Dataset] = []
+    current = problem.environment.current
     yield
     for sea in problem.environment.sea_states:
         frequency = collected.groups[f"{root}/frequency/{sea.name}"]
         if isinstance(sea, RegularSea):
-            answer = time_regular.regular_sea(model, memory, sea, frequency, problem.settings.time, progress)
+            answer = time_regular.regular_sea(model, memory, sea, frequency, problem.settings.time, progress, current)
         else:
-            answer = time_irregular.irregular_sea(model, memory, sea, frequency, problem.settings.time, progress)
+            answer = time_irregular.irregular_sea(
+                model, memory, sea, frequency, problem.settings.time, progress, current
+            )
         collected.groups[f"{root}/time/{sea.name}"] = answer.dataset
         for one in answer.runs:
             collected.groups[f"{root}/time/{sea.name}/{one.name}"] = one.dataset(unit)
+            if one.lines is not None:
+                collected.groups[f"{root}/time/{sea.name}/{one.name}/contacts"] = one.lines.snap_table(unit)
+                collected.checks.extend(
+                    replace(check, name=f"{check.name} ({sea.name}, {one.name})") for check in one.lines.checks
+                )
         collected.notices.extend(answer.notices)
         collected.notices.extend(strength_notices(f"{unit.name}, {sea.name}, time domain", answer.dataset))
         histories.extend(collected.groups[f"{root}/time/{sea.name}/{one.name}"] for one in answer.runs)

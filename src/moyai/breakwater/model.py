@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
 from moyai.sea.environment import Environment as Environment
@@ -71,6 +72,12 @@ class MooringLine:
         Coulomb coefficient of the line on the bed.
     drag_width : float
         Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out.
+    dynamic : bool
+        Whether the line is in motion in the time domain, with drag, inertia and slack.
+    bar_types : tuple of BarType
+        What each segment is made of, for a line in motion; its internal damping is chosen later.
+    clump_bodies : tuple of (float, float)
+        Mass [kg] and volume [m3] of each clump, for a line in motion.
     """
 
     name: str
@@ -81,6 +88,9 @@ class MooringLine:
     clumps: tuple[Clump, ...] = ()
     bed_friction: float = 0.0
     drag_width: float = 0.0
+    dynamic: bool = False
+    bar_types: tuple[BarType, ...] = ()
+    clump_bodies: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -153,6 +163,35 @@ class Breakwater:
 
 
 @dataclass(frozen=True)
+class LineDynamics:
+    """How lines in motion are cut and what the bed and the material take; ``None``: chosen from the line.
+
+    Parameters
+    ----------
+    bars : int
+        Straight bars that one line is cut into.
+    damping_ratio : float
+        Internal damping of a bar, BA = ratio times bar length times sqrt(EA m).
+    bed_stiffness, bed_damping : float or None
+        Of the bed per contact area [Pa/m], [Pa s/m].
+    slack_fraction : float
+        Tension over that at rest under which a line counts as slack.
+    snap_fraction : float
+        Peak over the tension at rest above which a contact counts as a snap.
+    sensitivity : bool
+        Whether every run is repeated with twice the bars, half the step and twice the internal damping.
+    """
+
+    bars: int = 30
+    damping_ratio: float = 0.1
+    bed_stiffness: float | None = None
+    bed_damping: float | None = None
+    slack_fraction: float = 0.05
+    snap_fraction: float = 3.0
+    sensitivity: bool = False
+
+
+@dataclass(frozen=True)
 class TimeSettings:
     """How the time domain is run; ``None`` means that the program chooses and says why.
 
@@ -167,6 +206,8 @@ class TimeSettings:
         Whole periods at the end that are analysed in regular waves.
     drift : {"ramped", "pulsating", "newman", "none"}
     memory : {"state_space", "convolution"}
+    lines : LineDynamics
+        For lines that are in motion.
     """
 
     duration: float | None = None
@@ -175,6 +216,7 @@ class TimeSettings:
     analysed_periods: int = 10
     drift: DriftLaw = "ramped"
     memory: Literal["state_space", "convolution"] = "state_space"
+    lines: LineDynamics = field(default_factory=LineDynamics)
 
 
 @dataclass(frozen=True)

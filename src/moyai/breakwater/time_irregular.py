@@ -18,7 +18,8 @@ from moyai.breakwater.responses import (
     anchor_uplift,
     snap_notices,
 )
-from moyai.breakwater.time_model import TimeResult, TimeRun, linear_damping, run_with_lines
+from moyai.breakwater.time_lines import lines_at_rest, motion_summary
+from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -34,6 +35,8 @@ from moyai.sea.statistics import zero_crossing
 if TYPE_CHECKING:
     import xarray as xr
 
+    from moyai.flexible.flow import Current
+
 Array = NDArray[np.float64]
 
 
@@ -44,6 +47,7 @@ def irregular_sea(
     frequency: xr.Dataset,
     settings: TimeSettings,
     progress: Progress = silent,
+    current: Current | None = None,
 ) -> TimeResult:
     """Simulate an irregular sea with slow drift and nonlinear lines, and take its statistics.
 
@@ -56,6 +60,8 @@ def irregular_sea(
         The same sea in the frequency domain, for the expected motions and the transmission.
     settings : TimeSettings
     progress : Progress
+    current : profile or None
+        Around lines in motion.
     """
 
     unit = model.unit
@@ -95,25 +101,27 @@ def irregular_sea(
     stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
     cummins = memory.model(model, linear_damping(model, added, stiffness))
     expected = np.asarray(frequency.most_probable_maximum_motion.values) + np.abs(offset)
-    simulation = run_with_lines(
-        model, cummins, forcing, expected, duration=sea.duration + ramp, time_step=settings.time_step, progress=progress
+    attributes = {"kind": "irregular", "seed": sea.seed, "ramp": ramp, "analysis_start": ramp}
+    around = SeaOfRun(components, current, ramp, ramp, 2.0 * math.pi / float(sea.spectrum.peak_omega))
+    run = run_with_lines(
+        "realisation", attributes, model, cummins, forcing, expected, settings, around, sea.duration + ramp, progress
     )
-    run = TimeRun(
-        "realisation", simulation, {"kind": "irregular", "seed": sea.seed, "ramp": ramp, "analysis_start": ramp}
-    )
+    simulation = run.simulation
     status = {"converged": "converged", "diverged": "not_converged", "interrupted": "interrupted"}[simulation.status]
     notices = list(simulation.notices)
     if simulation.status == "diverged":
         notices.append(Notice("diverged", f"{unit.name}, {sea.name}: {simulation.message}", severity="error"))
     applied = float(forcing.mean_drift()[0])
-    data = _irregular_summary(unit, simulation, sea, applied, ramp)
+    data = _irregular_summary(unit, run, sea, applied, ramp)
     # In oblique waves the memory is that of another problem than the operators: no transmission is combined from them
     if sea.spreading is None and sea.heading == 0.0 and "mean_offset" in data:
         data = data.assign(_transmission(model, simulation, sea, ramp))
     if "maximum_tension" in data:
         names = [line.name for line in unit.lines]
         where = f"{unit.name}, {sea.name}, time domain"
-        notices.extend(snap_notices(where, names, data.maximum_tension.values, data.mean_tension.values))
+        kept = lines_at_rest(unit)
+        names = [name for name, rests in zip(names, kept, strict=True) if rests]
+        notices.extend(snap_notices(where, names, data.maximum_tension.values[kept], data.mean_tension.values[kept]))
     data.attrs |= {
         "kind": "irregular",
         "heading": sea.heading,
@@ -171,10 +179,11 @@ def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, se
 
 
 def _irregular_summary(
-    unit: FloatingUnit, run: Simulation, sea: IrregularSea, drift_force: float, ramp: float
+    unit: FloatingUnit, whole: TimeRun, sea: IrregularSea, drift_force: float, ramp: float
 ) -> xr.Dataset:
     import xarray as xr
 
+    run = whole.simulation
     keep = run.time >= ramp
     position, tension = run.position[keep], run.tension[keep]
     out: dict = {}
@@ -186,12 +195,17 @@ def _irregular_summary(
             "maximum_excursion": ("dof", np.max(np.abs(position), axis=0)),
             "significant_motion": ("dof", _significant(run.time[keep], position)),
             "mean_tension": ("line", tension.mean(axis=0)),
-            "maximum_tension": ("line", tension.max(axis=0) if len(unit.lines) else np.zeros(0)),
+            "maximum_tension": ("line", whole.peaks[keep].max(axis=0) if len(unit.lines) else np.zeros(0)),
             "significant_tension": ("line", _significant(run.time[keep], tension)),
             "maximum_anchor_vertical_tension": ("line", anchor_uplift(unit, position, tension)),
             "mean_drift_force": ((), float(drift_force)),
             "significant_height": ((), 4.0 * float(np.std(run.elevation[keep]))),
         }
+        if whole.lines is not None:
+            found = motion_summary(unit, whole, keep, ramp)
+            uplift = np.where(lines_at_rest(unit), out["maximum_anchor_vertical_tension"][1], found["maximum_uplift"])
+            out |= {name: ("line", values) for name, values in found.items()}
+            out["maximum_anchor_vertical_tension"] = ("line", uplift)
         load = np.array([line.breaking_load for line in unit.lines])
         out["maximum_utilisation"] = ("line", np.where(np.isfinite(load), out["maximum_tension"][1] / load, np.nan))
     return xr.Dataset(out, coords={"dof": list(MODES), "line": [line.name for line in unit.lines]})

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import FrequencyModel
-from moyai.breakwater.model import MODES
+from moyai.breakwater.line_motion import LinesInMotion, has_dynamic_lines, run_on_lines
+from moyai.breakwater.model import MODES, MooringLine, TimeSettings
 from moyai.breakwater.variables import labelled
+from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
@@ -20,6 +22,9 @@ from moyai.floating.time import CumminsModel, Simulation, simulate
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from moyai.flexible.flow import Current
+    from moyai.sea.components import WaveComponents
 
 Array = NDArray[np.float64]
 
@@ -36,11 +41,17 @@ class TimeRun:
         Name of its group in the result.
     simulation : Simulation
     attributes : dict
+    lines : LinesInMotion or None
+        Of lines that are in motion.
+    at_rest : Simulation or None
+        The same with lines at rest at every instant, beside lines in motion.
     """
 
     name: str
     simulation: Simulation
     attributes: dict
+    lines: LinesInMotion | None = None
+    at_rest: Simulation | None = None
 
     def dataset(self, unit: FloatingUnit) -> xr.Dataset:
         """Return the time series, thinned to at most :data:`MOST_ROWS` rows."""
@@ -57,7 +68,36 @@ class TimeRun:
             coords={"time": run.time[::every], "dof": list(MODES), "line": [line.name for line in unit.lines]},
             attrs={**self.attributes, "time_step": run.time_step, "status": run.status, "message": run.message},
         )
+        if self.lines is not None:
+            data = data.assign(self.lines.variables(unit, every)).assign_coords(shape_time=self.lines.shape_time)
+            data.attrs |= {
+                "lines": "in motion",
+                "network_step": self.lines.network_step,
+                "network_nodes": self.lines.nodes_in_all,
+                "network_passes": self.lines.passes,
+            }
+        if self.at_rest is not None and len(self.at_rest.time) > 1:
+            data = data.assign(self._compared(data.time.values))
         return labelled(data)
+
+    def _compared(self, time: Array) -> dict:
+        """Return position and tension of the run with lines at rest, at the times of this run."""
+        other = self.at_rest
+        assert other is not None
+
+        def at(values: Array) -> Array:
+            columns = [np.interp(time, other.time, column, right=np.nan) for column in values.T]
+            return np.array(columns).T.reshape(len(time), -1)
+
+        return {
+            "position_lines_at_rest": (("time", "dof"), at(other.position)),
+            "tension_lines_at_rest": (("time", "line"), at(other.tension)),
+        }
+
+    @property
+    def peaks(self) -> Array:
+        """Tensions whose maxima count: the highest since the row before for lines in motion."""
+        return self.simulation.tension if self.lines is None else self.lines.peak
 
 
 @dataclass(frozen=True)
@@ -70,29 +110,81 @@ class TimeResult:
     status: str = "converged"
 
 
-def compiled_lines(unit: FloatingUnit, reach: Array) -> PlanarMooring | None:
+def compiled_lines(unit: FloatingUnit, reach: Array, *, at_rest_only: bool = False) -> PlanarMooring | None:
     """Prepare the lines of the unit for the time domain.
 
-    Tables serve within motions of ``reach`` [m, m, rad] about rest, the exact solver beyond.
+    Tables serve within motions of ``reach`` [m, m, rad] about rest, the exact solver beyond. ``at_rest_only`` leaves
+    out lines that are in motion.
     """
-    if not unit.lines:
+    system = unit.mooring.planar.system
+    if at_rest_only:
+        kept = [
+            line
+            for line, given in zip(unit.lines, unit.breakwater.lines, strict=True)
+            if not (isinstance(given, MooringLine) and given.dynamic)
+        ]
+        system = replace(system, lines=tuple(kept))
+    if not system.lines:
         return None
-    return PlanarMooring.of(unit.mooring.planar.system, rest=(0.0, 0.0, 0.0), centre=(0.0, 0.0), motion_range=reach)
+    return PlanarMooring.of(system, rest=(0.0, 0.0, 0.0), centre=(0.0, 0.0), motion_range=reach)
 
 
 def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -> Array:
     return np.asarray(model.damping.at(model.unit.inertia, added_mass, stiffness), dtype=float)
 
 
+@dataclass(frozen=True)
+class SeaOfRun:
+    """What a run needs to know of its sea beside the forces on the unit.
+
+    Parameters
+    ----------
+    waves : WaveComponents or None
+    current : profile or None
+    ramp, begin, period : float
+        Ramp, begin of the analysis, typical wave period [s].
+    """
+
+    waves: WaveComponents | None
+    current: Current | None
+    ramp: float
+    begin: float
+    period: float
+
+
 def run_with_lines(
-    model: FrequencyModel, cummins: CumminsModel, forcing: Forcing, expected: Array, **options: Any
-) -> Simulation:
-    """Simulate with line tables for twice the expected motion (at least a thousandth of the beam, or of a radian)."""
+    name: str,
+    attributes: dict,
+    model: FrequencyModel,
+    cummins: CumminsModel,
+    forcing: Forcing,
+    expected: Array,
+    settings: TimeSettings,
+    sea: SeaOfRun,
+    duration: float,
+    progress: Progress = silent,
+) -> TimeRun:
+    """Simulate with line tables for twice the expected motion (at least a thousandth of the beam, or of a radian).
+
+    Lines in motion are run in their own time; the run with all lines at rest is then made beside it, to compare.
+    """
     unit = model.unit
-    reach = np.maximum(2.0 * np.nan_to_num(expected), 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
-    return simulate(
+    expected = np.nan_to_num(expected)
+    reach = np.maximum(2.0 * expected, 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
+    simulation = simulate(
         replace(cummins, mooring=compiled_lines(unit, reach)),
         forcing,
-        expected_motion=np.nan_to_num(expected),
-        **options,
+        expected_motion=expected,
+        duration=duration,
+        time_step=settings.time_step,
+        progress=progress,
     )
+    if not has_dynamic_lines(unit) or simulation.status == "interrupted":
+        return TimeRun(name, simulation, attributes)
+    moving, lines = run_on_lines(
+        model, cummins, forcing, expected, settings.lines,
+        static_lines=compiled_lines(unit, reach, at_rest_only=True), waves=sea.waves, current=sea.current,
+        ramp=sea.ramp, duration=duration, time_step=settings.time_step, begin=sea.begin, period=sea.period,
+        progress=progress,
+    )  # fmt: skip
+    return TimeRun(name, moving, attributes, lines, simulation)

@@ -9,15 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import FrequencyModel, motion_ratio
 from moyai.breakwater.hydrodynamics import wavelengths
+from moyai.breakwater.line_motion import has_dynamic_lines
 from moyai.breakwater.memory_model import UnitMemory
 from moyai.breakwater.model import MODES, RegularSea, TimeSettings
 from moyai.breakwater.responses import (
     anchor_uplift,
     snap_notices,
 )
-from moyai.breakwater.time_model import TimeResult, TimeRun, linear_damping, run_with_lines
+from moyai.breakwater.time_lines import lines_at_rest, motion_names, motion_summary
+from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -28,9 +31,13 @@ from moyai.floating.harmonics import Harmonics, fit_harmonics
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
 from moyai.floating.time import CumminsModel, Simulation
+from moyai.sea.components import WaveComponents
+from moyai.sea.dispersion import wave_number
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from moyai.flexible.flow import Current
 
 Array = NDArray[np.float64]
 
@@ -49,6 +56,7 @@ def regular_sea(
     frequency: xr.Dataset,
     settings: TimeSettings,
     progress: Progress = silent,
+    current: Current | None = None,
 ) -> TimeResult:
     """Simulate each period of a regular sea and analyse its steady end, R and T combined as in P3.
 
@@ -61,6 +69,8 @@ def regular_sea(
         The same sea in the frequency domain: drift force, expected motions.
     settings : TimeSettings
     progress : Progress
+    current : profile or None
+        Around lines in motion.
     """
     import xarray as xr
 
@@ -79,6 +89,8 @@ def regular_sea(
         "dissipation",
     )
     rows: dict[str, list] = {name: [] for name in names}
+    motion = motion_names(settings.lines) if has_dynamic_lines(unit) else ()
+    rows |= {name: [] for name in motion}
     runs: list[TimeRun] = []
     notices: list[Notice] = []
     status = "converged"
@@ -86,14 +98,15 @@ def regular_sea(
         progress(f"time domain, {unit.name}, {sea.name}", index, len(periods))
         one = frequency.sel(period=period)
         try:
-            run, found = _one_period(model, memory, sea, float(period), one, settings, progress)
+            run, found = _one_period(model, memory, sea, float(period), one, settings, progress, current)
         except KeyboardInterrupt:
             status = "interrupted"
             break
         runs.append(run)
         notices.extend(found)
-        for name, value in _summary(model, run.simulation, sea, float(period), settings).items():
-            rows[name].append(value)
+        summary = _summary(model, run, sea, float(period), settings)
+        for name in names if not motion else (*names, *motion):
+            rows[name].append(summary[name])
         notices.extend(_steadiness(run.simulation, float(period), settings, f"{unit.name}, {sea.name}"))
         if run.simulation.status != "converged":
             status = "interrupted" if run.simulation.status == "interrupted" else "not_converged"
@@ -103,7 +116,7 @@ def regular_sea(
     done = periods[: len(rows["motion_amplitude"])]
     length = wavelengths(2.0 * math.pi / done, unit) if len(done) else done
     dims = {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"} | dict.fromkeys(
-        ("maximum_tension", "minimum_tension", "mean_tension", "maximum_anchor_vertical_tension"), "line"
+        ("maximum_tension", "minimum_tension", "mean_tension", "maximum_anchor_vertical_tension", *motion), "line"
     )
     out: dict = {
         name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
@@ -123,8 +136,14 @@ def regular_sea(
     if len(done):
         names_of_lines = [line.name for line in unit.lines]
         where = f"{unit.name}, {sea.name}, time domain"
+        kept = lines_at_rest(unit)
         notices.extend(
-            snap_notices(where, names_of_lines, np.array(rows["maximum_tension"]), np.array(rows["mean_tension"]))
+            snap_notices(
+                where,
+                [name for name, rests in zip(names_of_lines, kept, strict=True) if rests],
+                np.array(rows["maximum_tension"])[:, kept],
+                np.array(rows["mean_tension"])[:, kept],
+            )
         )
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
@@ -139,6 +158,7 @@ def _one_period(
     frequency: xr.Dataset,
     settings: TimeSettings,
     progress: Progress,
+    current: Current | None,
 ) -> tuple[TimeRun, tuple[Notice, ...]]:
     unit, omega = model.unit, 2.0 * math.pi / period
     hydro = model.hydro.at(np.array([omega]), sea.heading)
@@ -172,18 +192,26 @@ def _one_period(
         ramp=ramp,
     )
     expected = np.abs(frequency.motion_amplitude.values) + np.abs(frequency.mean_offset.values)
-    simulation = run_with_lines(
-        model, cummins, forcing, expected, duration=duration, time_step=settings.time_step, progress=progress
-    )
-    attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular"}
-    attributes["analysis_start"] = max(duration - window, 0.0)
+    begin = max(duration - window, 0.0)
+    attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular", "analysis_start": begin}
+    around = SeaOfRun(_wave_of(unit, sea, omega), current, ramp, begin, period)
+    name = f"T{period:.4g}".replace(".", "p")
+    run = run_with_lines(name, attributes, model, cummins, forcing, expected, settings, around, duration, progress)
+    simulation = run.simulation
     notices = simulation.notices
     if simulation.status == "diverged":
         notices = (
             *notices,
             Notice("diverged", f"{unit.name}, {sea.name}, T = {period:g} s: {simulation.message}", severity="error"),
         )
-    return TimeRun(f"T{period:.4g}".replace(".", "p"), simulation, attributes), notices
+    return run, notices
+
+
+def _wave_of(unit: FloatingUnit, sea: RegularSea, omega: float) -> WaveComponents:
+    number = wave_number(np.array([omega]), unit.water.depth, unit.water.gravity)
+    return WaveComponents(
+        np.array([omega]), np.array([0.5 * sea.height]), np.zeros(1), np.array([sea.heading]), number, unit.water
+    )
 
 
 def _settling_time(model: FrequencyModel, cummins: CumminsModel, hydro: Hydrodynamics, period: float) -> float:
@@ -201,10 +229,10 @@ def _harmonics(run: Simulation, period: float, settings: TimeSettings) -> Harmon
 
 
 def _summary(
-    model: FrequencyModel, run: Simulation, sea: RegularSea, period: float, settings: TimeSettings
+    model: FrequencyModel, whole: TimeRun, sea: RegularSea, period: float, settings: TimeSettings
 ) -> dict[str, Array]:
     """Return first harmonics, extremes, and R and T with these motions in the operators of the frequency domain."""
-    blank = np.full(3, np.nan)
+    run, blank = whole.simulation, np.full(3, np.nan)
     kinds = run.tension.shape[1]
     out = {
         "motion_amplitude": blank, "mean_offset": blank, "maximum_motion": blank,
@@ -213,6 +241,8 @@ def _summary(
         "transmission_coefficient": np.array(np.nan), "dissipation": np.array(np.nan),
         "maximum_anchor_vertical_tension": np.full(kinds, np.nan),
     }  # fmt: skip
+    if has_dynamic_lines(model.unit):
+        out |= {name: np.full(kinds, np.nan) for name in motion_names(settings.lines)}
     if run.status != "converged" or run.time[-1] < settings.analysed_periods * period:
         return out
     found = _harmonics(run, period, settings)
@@ -221,11 +251,16 @@ def _summary(
         "motion_amplitude": np.abs(found.first),
         "mean_offset": found.mean,
         "maximum_motion": np.max(np.abs(run.position[window]), axis=0),
-        "maximum_tension": run.tension[window].max(axis=0),
+        "maximum_tension": whole.peaks[window].max(axis=0),
         "minimum_tension": run.tension[window].min(axis=0),
         "mean_tension": run.tension[window].mean(axis=0),
         "maximum_anchor_vertical_tension": anchor_uplift(model.unit, run.position[window], run.tension[window]),
     }
+    if whole.lines is not None:
+        out |= motion_summary(model.unit, whole, window, float(run.time[window][0]))
+        out["maximum_anchor_vertical_tension"] = np.where(
+            lines_at_rest(model.unit), out["maximum_anchor_vertical_tension"], out["maximum_uplift"]
+        )
     hydro = model.hydro.at(np.array([2.0 * math.pi / period]), sea.heading)
     if hydro.has_far_field and sea.height > 0.0:
         far = far_field(hydro, found.first[None, None, :] / (0.5 * sea.height))

@@ -11,6 +11,7 @@ from moyai.breakwater.model import (
     BreakwaterProblem,
     CoefficientsFile,
     Damping,
+    LineDynamics,
     MeasuredPoints,
     MooringLine,
     MooringSpring,
@@ -23,6 +24,7 @@ from moyai.case.build_sea import environment_of
 from moyai.case.measured import read_points
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, LineEntry, OwnSegment, SpringLine
 from moyai.core.errors import InputError
+from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, LineType, Segment
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type
@@ -142,9 +144,64 @@ def line_of(entry: LineEntry, index: int, water: Water) -> MooringLine | Mooring
         else:
             segments.append(_segment(part, f"lines[{index}].segments[{number}]", number, entry, water))
     anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
-    return MooringLine(
-        entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction, entry.drag_width
+    materials = tuple(
+        bar_type_of(part, f"lines[{index}].segments[{number}]", entry, water)
+        for number, part in enumerate(entry.segments)
+        if not isinstance(part, ClumpEntry)
     )
+    bodies = tuple((part.clump.mass, part.clump.volume) for part in entry.segments if isinstance(part, ClumpEntry))
+    return MooringLine(
+        entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction, entry.drag_width,
+        entry.dynamic, tuple(kind for kind in materials if kind is not None), bodies,
+    )  # fmt: skip
+
+
+#: What a segment of its own must tell when its line is in motion.
+NEEDED_IN_MOTION = ("mass", "diameter", "drag_normal", "drag_tangential", "added_mass_normal")
+
+
+def bar_type_of(part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryLine, water: Water) -> BarType | None:
+    """Return what a segment of a line in motion is made of, without internal damping; ``None`` for a line at rest.
+
+    Raises
+    ------
+    InputError
+        For a segment that does not tell enough, cannot stretch, or floats more than its mass allows.
+    """
+    if not entry.dynamic:
+        return None
+    if isinstance(part, CatalogueSegment):
+        return BarType.from_properties(line_type(part.catalogue, part.diameter), viscosity=0.0)
+    missing = [name for name in NEEDED_IN_MOTION if getattr(part, name) is None]
+    if missing:
+        raise InputError(
+            f"line {entry.name!r} is in motion and a segment of it lacks {', '.join(missing)}",
+            path=f"{path}.{missing[0]}",
+            remedy="give " + " and ".join(missing) + ", or set dynamic: false",
+        )
+    if math.isinf(part.axial_stiffness):
+        raise InputError(
+            f"line {entry.name!r} is in motion and a segment of it cannot stretch",
+            path=f"{path}.axial_stiffness",
+            allowed="a finite stiffness",
+            remedy="give EA, or set dynamic: false",
+        )
+    mass = float(part.mass or 0.0)
+    weight = part.submerged_weight
+    if weight is None:
+        weight = float(part.submerged_mass or 0.0) * water.gravity
+    volume = (mass - weight / water.gravity) / water.density
+    if volume < 0.0:
+        raise InputError(
+            f"a segment of line {entry.name!r} weighs {weight / water.gravity:.4g} kg/m in water, {mass:.4g} kg/m in air",
+            path=f"{path}.mass",
+            allowed="more in air than in water",
+        )
+    return BarType(
+        part.name or entry.name, mass, part.axial_stiffness, float(part.diameter or 0.0), volume_per_length=volume,
+        drag_normal=float(part.drag_normal or 0.0), drag_tangential=float(part.drag_tangential or 0.0),
+        added_mass_normal=float(part.added_mass_normal or 0.0), added_mass_tangential=part.added_mass_tangential,
+    )  # fmt: skip
 
 
 def _segment(part: CatalogueSegment | OwnSegment, path: str, number: int, entry: CatenaryLine, water: Water) -> Segment:
@@ -173,7 +230,15 @@ def settings_of(model: schema.BreakwaterCase) -> Settings:
         drift=given.drift,
         frequencies=_values(given.frequencies),
         restoring_offsets=_values(given.restoring_offsets),
-        time=TimeSettings(time.duration, time.ramp, time.time_step, time.analysed_periods, time.drift, time.memory),
+        time=TimeSettings(
+            time.duration,
+            time.ramp,
+            time.time_step,
+            time.analysed_periods,
+            time.drift,
+            time.memory,
+            LineDynamics(**time.lines.model_dump()),
+        ),
         sensitivity=Sensitivity(
             given.sensitivity.damping_fractions, given.sensitivity.line_slacks, given.sensitivity.line_counts
         ),

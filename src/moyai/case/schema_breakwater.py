@@ -27,6 +27,7 @@ from moyai.case.schema_types import (
     NonNegativeNumber,
     OneOrMany,
     PositiveLength,
+    PositiveNumber,
     Range,
     RollDamping,
     RollQuadraticDamping,
@@ -180,6 +181,35 @@ def _form(value: Any) -> str:
     return "<range>" if isinstance(value, (dict, Range)) else "<list>"
 
 
+class LineDynamics(Block):
+    """How lines in motion are cut, what the bed takes, and what counts as slack and as snap."""
+
+    bars: Annotated[int, Field(strict=True, ge=4, le=2000)] = Field(
+        default=30, description="Straight bars that each line is cut into. Default: 30."
+    )
+    damping_ratio: NonNegativeNumber = Field(
+        default=0.1,
+        description="Internal damping BA of the material over bar length times sqrt(EA m), at this number of bars.",
+    )
+    bed_stiffness: PositiveNumber | None = Field(
+        default=None,
+        description="Stiffness of the bed per contact area, Pa/m. Default: the line sinks a tenth of its diameter.",
+    )
+    bed_damping: NonNegativeNumber | None = Field(
+        default=None, description="Normal damping of the bed per contact area, Pa s/m. Default: half of critical."
+    )
+    slack_fraction: NonNegativeNumber = Field(
+        default=0.05, description="Tension over that at rest under which a line counts as slack. Default: 0.05."
+    )
+    snap_fraction: PositiveNumber = Field(
+        default=3.0, description="Peak over the tension at rest from which a contact counts as a snap. Default: 3."
+    )
+    sensitivity: Truth = Field(
+        default=False,
+        description="Whether each run is repeated with twice the bars, half the step, twice the internal damping.",
+    )
+
+
 class TimeSettings(Block):
     """How the time domain is run."""
 
@@ -195,6 +225,7 @@ class TimeSettings(Block):
     memory: Literal["state_space", "convolution"] = Field(
         default="state_space", description="Wave memory by a rational approximation or by convolution."
     )
+    lines: LineDynamics = Field(default_factory=LineDynamics, description="For lines with 'dynamic: true'.")
 
 
 class Sensitivity(Block):

@@ -22,6 +22,7 @@ from moyai.case.schema_types import (
     PositiveLength,
     PositiveMassPerLength,
     Stiffness,
+    Truth,
     Volume,
     WeightPerLength,
     Whole,
@@ -83,7 +84,21 @@ class OwnSegment(Block):
     breaking_load: PositiveForce | None = Field(
         default=None, description="Minimum breaking load; without it no utilisation is shown."
     )
-    diameter: PositiveLength | None = Field(default=None, description="Nominal diameter, for messages and drawings.")
+    diameter: PositiveLength | None = Field(
+        default=None, description="Nominal diameter; the drag and the contact with the bed of a line in motion need it."
+    )
+    drag_normal: NonNegativeNumber | None = Field(
+        default=None, description="Drag coefficient across the line on its diameter; a line in motion needs it."
+    )
+    drag_tangential: NonNegativeNumber | None = Field(
+        default=None, description="Drag coefficient along the line on its diameter; a line in motion needs it."
+    )
+    added_mass_normal: NonNegativeNumber | None = Field(
+        default=None, description="Added mass across the line over the displaced mass; a line in motion needs it."
+    )
+    added_mass_tangential: NonNegativeNumber = Field(
+        default=0.0, description="Added mass along the line over the displaced mass. Default: 0."
+    )
     name: Name | None = Field(default=None, description="Name of the material in reports.")
 
 
@@ -144,6 +159,14 @@ class CatenaryLine(Block):
         description=(
             "Drag coefficient across the line times its drag diameter, for the damping that the drag of the line gives "
             "the unit; chain about 2.4 nominal diameters. Default: 0, none."
+        ),
+    )
+    dynamic: Truth = Field(
+        default=False,
+        description=(
+            "Whether the line is in motion in the analysis 'time': mass, drag, slack and snap. Segments of their own "
+            "then need mass, diameter, drag_normal, drag_tangential, added_mass_normal. Default: false, at rest at "
+            "every instant."
         ),
     )
 

@@ -16,7 +16,7 @@ from moyai.flexible.flow import Flow
 from moyai.floating import kernel
 from moyai.floating.forcing import Forcing
 from moyai.floating.memory import StateSpaceMemory
-from moyai.floating.time import CumminsModel, exponential_weights
+from moyai.floating.time import CumminsModel, exponential_weights, packed_lines
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ class PlanarBody:
     ----------
     name : str
     model : CumminsModel
-        Without nonlinear lines of its own; its memory as states.
+        Its memory as states; nonlinear lines of its own act beside the network, at rest at every instant.
     forcing : Forcing
         Waves, drift, steady loads.
     duration : float
@@ -53,7 +53,7 @@ class PlanarBody:
     Raises
     ------
     InputError
-        For a model with lines of its own or with a memory that is not in states.
+        For a model of other modes, or with a memory that is not in states.
     """
 
     name: str
@@ -68,10 +68,6 @@ class PlanarBody:
     initial_velocity: ArrayLike = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        if self.model.mooring is not None:
-            raise InputError(
-                f"body {self.name!r} has quasi-static lines beside those of the network", path=f"bodies.{self.name}"
-            )
         if len(self.model.modes) != 3:
             raise InputError(
                 f"body {self.name!r} has {len(self.model.modes)} modes", path=f"bodies.{self.name}", allowed="three"
@@ -140,11 +136,8 @@ class PlanarCarrier:
             np.zeros((0, 3)) if model.quadratic is None else np.ascontiguousarray(model.quadratic.directions),
             np.zeros(0) if model.quadratic is None else np.ascontiguousarray(model.quadratic.coefficients),
         )
-        none = (
-            np.zeros((0, 16)), np.zeros((0, 8), dtype=np.int64), np.zeros(1), np.zeros(1, dtype=np.int64), np.zeros(3),
-            np.zeros(0),
-        )  # fmt: skip
-        self._lines = none
+        self._lines, own, _ = packed_lines(model.mooring, 3)
+        self._at_rest = own + np.asarray(body.reaction_at_rest, dtype=float)
         self._saved = (np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 0)))
         self._weights: dict[float, tuple[NDArray[np.complex128], ...]] = {}
         self._tried = (self.q.copy(), self.v.copy(), self.z.copy(), time)
@@ -207,7 +200,7 @@ class PlanarCarrier:
         if key not in self._weights:
             self._weights[key] = exponential_weights(self._memory.poles, h)
         kernel.run_state_space(
-            q, v, z, 0, 1, h, force, self._packed, self._lines, np.asarray(self.body.reaction_at_rest, dtype=float),
+            q, v, z, 0, 1, h, force, self._packed, self._lines, self._at_rest,
             self._weights[key], np.ascontiguousarray(self._memory.inputs), np.ascontiguousarray(self._memory.outputs),
             np.full(3, 1e30), 1 << 40, self._saved,
         )  # fmt: skip

@@ -117,7 +117,9 @@ def find_rest(
     """
     for name, body in bodies.items():
         if not isinstance(body, RigidBody):
-            raise InputError(f"body {name!r} is planar: its rest is known", path=f"bodies.{name}", allowed="rigid bodies")
+            raise InputError(
+                f"body {name!r} is planar: its rest is known", path=f"bodies.{name}", allowed="rigid bodies"
+            )
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
     search = _Search(network, {name: body for name, body in bodies.items() if isinstance(body, RigidBody)}, calm)
     return search.run(tolerance)
@@ -212,7 +214,7 @@ class _Search:
             change *= min(1.0, longest / max(float(np.max(np.abs(change))), 1e-300))
             kept, state, part = self.keep(), self.state, 1.0
             while True:
-                self.move(part * change)
+                self.move(np.asarray(part * change, dtype=np.float64))
                 new = self.imbalance()
                 if float(np.linalg.norm(new)) < float(np.linalg.norm(force)) * (1.0 - 1e-4 * part) or part < 1e-3:
                     break
@@ -236,6 +238,4 @@ class _Search:
     @staticmethod
     def _rested(body: RigidBody, carrier: RigidCarrier) -> RigidBody:
         """Return the body at its rest; springs and coefficients keep the pose that they were given for."""
-        return replace(
-            body, position=carrier.position, rotation=roll_pitch_yaw(carrier.rotation), rest=body.rest_pose
-        )
+        return replace(body, position=carrier.position, rotation=roll_pitch_yaw(carrier.rotation), rest=body.rest_pose)

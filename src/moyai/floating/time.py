@@ -261,7 +261,7 @@ def simulate(
     force, elevation = forcing.sample(0.5 * step, 2 * steps + 1)
     force = np.ascontiguousarray(finite(force, "force"))
     cost = {"excitation": clock.process_time() - started, "steps": float(steps)}
-    lines, rest, line_count = _packed_lines(model.mooring, size)
+    lines, rest, line_count = packed_lines(model.mooring, size)
     body = _packed_body(model)
     rows = steps // every + 1
     saved = (np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, size)), np.zeros((rows, line_count)))
@@ -293,7 +293,7 @@ def simulate(
     )
 
 
-def _packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, ...], FloatArray, int]:
+def packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, ...], FloatArray, int]:
     """Return the lines as kernel arrays, their force at rest and their number."""
     if mooring is None:
         none: tuple[Any, ...] = (

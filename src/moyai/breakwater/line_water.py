@@ -1,0 +1,134 @@
+"""The sea around lines in motion: a regular wave at their nodes, an irregular sea at their places at rest."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.flexible.flow import Flow
+from moyai.sea.components import WaveComponents
+from moyai.sea.time_sum import sum_over_time
+
+if TYPE_CHECKING:
+    from moyai.flexible.flow import Current
+
+Array = NDArray[np.float64]
+
+#: Components up to which the water is summed at the present place of every node.
+FEW_COMPONENTS = 8
+#: Numbers of a tabulated sea.
+MOST_NUMBERS = 4e8
+
+
+@dataclass(frozen=True, eq=False)
+class TabulatedFlow(Flow):
+    """A sea summed beforehand at the places of the nodes at rest, joined linearly between its times.
+
+    The lines of a breakwater move by metres where the waves are tens of metres long: k times the motion is the error of
+    the phase.
+
+    Parameters
+    ----------
+    table : ndarray (7, nodes, times)
+        Velocity, acceleration and elevation of the waves.
+    table_step : float
+        [s].
+    """
+
+    table: NDArray[np.float32] | None = None
+    table_step: float = 1.0
+
+    @property
+    def steady(self) -> bool:
+        """A sea is never steady."""
+        return False
+
+    @property
+    def update_interval(self) -> float:
+        """Time between two evaluations [s]."""
+        return self.table_step
+
+    def at(self, time: float, position: Array) -> Array:
+        """Return velocity, acceleration and elevation at the nodes, shape (7, n)."""
+        out = super().at(time, position)
+        if self.table is None or position.shape[1] != self.table.shape[1]:
+            return out
+        place = min(max(time / self.table_step, 0.0), self.table.shape[2] - 1.0)
+        row = min(int(place), self.table.shape[2] - 2)
+        part = place - row
+        grown, rate = self.growth(time)
+        wave = (1.0 - part) * self.table[:, :, row] + part * self.table[:, :, row + 1]
+        out[:3] += grown * wave[:3]
+        out[3:6] += grown * wave[3:6] + rate * wave[:3]
+        out[6] += grown * wave[6]
+        return out
+
+
+def sea_of_lines(
+    waves: WaveComponents | None,
+    current: Current | None,
+    ramp: float,
+    nodes: Array,
+    duration: float,
+    step: float,
+) -> Flow:
+    """Return the water around the lines.
+
+    Parameters
+    ----------
+    waves : WaveComponents or None
+        With their water.
+    current : profile or None
+    ramp : float
+        [s].
+    nodes : ndarray (n, 3)
+        Places at rest [m].
+    duration, step : float
+        Length and step of the table of an irregular sea [s]; the step divides the period in which the sea repeats.
+
+    Raises
+    ------
+    InputError
+        For a sea too long to be tabulated.
+    """
+    if waves is None or not np.any(waves.amplitude):
+        return Flow(current=current, ramp=ramp)
+    if len(waves) <= FEW_COMPONENTS:
+        return Flow(current=current, ramp=ramp, waves=waves)
+    count = math.ceil(duration / step) + 2
+    if 7.0 * count * len(nodes) > MOST_NUMBERS:
+        raise InputError(
+            f"a sea of {duration:g} s at {len(nodes)} nodes of lines in motion is too long to be summed beforehand",
+            path="waves.duration",
+            allowed=f"up to {MOST_NUMBERS / 7.0 / len(nodes) * step:.4g} s",
+            remedy="shorten the sea or use fewer bars",
+        )
+    return TabulatedFlow(current=current, ramp=ramp, table=_table(waves, nodes, count, step), table_step=step)
+
+
+def _table(waves: WaveComponents, nodes: Array, count: int, step: float) -> NDArray[np.float32]:
+    """Sum the linear kinematics of all components at every node; above still water as at still water."""
+    water = waves.water
+    assert water is not None
+    k, depth = waves.wave_number, water.depth
+    intrinsic = np.asarray(waves.intrinsic_omega)
+    amplitude = waves.amplitude * np.exp(1j * waves.phase)
+    cosine, sine = np.cos(waves.heading), np.sin(waves.heading)
+    whole = -np.expm1(-2.0 * k * depth)
+    out = np.zeros((7, len(nodes), count), dtype=np.float32)
+    time = step * np.arange(count, dtype=np.float64)
+    for number, (x, y, z) in enumerate(nodes):
+        level = min(z, 0.0)
+        turn = amplitude * np.exp(1j * k * (x * cosine + y * sine))
+        fall, back = np.exp(k * level), np.exp(-2.0 * k * (level + depth)) if math.isfinite(depth) else 0.0 * k
+        along, up = fall * (1.0 + back) / whole, fall * (1.0 - back) / whole
+        flow = intrinsic * turn * along
+        rows = np.stack([flow * cosine, flow * sine, -1j * intrinsic * turn * up])
+        rows = np.concatenate([rows, -1j * intrinsic * rows, turn[None]])
+        out[:, number] = np.moveaxis(sum_over_time(waves.omega, rows, time, waves.frequency_step), -1, 0)
+    return out
