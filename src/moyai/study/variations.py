@@ -415,7 +415,12 @@ def _lists(data: Any, place: str = "") -> list[str]:
     found: list[str] = []
     for key, value in data.items() if isinstance(data, dict) else ():
         where = f"{place}.{key}" if place else str(key)
-        if isinstance(value, list) and len(value) > 1 and all(isinstance(item, dict) for item in value):
+        if (
+            key != "waves"
+            and isinstance(value, list)
+            and len(value) > 1
+            and all(isinstance(item, dict) for item in value)
+        ):
             found.append(where)
         found += _lists(value, where)
     return found

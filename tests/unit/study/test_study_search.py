@@ -88,3 +88,29 @@ def test_slips_of_a_search_are_told(tmp_path, key, text, word):
     with pytest.raises(CaseError) as caught:
         load_study(study_cases.write_text(tmp_path, "- grid: {'waves[0].peak_period': [5 s]}", **{key: text}))
     assert word in "\n".join(str(fault) for fault in caught.value.faults)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_limits_and_optima_at_random_are_those_of_the_closed_form(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    periods, most = sorted(rng.uniform(3.0, 9.0, 2)), float(rng.uniform(80, 400))
+    grid = f"- grid: {{'waves[storm].peak_period': [{periods[0]:.6f} s, {periods[1]:.6f} s]}}"
+    limit = LIMIT.replace("250", f"{most:.6f}")
+    result = run_study(
+        load_study(study_cases.write_text(tmp_path, grid, limit=limit)),
+        tmp_path / "limit", study_cases.linear_case, workers=1,
+    )  # fmt: skip
+    exact = np.sqrt(most / 1000.0 * 5.0 / np.array(periods) * (54.5 / 55.0) ** 4)
+    found = result.tree["limit"]["limit"].values
+    assert (found <= exact + 1e-12).all() and np.allclose(found, np.minimum(exact, 1.5), atol=0.002 * 1.4)
+    # Two variables: in the lowest sea the shortest line stands on the limit of its tension
+    bound = float(rng.uniform(850.0, 1000.0))
+    optimise = (
+        "{variables: {'lines[*].segments[0].length': [54 m, 57 m], 'waves[storm].significant_height': [0.98 m, 102 cm]},"
+        f" minimise: SWL/cost, subject_to: {{response: SWL/tension, at_most: {bound:.6f}}}, starts: 2, seed: {seed}}}"
+    )
+    path = study_cases.write_text(tmp_path, "[]", optimise=optimise)
+    result = run_study(load_study(path), tmp_path / "best", study_cases.linear_case, workers=1)
+    assert result.status == "converged", result.message
+    assert float(result.tree["optimum"]["objective"]) == pytest.approx(55.0 * (960.4 / bound) ** 0.25, rel=1e-3)
+    assert float(result.tree["optimum"]["margin"]) >= 0.0
