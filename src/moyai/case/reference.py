@@ -151,7 +151,7 @@ def _default(field: FieldInfo, grouped: bool) -> str:
     if grouped or value in (None, ()) or isinstance(value, Block):
         return ""
     if isinstance(value, tuple):
-        return "[" + ", ".join(f"{item:g}" for item in value) + "]"
+        return "[" + ", ".join(item if isinstance(item, str) else f"{item:g}" for item in value) + "]"
     if isinstance(value, dict):
         return ", ".join(f"{key}: {item:g}" for key, item in value.items())
     return f"{value:g}" if isinstance(value, float) else str(value).lower()
