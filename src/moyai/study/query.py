@@ -95,7 +95,7 @@ class StudyTable:
         found = {}
         dims = set(self.names)
         for node in self.tree.subtree:
-            for name, variable in node.to_dataset(inherit=False).data_vars.items():
+            for name, variable in node.to_dataset().data_vars.items():
                 if variable.dtype.kind == "f" and dims <= set(map(str, variable.dims)):
                     found["/".join(part for part in (node.path.strip("/"), str(name)) if part)] = variable
         return found

@@ -54,7 +54,7 @@ def has(result: Result, group: str, name: str) -> bool:
 def variable(result: Result, group: str, name: str) -> xr.DataArray:
     """Return a variable of a group."""
     held: Any = result.tree[group]
-    found: xr.DataArray = held.to_dataset(inherit=False)[name]
+    found: xr.DataArray = held.to_dataset()[name]
     return found
 
 
@@ -116,7 +116,7 @@ def _told(study: Study, result: Result) -> list[Tensions]:
     axes = {axis.name for axis in study.axes}
     found = []
     for node in result.tree.subtree:
-        held = node.to_dataset(inherit=False)
+        held = node.to_dataset()
         name = next((one for one in _MAXIMA if one in held), None)
         if node.path.startswith("/assessment") or name is None or "mean_tension" not in held:
             continue

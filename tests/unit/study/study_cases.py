@@ -199,3 +199,15 @@ def any_case(case, progress):
     """Nothing but a number, whatever the sea."""
     progress("step", 1, 1)
     return Result(xr.DataTree.from_dict({"/": xr.Dataset(), "/SWL": xr.Dataset({"x": ((), 1.0, {"units": "1"})})}))
+
+
+def nested_case(case, progress):
+    """Series in a group below maxima of the same lines, whose labels they inherit."""
+    import dataclasses
+
+    result = peaky_case(case, progress)
+    series = result.tree["/SWL/time/storm"].to_dataset(inherit=False)
+    names = series["line"].values
+    maxima = xr.Dataset({"worst": (("line",), [1.0, 2.0], {"units": "N"})}, coords={"line": names})
+    groups = {"/": xr.Dataset(), "/SWL/time/storm": maxima, "/SWL/time/storm/realisation": series}
+    return dataclasses.replace(result, tree=xr.DataTree.from_dict(groups))

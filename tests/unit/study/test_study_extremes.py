@@ -13,6 +13,7 @@ from moyai.report.study_page import compose
 from moyai.study.assess import assess
 from moyai.study.execute import run_study
 from moyai.study.plan import load_study
+from moyai.study.query import StudyTable
 
 SEEDS = "- seeds: {path: 'waves[storm].seed', count: 12}"
 HEIGHTS = "- grid: {'waves[storm].significant_height': [0.5 m, 1 m]}\n"
@@ -152,3 +153,15 @@ def test_curves_that_cannot_be_used_are_told_before_anything_runs(tmp_path, curv
     with pytest.raises(CaseError) as caught:
         load_study(path)
     assert word in str(caught.value)
+
+
+def test_labels_that_a_group_inherits_are_labels_too(tmp_path):
+    _, result = assessed(
+        tmp_path,
+        "- seeds: {path: 'waves[storm].seed', count: 3}",
+        "{extremes: {response: 'SWL/time/storm/realisation/tension[line=shoreward]', family: weibull}}",
+        study_cases.nested_case,
+    )
+    assert np.isfinite(float(result.tree["assessment/extremes 1"]["design_value"]))
+    table = StudyTable(result.tree)
+    assert table.column("tension_mean_in_time[line=seaward]").values.shape == (3,)

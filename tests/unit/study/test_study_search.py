@@ -106,7 +106,8 @@ def test_limits_and_optima_at_random_are_those_of_the_closed_form(tmp_path, seed
     # Two variables: in the lowest sea the shortest line stands on the limit of its tension
     bound = float(rng.uniform(850.0, 1000.0))
     optimise = (
-        "{variables: {'lines[*].segments[0].length': [54 m, 57 m], 'waves[storm].significant_height': [0.98 m, 102 cm]},"
+        "{variables: {'lines[*].segments[0].length': [54 m, 57 m],"
+        " 'waves[storm].significant_height': [0.98 m, 1.02 m]},"
         f" minimise: SWL/cost, subject_to: {{response: SWL/tension, at_most: {bound:.6f}}}, starts: 2, seed: {seed}}}"
     )
     path = study_cases.write_text(tmp_path, "[]", optimise=optimise)
