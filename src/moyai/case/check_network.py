@@ -227,7 +227,7 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
                     findings.fault(
                         ("settings", "output_step"),
                         f"the run '{plan.name}' of {plan.duration:g} s would have "
-                        f"{plan.duration / plan.output_step:.3g} rows", 
+                        f"{plan.duration / plan.output_step:.3g} rows",
                         allowed=f"at most {_MANY_ROWS}", remedy="lengthen output_step",
                     )  # fmt: skip
         except InputError as error:

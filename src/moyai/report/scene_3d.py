@@ -193,6 +193,8 @@ class Scene3D:
         Time of the governing maximum [s]; NaN: that of the traces, or of the bars.
     names : tuple of str
         Line that each bar belongs to, shown under the pointer.
+    is_still : bool
+        Nothing moves: no transport is shown.
     """
 
     time: Array
@@ -213,6 +215,7 @@ class Scene3D:
     window: tuple[float, float] | None = None
     maximum: float = math.nan
     names: tuple[str, ...] = field(default=())
+    is_still: bool = False
 
     def __post_init__(self) -> None:
         frames, nodes = len(self.time), self.position.shape[1] if self.position.ndim == 3 else -1
@@ -397,6 +400,7 @@ def scene_3d(scene: Scene3D) -> dict[str, Any]:
         "start": scene.moment,
         "maximum": scene.moment,
         "speed": speed,
+        "still": scene.is_still,
     }
 
 

@@ -243,7 +243,7 @@ def _sign(kind: str, x: float, y: float, diameter: float, camera: _Camera) -> st
 
 def _legend(scene: Scene3D, row: int) -> list[str]:
     unit = display_unit("N", scene.scale)
-    parts = [f'<text x="12" y="20" fill="{_INK}">t = {scene.time[row]:.2f} s</text>']
+    parts = [] if scene.is_still else [f'<text x="12" y="20" fill="{_INK}">t = {scene.time[row]:.2f} s</text>']
     long, x = 160.0, WIDTH - 176.0
     for k in range(40):
         parts.append(f'<rect x="{x + k * long / 40:.1f}" y="10" width="{long / 40 + 0.3:.1f}" height="7" '

@@ -27,6 +27,7 @@ COMPOSERS = {
     "member": "moyai.report.member_page:compose",
     "force_record": "moyai.report.force_record_page:compose",
     "curtain": "moyai.report.curtain_page:compose",
+    "network": "moyai.report.network_page:compose",
     "cage": "moyai.report.cage_page:compose",
 }
 

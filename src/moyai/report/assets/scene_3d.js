@@ -190,7 +190,8 @@ class Scene3D {
     const nearer = player.element("span", { className: "segmented" }, zoom("−", "Farther", 0.8), zoom("+", "Nearer", 1.25));
     player.viewButton.replaceWith(group, nearer);
     player.viewButton = player.element("button", {});
-    player.readouts.before(player.element("p", { className: "hint player-hint", textContent: "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return; click the trace to go to a time." }));
+    if (this.scene.still) for (const part of [player.playButton, player.scrub, player.clock, player.speedSelect, player.spanButton, ...player.holder.querySelectorAll('[title="M"]')]) part.style.display = "none";
+    player.readouts.before(player.element("p", { className: "hint player-hint", textContent: "Drag to turn, shift-drag to move, click and scroll to zoom, double-click to return" + (this.traces.length ? "; click the trace to go to a time." : ".") }));
   }
   turn(dx, dy) {
     const { player } = this;

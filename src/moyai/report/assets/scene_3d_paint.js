@@ -342,7 +342,7 @@ Object.assign(Scene3D.prototype, {
   paintWords(view, area) {
     const { pen, theme, scene, camera: c, width } = this, { factor, unit } = scene;
     pen.font = `12px ${this.font}`; pen.fillStyle = theme.ink; pen.textAlign = "left"; pen.textBaseline = "alphabetic";
-    pen.fillText(`t = ${this.t.toFixed(2)} s`, 12, 19);
+    if (!scene.still) pen.fillText(`t = ${this.t.toFixed(2)} s`, 12, 19);
     // legend of tension
     const long = Math.min(150, 0.25 * width), x = width - long - 16, y = 11;
     for (let k = 0; k < long; k++) { pen.fillStyle = MOYAI.loadColour(k / long); pen.fillRect(x + k, y, 1.5, 7); }

@@ -1,0 +1,136 @@
+"""Figures of a network: tensions and places over time, exceedance of snaps, energies."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.report.decimate import focus_indices, window_around
+from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
+from moyai.report.encoding import slug
+from moyai.report.network_reading import NetworkLevel, attribute, peak_of_run, texts
+from moyai.report.reading import Group, common_scale
+
+Array = NDArray[np.float64]
+
+MOST_LINES, MOST_POINTS, WINDOW_PERIODS, BINS = 6, 4, 12.0, 700
+
+
+def _window(run: Group, time: Array, moment: float) -> tuple[int, int]:
+    period = attribute(run, "period")
+    length = WINDOW_PERIODS * period if period > 0.0 else 0.1 * (time[-1] - time[0])
+    if time[-1] - time[0] <= 1.5 * length:
+        return 0, time.size
+    return window_around(time, moment, length)
+
+
+def tension_figure(level: NetworkLevel, run: Group) -> Figure | None:
+    """Return tensions of the most loaded lines, the surface, and the moving points over time."""
+    time = run.real("time", "time")
+    found = peak_of_run(level, run)
+    if time is None or time.size < 3 or found is None:
+        return None
+    span = _window(run, time, found.time)
+    series: list[Series] = []
+    records = [(line, run.real("line_tension", "time", line=line)) for line in run.labels("line")]
+    records += [(net, run.real("net_tension", "time", net=net)) for net in run.labels("net")]
+    known = [(name, values) for name, values in records if values is not None and np.isfinite(values).any()]
+    known.sort(key=lambda item: -float(np.nanmax(item[1])))
+    factor, unit = common_scale("N", *(values for _, values in known))
+    panels = [Panel("tension", unit, from_zero=True)]
+    for tone, (name, values) in enumerate(known[:MOST_LINES]):
+        keep = focus_indices(values, span, BINS)
+        series.append(Series(name, {"time": time[keep]}, factor * values[keep], 0, tone))
+    surface = run.array("surface_elevation", "time")
+    if surface is not None:
+        keep = focus_indices(surface, span, BINS)
+        series.append(Series("surface", {"time": time[keep]}, surface[keep], len(panels), 5, faint=True))
+        panels.append(Panel("surface at the origin", "m"))
+    series += _places(level, run, time, span, panels)
+    shown = None if span == (0, time.size) else (float(time[span[0]]), float(time[span[1] - 1]))
+    left_out = f" The {len(known) - MOST_LINES} less loaded lines are left out." if len(known) > MOST_LINES else ""
+    return Figure(
+        slug(level.name, run.name, "tension"),
+        f"Tensions over time: {run.name}",
+        (Abscissa("time", "time", "s"),),
+        tuple(panels),
+        tuple(series),
+        f"Highest tension along each line since the row before, so that no peak is lost between rows.{left_out}",
+        (Mark("highest", x=found.time, y=factor * found.peak),),
+        window=shown,
+        slider=shown is not None,
+        height=150 + 170 * len(panels),
+    )
+
+
+def _places(level: NetworkLevel, run: Group, time: Array, span: tuple[int, int], panels: list[Panel]) -> list[Series]:
+    """Return where the driven and free points are, by the directions in which they move."""
+    kinds = dict(zip(level.network.labels("point"), texts(level.network, "point_kind"), strict=False))
+    moving = [name for name in run.labels("point") if kinds.get(name) != "fixed"][:MOST_POINTS]
+    series: list[Series] = []
+    for axis in "xyz":
+        records = [(name, run.array("point_position", "time", "axis", point=name)) for name in moving]
+        column = "xyz".index(axis)
+        curves = [(name, values[:, column]) for name, values in records if values is not None]
+        largest = max((float(np.nanmax(np.ptp(values))) for _, values in curves), default=0.0)
+        if not largest > 1e-4:
+            continue
+        for tone, (name, values) in enumerate(curves):
+            keep = focus_indices(values, span, BINS)
+            series.append(Series(f"{name}, {axis}", {"time": time[keep]}, values[keep], len(panels), tone))
+        panels.append(Panel(f"{axis} of points", "m"))
+    return series
+
+
+def exceedance_figure(level: NetworkLevel, run: Group) -> Figure | None:
+    """Return how many of the snaps of a line reach how high."""
+    contacts = run.child("contacts")
+    peaks, snap = contacts.real("contact_peak", "contact"), contacts.array("is_snap", "contact")
+    names = texts(contacts, "contact_line")
+    if peaks is None or snap is None or not names:
+        return None
+    series: list[Series] = []
+    factor, unit = common_scale("N", peaks)
+    for tone, name in enumerate(dict.fromkeys(names)):
+        own = np.array([entry == name for entry in names]) & snap.astype(bool)
+        if own.sum() < 4 or len(series) >= MOST_LINES:
+            continue
+        values = np.sort(peaks[own])[::-1]
+        rank = np.arange(1, values.size + 1) / (values.size + 1.0)
+        series.append(Series(name, {"peak": factor * values}, rank, 0, tone, style="line+points"))
+    if not series:
+        return None
+    return Figure(
+        slug(level.name, run.name, "exceedance"),
+        f"Snaps that reach a load: {run.name}",
+        (Abscissa("peak", "peak of the snap", unit),),
+        (Panel("part of the snaps", limits=(0.0, 1.0)),),
+        tuple(series),
+        "Weibull positions r / (n + 1) of all snaps of the run.",
+    )
+
+
+def energy_figure(level: NetworkLevel, run: Group) -> Figure | None:
+    """Return kinetic and elastic energy, the work done, and what was lost."""
+    time = run.real("time", "time")
+    parts = [run.array(name, "time") for name in ("kinetic_energy", "elastic_energy", "work")]
+    if time is None or time.size < 3 or any(part is None for part in parts):
+        return None
+    kinetic, elastic, work = (np.asarray(part) for part in parts)
+    total = kinetic + elastic
+    lost = (work - work[0]) - (total - total[0])
+    keep = np.unique(np.linspace(0, time.size - 1, min(time.size, 1500)).astype(int))
+    curves = (("kinetic", kinetic, 0), ("elastic", elastic, 1))
+    return Figure(
+        slug(level.name, run.name, "energy"),
+        f"Energy: {run.name}",
+        (Abscissa("time", "time", "s"),),
+        (Panel("energy", "J"), Panel("since the start", "J")),
+        (
+            *(Series(name, {"time": time[keep]}, values[keep], 0, tone) for name, values, tone in curves),
+            Series("work done", {"time": time[keep]}, (work - work[0])[keep], 1, 2),
+            Series("taken by viscosity, bed and scheme", {"time": time[keep]}, lost[keep], 1, 3),
+        ),
+        "Work of weight, water and driven points. What is taken never falls where no energy comes from nowhere.",
+        height=420,
+    )
