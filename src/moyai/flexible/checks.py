@@ -122,10 +122,3 @@ def _check_blocks(network: Network) -> None:
             path="blocks.nodes",
             allowed="free nodes (hold single components by 'held')",
         )
-    half = blocks.nodes.ravel()[nodes.held[blocks.nodes.ravel(), 0] != nodes.held[blocks.nodes.ravel(), 1]]
-    if half.size:
-        raise InputError(
-            f"{name_of_node(network, int(half[0]))} of a section of added mass is held along one horizontal axis only",
-            path="nodes.held",
-            allowed="both horizontal components held, or none: the normal of the section turns",
-        )

@@ -29,8 +29,9 @@ SAFETY = 0.95
 #: The same where bars go slack with a damping ratio on the mesh below ``LEAST_DAMPING``: a spring that only pulls gives
 #: back more than it took when (w dt)^2 > 2, half of the bound of a spring that also pushes [eq:flexible-one-sided].
 SAFETY_UNDAMPED, LEAST_DAMPING = 0.5, 0.05
-#: Steps between two evaluations of the loads, at most.
-LOAD_STEPS = 12
+#: Steps between two evaluations of the loads, at most; with sections of added mass, whose frames turn at these moments,
+#: and the same where hardly any viscosity calms what is quick.
+LOAD_STEPS, LOAD_STEPS_OF_BLOCKS, LOAD_STEPS_UNDAMPED = 12, 4, 1
 #: Bound of the load interval times the fastest rate of drag.
 DRAG_SHARE = 0.3
 
@@ -96,6 +97,9 @@ class ExplicitRun:
         self.packed.node_rows(kernel.WU, 7)[:] = self.water
         self._loads()
         self.safety = self._usual_safety() if safety is None else safety
+        if network.blocks is not None:
+            calm = self._usual_safety() == SAFETY
+            self.load_steps = min(load_steps, LOAD_STEPS_OF_BLOCKS if calm else LOAD_STEPS_UNDAMPED)
 
     def _usual_safety(self) -> float:
         """Return the part of the stable step that suits the viscosity of the bars."""
@@ -104,7 +108,11 @@ class ExplicitRun:
         if not pulls_only.any() or not math.isfinite(limit):
             return SAFETY
         damping = self.arrays.bar("viscous")[pulls_only] / (self.arrays.bar("spring")[pulls_only] * limit)
-        return SAFETY if float(damping.min()) >= LEAST_DAMPING else SAFETY_UNDAMPED
+        least = float(damping.min())
+        sheets = self.network.sheets
+        if sheets is not None and sheets.tension_field:
+            least = min(least, float(np.min(sheets.damping_time)) / limit)
+        return SAFETY if least >= LEAST_DAMPING else SAFETY_UNDAMPED
 
     def _surfaces(self, start: State) -> tuple[Any, Any]:
         """Return what the kernels take of sheets and of dense mass blocks; the frames of blocks count from as built."""

@@ -419,7 +419,7 @@ def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
             for axis in range(3):
                 row = axis * ROW + node
                 A[QX + row] = A[TX + row] + A[FX + row] - A[FX + row - 1]
-    kick_blocks(nodes, frames, inverse, along, A, U, QX, ROW, X, push, level, STIFF, DAMP)
+    kick_blocks(nodes, frames, inverse, along, A, U, QX, ROW, X, push, level, STIFF, DAMP, FREE_X)
 
 
 @njit(cache=True, error_model="numpy")

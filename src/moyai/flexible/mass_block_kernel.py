@@ -19,7 +19,7 @@ COS, SIN, ROOT, LENGTH = range(4)
 
 @njit(cache=True, error_model="numpy")
 def set_frames(nodes: Any, guides: Any, frames: Any, P: Any, p0: int, axis: int, stretch: bool) -> None:
-    """Turn the frames with the cable, along the way from the guide before to the one behind, in plan; let them stretch."""
+    """Turn the frames with the cable, along the way from the guide before to the one behind; let them stretch."""
     for g in range(nodes.shape[0]):
         for i in range(nodes.shape[1]):
             a, b = guides[g, i, 0], guides[g, i, 1]
@@ -50,13 +50,13 @@ def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int
 
 @njit(cache=True, error_model="numpy")
 def kick_blocks(
-    nodes: Any, frames: Any, inverse: Any, free: Any, A: Any, vel: int, force: int, axis: int, place: int, push: float,
-    level: float, stiff: int, damp: int,
+    nodes: Any, frames: Any, inverse: Any, light: Any, A: Any, vel: int, force: int, axis: int, place: int, push: float,
+    level: float, stiff: int, damp: int, free: int,
 ) -> None:  # fmt: skip
     """Advance the velocities of the nodes of blocks by ``push`` times their force, and hold them off a smooth bed.
 
-    ``force`` names a row that holds the whole force of each node. ``inverse`` holds, for each block, the inverse of its
-    whole mass over the local unknowns and, behind them, that of each node along the cable.
+    ``force`` names the rows that hold the whole force of each node, ``free`` those that hold 1 where it may move.
+    ``inverse`` is the inverse of the whole mass over the local unknowns, ``light`` that of each node along the cable.
     """
     count = nodes.shape[1]
     f, kick = np.empty(2 * count), np.empty(2 * count)
@@ -73,9 +73,10 @@ def kick_blocks(
         for i in range(count):
             at, to = force + nodes[g, i], vel + nodes[g, i]
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
-            along = push * free[g, i] * (c * A[at] + s * A[at + axis])
-            A[to] += s * kick[i] / r + c * along
-            A[to + axis] += s * along - c * kick[i] / r
+            along = push * light[g, i] * (c * A[at] + s * A[at + axis])
+            mobile = free + nodes[g, i]
+            A[to] += A[mobile] * (s * kick[i] / r + c * along)
+            A[to + axis] += A[mobile + axis] * (s * along - c * kick[i] / r)
             A[to + 2 * axis] += kick[count + i] / r
         for i in range(count):
             node = nodes[g, i]

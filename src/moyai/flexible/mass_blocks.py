@@ -63,12 +63,12 @@ class MassBlocks:
         if np.any(guides[..., 0] == guides[..., 1]):
             raise InputError("both guides of a node are the same", path="blocks.guides", allowed="two nodes")
         if not np.isfinite(added).all() or np.any(
-            np.abs(added - added.transpose(0, 2, 1)) > 1e-8 * np.max(np.abs(added), initial=1e-300)
+            np.abs(added - added.transpose(0, 2, 1)) > 1e-6 * np.max(np.abs(added), initial=1e-300)
         ):
             raise InputError("an added mass is not symmetric or not finite", path="blocks.added_mass")
         added = 0.5 * (added + added.transpose(0, 2, 1))
         least = np.linalg.eigvalsh(added)[:, 0]
-        if np.any(least < -1e-8 * np.max(np.abs(added))):
+        if np.any(least < -1e-6 * np.max(np.abs(added))):
             raise InputError(
                 f"the added mass of section {int(np.argmin(least))} has the negative value {least.min():.3g} kg",
                 path="blocks.added_mass",
@@ -145,7 +145,9 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     kernel.set_frames(blocks.nodes, blocks.guides, frames, position.ravel(), 0, position.shape[1], False)
     own = mass[blocks.nodes]
     whole = blocks.added_mass + np.stack([np.diag(np.concatenate([row, row])) for row in own])
-    moves = np.concatenate([free[0][blocks.nodes], free[2][blocks.nodes]], axis=1)
+    # a node that is free along one horizontal axis is taken to have its normal there
+    flat = np.maximum(free[0], free[1])
+    moves = np.concatenate([flat[blocks.nodes], free[2][blocks.nodes]], axis=1)
     inverse = np.zeros_like(whole)
     for g in range(groups):
         chosen = np.flatnonzero(moves[g] > 0.0)
@@ -153,7 +155,7 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     light = light.copy()
     # the water pushes mostly along the normal: the node's share of the inverse there
     light[blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
-    along = np.where(free[0][blocks.nodes] > 0.0, 1.0 / own, 0.0)
+    along = np.where(np.minimum(free[0], free[1])[blocks.nodes] > 0.0, 1.0 / own, 0.0)
     return PackedBlocks(
         blocks.nodes.copy(), blocks.guides.copy(), frames, blocks.added_mass.copy(), inverse, along, light
     )

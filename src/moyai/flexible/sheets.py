@@ -81,9 +81,9 @@ class Sheets:
         if nodes.ndim != 2 or nodes.shape[1] != 3 or not len(nodes):
             raise InputError(f"triangles of shape {nodes.shape}", path="sheets.triangles", allowed="(1 or more, 3)")
         if np.any(nodes < 0) or np.any(nodes == np.roll(nodes, 1, axis=1)):
+            wrong = np.any((nodes < 0) | (nodes == np.roll(nodes, 1, axis=1)), axis=1)
             raise InputError(
-                f"triangle {int(np.argmax(np.any((nodes < 0) | (nodes == np.roll(nodes, 1, axis=1)), axis=1)))} names a "
-                "node twice, or a negative one",
+                f"triangle {int(np.argmax(wrong))} names a node twice, or a negative one",
                 path="sheets.triangles",
                 allowed="three different nodes",
             )
@@ -128,7 +128,7 @@ class Sheets:
         flat = self.area <= 1e-9 * longest**2
         if flat.any():
             raise InputError(
-                f"triangle {int(np.argmax(flat))} has no area: its unstretched corners lie in one line, or run clockwise",
+                f"triangle {int(np.argmax(flat))} has no area, or its unstretched corners run clockwise",
                 path="sheets.rest",
                 allowed="corners counter-clockwise over (warp, weft)",
             )
