@@ -57,11 +57,15 @@ def scales(packed: Packed, size: float) -> Array:
 
 
 def longest_step(packed: Packed, period: float) -> float:
-    """Return the longest step [s]: a fortieth of the period, a quarter of the fastest bounce on a taut line."""
-    longest = period / 40.0
+    """Return the longest step [s]: a twentieth of the period, half of the fastest bounce on taut lines.
+
+    Six places within every step are looked at, so that no bounce goes unseen; how long a step may be when a line is
+    taut is the business of the error control.
+    """
+    longest = period / 20.0
     if len(packed.lines):
         fastest = math.sqrt(float(packed.lines[:, 5].sum()) / float(packed.body[0]))
-        longest = min(longest, 0.5 * math.pi / fastest)
+        longest = min(longest, math.pi / fastest)
     return longest
 
 

@@ -1,12 +1,203 @@
-"""Compose the report of a rigid cage: motions and tensions first, then what they rest on."""
+"""Compose the report of a rigid cage: governing motions and tensions first, then what they rest on."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
 from moyai.core.results import Result
-from moyai.report.document import Document
-from moyai.report.general_page import compose as compose_general
+from moyai.report import cage_rigid_figures as figures
+from moyai.report import cage_rigid_tables as tables
+from moyai.report.cage_rigid_drawing import elevation_drawing, orbit_drawing
+from moyai.report.cage_rigid_reading import Level, Record, levels_of, read_record
+from moyai.report.cage_rigid_time import run_blocks
+from moyai.report.document import Block, Choice, Document, KeyFigure, KeyFigures, Option, Paragraph, Section
+from moyai.report.formatting import format_number, format_quantity
+from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.reading import Group
+
+MOST_RUNS = 12
+MOST_ANIMATIONS = 6
+BINS = 1200
 
 
 def compose(result: Result) -> Document:
-    """Compose the report of a rigid cage."""
-    return compose_general(result)
+    """Compose the report of a rigid cage.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = Group("", result.tree)
+    levels = levels_of(root)
+
+    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
+        if all(isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        if len(options) == 1:
+            return options[0].blocks
+        return (Choice("water-level", "Water level", tuple(options)),)
+
+    literal = str(root.attributes.get("equations", "")) == "literal"
+    sections = [
+        Section("summary", "Summary", (*_summary(levels, literal), *notice_blocks(result))),
+        Section("cage", "Cage and mooring", at_each_level(_cage)),
+        Section("motions", "Motions", at_each_level(_motions)),
+        Section("tensions", "Line tensions", at_each_level(_tensions)),
+        Section("stiffness", "Line stiffness", at_each_level(_stiffness)),
+        Section("time", "Motion over time", at_each_level(_time)),
+        Section("input", "Input", (case_listing(root),)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels, literal),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _subtitle(levels: tuple[Level, ...], literal: bool) -> str:
+    parts = ["Rigid net cage"]
+    if levels:
+        cage = levels[0].part("cage")
+        x, z = cage.array("outline_x", "corner"), cage.array("outline_z", "corner")
+        if x is not None and z is not None:
+            parts.append(f"{format_quantity(float(np.ptp(x)), 'm')} × {format_quantity(float(np.ptp(z)), 'm')}")
+    if literal:
+        parts.append("equations as printed")
+    return ", ".join(parts)
+
+
+def _summary(levels: tuple[Level, ...], literal: bool) -> tuple[Block, ...]:
+    items: list[KeyFigure] = []
+    items += _largest(levels, "peak_tension", "largest line tension")
+    items += _governing_motions(levels)
+    for level in levels[:1]:
+        statics = level.part("statics")
+        tension = statics.array("tension_at_rest", "line")
+        if tension is not None and tension.size:
+            items.append(KeyFigure("tension at rest", format_quantity(float(tension.max()), "N"), level.name))
+        share = statics.array("immersion", situation="moored")
+        if share is not None:
+            drowned = float(share) > 1.0 - 1e-9
+            items.append(
+                KeyFigure(
+                    "floats in water at rest",
+                    f"{100.0 * float(share):.3g} %",
+                    level.name,
+                    judgement="caution" if drowned else "",
+                )
+            )
+    blocks: list[Block] = [KeyFigures(tuple(items))] if items else []
+    if literal:
+        blocks.append(Paragraph("The equations are those in print, faults included: no result to design by."))
+    return tuple(blocks)
+
+
+def _largest(levels: tuple[Level, ...], name: str, words: str) -> list[KeyFigure]:
+    best: tuple[float, str] | None = None
+    used = math.nan
+    for level in levels:
+        loads = level.part("statics").array("breaking_load", "line")
+        for sea in level.part("waves").children():
+            values = sea.array(name, "wave", "line", "end")
+            if values is None or not values.size:
+                continue
+            wave, line, _ = np.unravel_index(int(np.argmax(values)), values.shape)
+            value = float(values.max())
+            if best is None or value > best[0]:
+                where = f"{sea.labels('line')[line]}, {sea.name}, {sea.labels('wave')[wave]}, {level.name}"
+                best = (value, where)
+                used = value / float(loads[line]) if loads is not None and math.isfinite(loads[line]) else math.nan
+    if best is None:
+        return []
+    judged = "" if not math.isfinite(used) else ("bad" if used > 1.0 else "caution" if used > 0.5 else "good")
+    return [
+        KeyFigure(words, format_quantity(best[0], "N"), best[1], utilisation=used, judgement=judged)  # type: ignore[arg-type]
+    ]
+
+
+def _governing_motions(levels: tuple[Level, ...]) -> list[KeyFigure]:
+    found: list[KeyFigure] = []
+    best: dict[str, tuple[float, str]] = {}
+    for level in levels:
+        for sea in level.part("waves").children():
+            ratio, turned = sea.array("range_ratio", "wave", "translation"), sea.array("range", "wave", "mode")
+            if ratio is None or turned is None:
+                continue
+            for n, label in enumerate(("sway range / H", "heave range / H")):
+                at = int(np.argmax(ratio[:, n]))
+                value = float(ratio[at, n])
+                if value > best.get(label, (-1.0, ""))[0]:
+                    best[label] = (value, f"{sea.name}, {sea.labels('wave')[at]}, {level.name}")
+            at = int(np.argmax(turned[:, 2]))
+            value = math.degrees(0.5 * float(turned[at, 2]))
+            if value > best.get("rotation ±", (-1.0, ""))[0]:
+                best["rotation ±"] = (value, f"{sea.name}, {sea.labels('wave')[at]}, {level.name}")
+    for label, (value, where) in best.items():
+        text = f"{format_number(value)}°" if label.startswith("rotation") else format_number(value)
+        found.append(KeyFigure(f"largest {label}", text, where))
+    return found
+
+
+def _cage(level: Level) -> list[Block | None]:
+    return [
+        elevation_drawing(level),
+        tables.rest_table(level),
+        tables.line_table(level),
+        tables.cage_table(level),
+        tables.modes_table(level),
+    ]
+
+
+def _records(level: Level, sea: Group) -> list[Record]:
+    runs = level.part(f"time/{sea.name}").children()
+    return [record for run in runs if (record := read_record(run)) is not None]
+
+
+def _motions(level: Level) -> list[Block | None]:
+    blocks: list[Block | None] = []
+    for sea in level.part("waves").children():
+        blocks += [
+            tables.motion_table(level, sea),
+            figures.response_figure(level, sea),
+            orbit_drawing(level, sea.name, _records(level, sea)),
+        ]
+    return blocks
+
+
+def _tensions(level: Level) -> list[Block | None]:
+    return [tables.tension_table(level, sea) for sea in level.part("waves").children()]
+
+
+def _stiffness(level: Level) -> list[Block | None]:
+    return [block for sea in level.part("sensitivity").children() for block in figures.sensitivity_blocks(level, sea)]
+
+
+def _time(level: Level) -> list[Block | None]:
+    options: list[Option] = []
+    largest: list[float] = []
+    for sea in level.part("waves").children():
+        records = _records(level, sea)
+        step = max(1, math.ceil(len(records) / MOST_RUNS))
+        for number, record in enumerate(records[::-1][::step][::-1]):
+            blocks = run_blocks(level, sea.name, record, number < MOST_ANIMATIONS, BINS)
+            options.append(Option(f"{sea.name}: {record.label}", blocks))
+            value = float(record.peak.max()) if record.peak.size else float(np.abs(record.pose[:, 2]).max())
+            largest.append(value)
+    if not options:
+        return []
+    return [Choice(f"run-{level.name}", "Wave", tuple(options), largest.index(max(largest)), print_all=False)]
