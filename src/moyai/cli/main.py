@@ -99,7 +99,9 @@ def new(
         elif output is None:
             say(text.rstrip("\n"))
         else:
-            command = {"study": f"study {output} --check", "records": f"measure records {output}"}
+            command = {"study": f"study {output} --check"} | {
+                key: f"measure {key} {output}" for key in ("nets", "records")
+            }
             tell(f"wrote {output}; next: moyai {command.get(kind, f'check {output}')}")
 
 

@@ -6,6 +6,7 @@ import typer
 
 from moyai.cli.measuring_decay import decay
 from moyai.cli.measuring_forces import forces
+from moyai.cli.measuring_nets import nets
 from moyai.cli.measuring_records import records
 from moyai.cli.measuring_streaks import streaks
 
@@ -17,5 +18,6 @@ measure = typer.Typer(
 )
 measure.command()(decay)
 measure.command()(forces)
+measure.command()(nets)
 measure.command()(records)
 measure.command()(streaks)

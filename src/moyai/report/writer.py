@@ -22,6 +22,7 @@ COMPOSERS = {
     "study": "moyai.report.study_page:compose",
     "breakwater": "moyai.report.breakwater_page:compose",
     "records": "moyai.report.records_page:compose",
+    "nets": "moyai.report.nets_page:compose",
     "streaks": "moyai.report.streaks_page:compose",
     "comparison": "moyai.report.comparison_page:compose",
     "member": "moyai.report.member_page:compose",

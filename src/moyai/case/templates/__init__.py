@@ -8,7 +8,7 @@ from moyai.case.faults import did_you_mean
 from moyai.case.schema import STRUCTURE_KINDS
 from moyai.core.errors import InputError
 
-FURTHER = ("records", "study")
+FURTHER = ("nets", "records", "study")
 """Files of other commands that have a template too."""
 
 
