@@ -8,10 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.core.validity import Notice
+from moyai.core.validity import IdentityCheck, Notice
 
 if TYPE_CHECKING:
-    from moyai.cage.flexible_model import CageSea, FlexibleCage
+    import xarray as xr
+
+    from moyai.cage.flexible_model import FlexibleCage
+    from moyai.cage.flexible_problem import FlexibleCageProblem, FlexibleSettings
+    from moyai.cage.flexible_time import CageRun
 
 #: Share of its straight way by which a line may be too short before it cannot reach [-].
 _STRETCH = 0.15
@@ -127,17 +131,23 @@ def _check_reach(model: FlexibleCage, mooring: object, rise: float) -> None:
             )
 
 
-def cage_notices(model: FlexibleCage, seas: tuple[CageSea, ...]) -> tuple[Notice, ...]:
+def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
     """Tell where net and speeds leave the range of their law, and where the mesh is coarse."""
+    from moyai.cage.rigid_model import RegularWaves
+
+    model = problem.cage
     net = model.design.net
-    speeds = [0.05]
-    for sea in seas:
-        if sea.current is not None:
-            velocity = sea.current.velocity(np.array([0.0, -net.wall_depth]))
-            speeds.extend(np.hypot(velocity[:, 0], velocity[:, 1]).tolist())
-        if sea.waves is not None:
-            speeds.append(float(np.sqrt(2.0 * np.sum((sea.waves.amplitude * sea.waves.omega) ** 2))))
-    moving = [speed for speed in speeds if speed > 1e-3]
+    speeds = list(problem.settings.current_speeds)
+    current = problem.environment.current
+    if current is not None:
+        velocity = np.asarray(current.velocity(np.array([0.0, -net.wall_depth])))
+        speeds.extend(np.hypot(velocity[:, 0], velocity[:, 1]).tolist())
+    for sea in problem.seas:
+        if isinstance(sea, RegularWaves):
+            speeds.extend(math.pi * height / period for height, period in sea.waves())
+        else:
+            speeds.append(math.pi * float(sea.spectrum.significant_height) / float(sea.spectrum.peak_period))
+    moving = [speed for speed in speeds if speed > 1e-3] or [0.1]
     notices = list(net.law.check(net.net, (min(moving), max(moving)), model.kinematic_viscosity))
     if model.mesh.around < 16 or model.mesh.down < 4:
         notices.append(
@@ -147,7 +157,106 @@ def cage_notices(model: FlexibleCage, seas: tuple[CageSea, ...]) -> tuple[Notice
                 float(model.mesh.around),
                 16.0,
                 remedy="refine the mesh until volume and drag stand",
-                source="mesh study in the validation page",
+                source="mesh study in docs/validation/cage_flexible.md",
             )
         )
     return tuple(notices)
+
+
+def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
+    """Hold the pull on the anchors against the drag of the water on all parts."""
+    moving = statics["current_speed"].values > 0.0
+    if not moving.any():
+        return ()
+    return (
+        IdentityCheck(
+            f"{level}: pull on the anchors equals the drag",
+            float(statics["balance"].values[moving].max()),
+            0.02,
+            "difference of both horizontal forces over the drag, the worst current",
+        ),
+    )
+
+
+def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset) -> tuple[Notice, ...]:
+    """Tell what the rest of a cage shows that an engineer has to know."""
+    notices = []
+    residual = float(statics["residual"].values.max())
+    if residual > 1e-3:
+        worst = float(statics["current_speed"].values[int(np.argmax(statics["residual"].values))])
+        notices.append(
+            Notice(
+                "cage-rest",
+                f"{level}: at {worst:.3g} m/s slack net does not come to rest: {residual:.2g} of the largest tension "
+                "is left on a knot",
+                residual,
+                1e-3,
+                remedy="take volume and drag there as those of a net that flutters",
+            )
+        )
+    speeds, volume = statics["current_speed"].values, statics["volume_share"].values
+    least = float(volume.min())
+    if least < 0.5:
+        where = float(speeds[int(np.argmin(volume.min(axis=1)))])
+        notices.append(
+            Notice(
+                "cage-volume",
+                f"{level}: at {where:.3g} m/s only {100.0 * least:.3g} % of the volume is left",
+                least,
+                0.5,
+                remedy="heavier weights, a sinker tube, or a site with less current",
+            )
+        )  # fmt: skip
+    if "utilisation" in statics and statics["utilisation"].size and float(statics["utilisation"].max()) > 1.0:
+        line = str(statics["line"].values[int(np.argmax(statics["utilisation"].values.max(axis=0)))])
+        notices.append(
+            Notice(
+                "cage-line-breaks", f"{level}: the tension of {line!r} exceeds its breaking load",
+                float(statics["utilisation"].max()), 1.0, "error", "take a stronger rope or a looser grid",
+            )
+        )  # fmt: skip
+    place = statics["collar_place"].values[..., 2]
+    draught = model.design.collar.pipe.diameter
+    if isinstance_grid(model) and float(place.min()) < -0.5 * draught:
+        notices.append(
+            Notice(
+                "cage-collar-sinks", f"{level}: the collar is drawn {-float(place.min()):.3g} m under still water",
+                float(place.min()), -0.5 * draught, remedy="a larger collar, lighter weights or flatter bridles",
+            )
+        )  # fmt: skip
+    return tuple(notices)
+
+
+def isinstance_grid(model: FlexibleCage) -> bool:
+    """Whether a grid holds the cage."""
+    from moyai.cage.flexible_model import GridMooring
+
+    return isinstance(model.mooring, GridMooring)
+
+
+def run_checks(sea: str, run: CageRun) -> tuple[IdentityCheck, ...]:
+    """Return the identities of a run through time."""
+    return tuple(
+        IdentityCheck(f"{sea}, {run.wave.name}: {check.name}", check.value, check.tolerance, check.meaning)
+        for check in run.history.checks
+    )
+
+
+def run_notices(sea: str, run: CageRun, settings: FlexibleSettings) -> tuple[Notice, ...]:
+    """Tell which lines snap and which break."""
+    built, history = run.rest.built, run.history
+    steady = history.time >= run.ramp - 1e-9
+    notices = []
+    for part in built.lines:
+        bars = built.network.strands[part.strand].bars
+        highest = float(history.tension_peak[steady][:, bars].max()) if steady.any() else 0.0
+        if highest > part.breaking_load:
+            notices.append(
+                Notice(
+                    "cage-line-breaks",
+                    f"{sea}, {run.wave.name}: {part.name!r} reaches {highest:.4g} N, its breaking load is "
+                    f"{part.breaking_load:.4g} N",
+                    highest, part.breaking_load, "error", "take a stronger rope or a looser grid",
+                )
+            )  # fmt: skip
+    return tuple(notices[:3])

@@ -11,8 +11,6 @@ from moyai.cage.grid_mooring import GridMooring
 from moyai.core.errors import InputError
 from moyai.flexible.network import Bed
 from moyai.morison.net_law import Net, NetLaw
-from moyai.sea.components import WaveComponents
-from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 
 Shape = Literal["circular", "square"]
@@ -293,32 +291,7 @@ class FlexibleCage:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class CageSea:
-    """A state of the sea: current, and waves where there are any.
-
-    Parameters
-    ----------
-    name : str
-    current : CurrentProfile, optional
-    waves : WaveComponents, optional
-    duration : float
-        That is looked at, after the ramp [s].
-    ramp : float
-        Over which the waves grow [s].
-    output_step : float
-        Between rows of the result [s].
-    """
-
-    name: str
-    current: CurrentProfile | None = None
-    waves: WaveComponents | None = None
-    duration: float = 0.0
-    ramp: float = 0.0
-    output_step: float = 0.1
-
-
 __all__ = [
-    "Bottom", "CageDesign", "CageMesh", "CageNet", "CageSea", "FixedCollar", "FlexibleCage", "GridMooring", "Shape",
+    "Bottom", "CageDesign", "CageMesh", "CageNet", "FixedCollar", "FlexibleCage", "GridMooring", "Shape",
     "Sinkers", "WakeName",
 ]  # fmt: skip

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from moyai.cage.flexible_model import FlexibleCage
 from moyai.cage.flexible_parts import CageNetwork
+from moyai.flexible.flow import Current
 from moyai.flexible.network import Network
 from moyai.morison.net_wake import wake_factor
-from moyai.sea.current import CurrentProfile
 
 Array = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ def half_width(model: FlexibleCage, heading: float) -> float:
     return half * (abs(math.cos(heading)) + abs(math.sin(heading)))
 
 
-def flow_factors(model: FlexibleCage, built: CageNetwork, current: CurrentProfile | None) -> Array:
+def flow_factors(model: FlexibleCage, built: CageNetwork, current: Current | None) -> Array:
     """Return the speed of the current at each panel over the undisturbed one [-] [eq:cage-wake].
 
     The rear half of every cage lies behind its front wall; a cage downstream of others lies behind both walls of
@@ -88,7 +88,7 @@ def flow_factors(model: FlexibleCage, built: CageNetwork, current: CurrentProfil
     return factor
 
 
-def sheltered(model: FlexibleCage, built: CageNetwork, current: CurrentProfile | None) -> Network:
+def sheltered(model: FlexibleCage, built: CageNetwork, current: Current | None) -> Network:
     """Return the network whose panels miss what the current has lost upstream; waves are not sheltered."""
     panels = built.network.panels
     assert panels is not None
@@ -99,3 +99,23 @@ def sheltered(model: FlexibleCage, built: CageNetwork, current: CurrentProfile |
     lost = np.zeros((len(panels), 3))
     lost[:, :2] = (1.0 - factor)[:, None] * velocity
     return replace(built.network, panels=replace(panels, shadow=lost))
+
+
+@dataclass(frozen=True)
+class ScaledCurrent:
+    """A current profile times a factor.
+
+    Parameters
+    ----------
+    profile : Current
+        What is scaled.
+    factor : float
+        [-].
+    """
+
+    profile: Current
+    factor: float
+
+    def velocity(self, z: ArrayLike) -> Array:
+        """Return the velocity (..., 2) at heights z [m/s]."""
+        return np.asarray(self.factor * self.profile.velocity(z))
