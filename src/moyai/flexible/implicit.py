@@ -1,4 +1,4 @@
-"""The implicit schemes: error-controlled Runge-Kutta methods with the true tangent and a banded solver."""
+"""The implicit schemes: error-controlled Runge-Kutta methods with the true tangent and a sparse solver."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from moyai.flexible.explicit import driving_tables
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
+from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system
 from moyai.flexible.result import State
-from moyai.flexible.statics import kernel_bed, kernel_system, order_of_unknowns
 from moyai.flexible.tableaus import TABLEAUS
 
 Array = NDArray[np.float64]
@@ -41,9 +41,8 @@ class ImplicitRun:
         self.network, self.flow, self.name = network, flow, method
         self.arrays = kernel_arrays(network)
         self.system = kernel_system(self.arrays)
-        self.rank, width = order_of_unknowns(self.arrays)
+        self.plan = kernel_plan(network, self.arrays)
         count = len(network.nodes)
-        self.band = np.empty((3 * count, width + 1))
         self.driving = driving_tables(network, motions)
         self.fluid = np.array([network.water.density, network.water.gravity, 0.0])
         self.bed = kernel_bed(network)
@@ -55,7 +54,7 @@ class ImplicitRun:
         self.tension = np.zeros(len(network.bars))
         self.water = np.ascontiguousarray(flow.at(self.time, self._place.T))
         kernel.acceleration(
-            self._place, self._speed, self.water, self.system, self.fluid, self.bed, self.rank, self.tension, self.mass,
+            self._place, self._speed, self.water, self.system, self.fluid, self.bed, self.tension, self.mass,
             self.acceleration,
         )  # fmt: skip
         tableau = TABLEAUS[method]
@@ -113,7 +112,7 @@ class ImplicitRun:
             rate = (ahead - self.water) / (end - self.time)
         before = self.counts[2]
         status, good, reached, self.worst = kernel.implicit_march(
-            self._place, self._speed, self.acceleration, self.system, self.rank, self.band, self.fluid, self.bed,
+            self._place, self._speed, self.acceleration, self.system, self.plan, self.fluid, self.bed,
             (self.water.copy(), self.water, rate, not self.flow.steady), self.driving, self.method, self.control,
             (self.time, row_interval, rows, first), self.ledger, saved, self.counts,
         )  # fmt: skip

@@ -1,8 +1,7 @@
-"""Compiled kernels of statics and of the implicit schemes: forces, their tangent, a banded solver, Newton's method.
+"""Compiled kernels of statics and of the implicit schemes: forces, their tangent, a sparse solver, Newton's method.
 
-Arrays run over nodes first (n, 3). Unknowns stand in the order of ``rank`` (reverse Cuthill-McKee), so that the
-matrix of a
-line is block tridiagonal and that of a net has the band of its narrow side. ``system`` is (nodes, bars, start, end,
+Arrays run over nodes first (n, 3). Matrices are eliminated in the fronts of :mod:`moyai.flexible.sparse`: those of a
+line are a few nodes each. ``system`` is (nodes, bars, start, end,
 curve,
 curves, hinges, bending, attached) of :class:`moyai.flexible.arrays.KernelArrays`.
 """
@@ -161,61 +160,78 @@ def _bend(x: Any, a: int, b: int, c: int, stiffness: Any, force: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _add(band: Any, rank: Any, i: int, j: int, block: Any, scale: float) -> None:
-    """Add a 3x3 block to the lower band; row r holds columns r - width ... r."""
-    width = band.shape[1] - 1
-    for p in range(3):
-        row = 3 * rank[i] + p
-        for q in range(3):
-            column = 3 * rank[j] + q
-            if column <= row:
-                band[row, width - row + column] += scale * block[p, q]
-
-
-@njit(cache=True, error_model="numpy")
-def tangent(
-    x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, mass: Any, rank: Any, by_mass: float, by_rate: float,
-    by_place: float, band: Any,
+def laws(
+    x: Any, v: Any, system: Any, fluid: Any, bed: Any, by_rate: float, by_place: float, bar_law: Any, node_law: Any
 ) -> None:  # fmt: skip
-    """Write ``by_mass M + by_rate C + by_place K`` in its lower band, C and K the derivatives of minus the force.
-
-    The change of drag and added mass with the direction of the bars is left out (it is not symmetric and small);
-    Newton's method then converges linearly at a rate far below one. What is held gets a unit row and column.
-    """
-    nodes, bars, start, end, curve, curves, hinges, bending, attached = system
-    band[:] = 0.0
-    block, t, u = np.zeros((3, 3)), np.empty(3), np.empty(3)
-    for i in range(x.shape[0]):
-        block[0, 0], block[0, 1], block[0, 2] = mass[i, 0], mass[i, 1], mass[i, 2]
-        block[1, 0], block[1, 1], block[1, 2] = mass[i, 1], mass[i, 3], mass[i, 4]
-        block[2, 0], block[2, 1], block[2, 2] = mass[i, 2], mass[i, 4], mass[i, 5]
-        _add(band, rank, i, i, block, by_mass)
+    """Write pull and stiffness along the bar of every bar, stiffness of the bed upwards and sideways of every node."""
+    nodes, bars, start, end, curve, curves, _, _, _ = system
     for k in range(start.size):
         a, b = start[k], end[k]
         size = rate = 0.0
+        for axis in range(3):
+            t = x[b, axis] - x[a, axis]
+            size += t * t
+            rate += t * (v[b, axis] - v[a, axis])
+        size = max(math.sqrt(size), 1e-100)
+        elastic, slope = _elastic(bars, k, size, curve[k], curves)
+        pull, share = _cut(elastic + bars[2, k] * rate / size, bars[3, k], fluid[2])
+        bar_law[0, k] = pull if share > 0.0 else 0.0
+        bar_law[1, k] = share * (by_place * slope + by_rate * bars[2, k])
+    for i in range(x.shape[0]):
+        node_law[0, i] = node_law[1, i] = 0.0
+        depth = bed[0] - x[i, 2]
+        if bed[3] > 0.0 and (depth > 0.0 or fluid[2] > 0.0):
+            push, part = _cut(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0, fluid[2])
+            node_law[0, i] = part * (by_place * nodes[5, i] + by_rate * nodes[6, i])
+            if bed[1] > 0.0:
+                speed = math.sqrt(v[i, 0] ** 2 + v[i, 1] ** 2 + bed[2] * bed[2])
+                node_law[1, i] = by_rate * bed[1] * push / speed
+
+
+@njit(cache=True, error_model="numpy")
+def blocks(
+    x: Any, v: Any, water: Any, system: Any, fluid: Any, mass: Any, bar_law: Any, node_law: Any, by_mass: float,
+    by_rate: float, by_place: float, exact: bool, node_block: Any, bar_block: Any,
+) -> None:  # fmt: skip
+    """Write ``by_mass M + by_rate C + by_place K`` in 3x3 blocks, C and K the derivatives of minus the force.
+
+    ``bar_law`` and ``node_law`` come from :func:`laws` (or :func:`mixed_laws`).
+    ``node_block`` (n, 3, 3) stands on the diagonal, ``bar_block`` (m, 2, 3, 3) couples start to end and end to start;
+    hinges, whose stiffness does not change, are left to :func:`to_fronts` beside the diagonal.
+    ``exact`` adds how drag turns with the bars and how the loads change with the immersed part (not symmetric) and
+    keeps the destabilising part of compressed rods.
+    """
+    nodes, bars, start, end, _, _, hinges, bending, attached = system
+    t, u, part_of = np.empty(3), np.empty(3), np.empty(3)
+    turn, wide = np.empty((3, 3)), np.empty((3, 3))
+    for i in range(x.shape[0]):
+        node_block[i, 0, 0], node_block[i, 0, 1], node_block[i, 0, 2] = mass[i, 0], mass[i, 1], mass[i, 2]
+        node_block[i, 1, 0], node_block[i, 1, 1], node_block[i, 1, 2] = mass[i, 1], mass[i, 3], mass[i, 4]
+        node_block[i, 2, 0], node_block[i, 2, 1], node_block[i, 2, 2] = mass[i, 2], mass[i, 4], mass[i, 5]
+        for p in range(3):
+            for q in range(3):
+                node_block[i, p, q] *= by_mass
+    for k in range(start.size):
+        a, b = start[k], end[k]
+        size = 0.0
         for axis in range(3):
             t[axis] = x[b, axis] - x[a, axis]
             size += t[axis] * t[axis]
         size = max(math.sqrt(size), 1e-100)
         for axis in range(3):
             t[axis] /= size
-            rate += t[axis] * (v[b, axis] - v[a, axis])
-        elastic, slope = _elastic(bars, k, size, curve[k], curves)
-        pull, share = _cut(elastic + bars[2, k] * rate, bars[3, k], fluid[2])
-        if share > 0.0:
-            # compression of a rod destabilises; without its geometric part the matrix stays positive
-            side = max(pull, 0.0) / size * by_place
-            straight = share * (by_place * slope + by_rate * bars[2, k]) - side
-            for p in range(3):
-                for q in range(3):
-                    block[p, q] = straight * t[p] * t[q] + (side if p == q else 0.0)
-            _add(band, rank, a, a, block, 1.0)
-            _add(band, rank, b, b, block, 1.0)
-            if rank[a] > rank[b]:
-                _add(band, rank, a, b, block, -1.0)
-            else:
-                _add(band, rank, b, a, block, -1.0)
+        # compression of a rod destabilises; without its geometric part the matrix stays positive
+        side = (bar_law[0, k] if exact else max(bar_law[0, k], 0.0)) / size * by_place
+        straight = bar_law[1, k] - side
+        for p in range(3):
+            for q in range(3):
+                value = straight * t[p] * t[q] + (side if p == q else 0.0)
+                node_block[a, p, q] += value
+                node_block[b, p, q] += value
+                bar_block[k, 0, p, q] = bar_block[k, 1, p, q] = -value
         wet, steep = _wet_part(x, water, a, b, bars[10, k])
+        if wet <= 0.0:
+            continue
         for side_node in range(2):
             node = a if side_node == 0 else b
             along = across = 0.0
@@ -226,14 +242,52 @@ def tangent(
                 u[axis] -= along * t[axis]
                 across += u[axis] * u[axis]
             across = math.sqrt(across)
-            normal, skin = wet * bars[4, k] * by_rate, 2.0 * wet * bars[5, k] * abs(along) * by_rate
-            for p in range(3):
-                for q in range(3):
-                    block[p, q] = skin * t[p] * t[q] + normal * across * ((1.0 if p == q else 0.0) - t[p] * t[q])
-                    if across > 0.0:
-                        block[p, q] += normal * u[p] * u[q] / across
-            block[2, 2] += by_place * bars[8, k] * steep
-            _add(band, rank, node, node, block, 1.0)
+            if by_rate != 0.0 and (across > 0.0 or along != 0.0):
+                normal, skin = wet * bars[4, k] * by_rate, 2.0 * wet * bars[5, k] * abs(along) * by_rate
+                for p in range(3):
+                    for q in range(3):
+                        value = skin * t[p] * t[q] + normal * across * ((1.0 if p == q else 0.0) - t[p] * t[q])
+                        if across > 0.0:
+                            value += normal * u[p] * u[q] / across
+                        node_block[node, p, q] += value
+            if not exact:
+                node_block[node, 2, 2] += by_place * bars[8, k] * steep
+                continue
+            normal, skin = bars[4, k] * across, bars[5, k] * abs(along)
+            if across > 0.0 or along != 0.0:
+                # derivative of both drags by the direction of the bar ...
+                for p in range(3):
+                    for q in range(3):
+                        whole = u[q] + along * t[q]
+                        value = -normal * (t[p] * whole + (along if p == q else 0.0))
+                        if across > 0.0:
+                            value -= bars[4, k] * along / across * u[p] * u[q]
+                        turn[p, q] = value + skin * (2.0 * t[p] * whole + (along if p == q else 0.0))
+                # ... and of the direction by the places of its ends
+                for p in range(3):
+                    toward = turn[p, 0] * t[0] + turn[p, 1] * t[1] + turn[p, 2] * t[2]
+                    for q in range(3):
+                        wide[p, q] = by_place * wet / size * (turn[p, q] - toward * t[q])
+                sign = 1.0 if side_node == 0 else -1.0
+                for p in range(3):
+                    for q in range(3):
+                        node_block[node, p, q] += sign * wide[p, q]
+                        bar_block[k, side_node, p, q] -= sign * wide[p, q]
+            if steep > 0.0:
+                low, high = x[a, 2] - water[6, a], x[b, 2] - water[6, b]
+                upside = low > high
+                if upside:
+                    low, high = high, low
+                low, high = low - bars[10, k], high + bars[10, k]
+                # what the lower and the upper end take from the immersed part when they rise
+                by_low, by_high = high * steep * steep, -low * steep * steep
+                mine = by_low if (side_node == 0) != upside else by_high
+                for axis in range(3):
+                    part_of[axis] = normal * u[axis] + skin * along * t[axis]
+                part_of[2] += bars[8, k]
+                for p in range(3):
+                    node_block[node, p, 2] += by_place * part_of[p] * mine
+                    bar_block[k, side_node, p, 2] += by_place * part_of[p] * (steep - mine)
     for n in range(attached.size):
         i = attached[n]
         part, steep = _float_part(x, water, nodes, i)
@@ -242,97 +296,264 @@ def tangent(
             u[axis] = water[axis, i] - v[i, axis]
             speed += u[axis] * u[axis]
         speed = math.sqrt(speed)
-        for p in range(3):
-            for q in range(3):
-                block[p, q] = 0.0
-                if speed > 0.0:
-                    block[p, q] = by_rate * part * nodes[3, i] * (u[p] * u[q] / speed + (speed if p == q else 0.0))
-        block[2, 2] += by_place * steep * fluid[0] * fluid[1] * nodes[2, i]
-        _add(band, rank, i, i, block, 1.0)
+        if speed > 0.0:
+            for p in range(3):
+                for q in range(3):
+                    value = by_rate * part * nodes[3, i] * (u[p] * u[q] / speed + (speed if p == q else 0.0))
+                    node_block[i, p, q] += value
+                if exact:
+                    node_block[i, p, 2] += by_place * steep * nodes[3, i] * speed * u[p]
+        node_block[i, 2, 2] += by_place * steep * fluid[0] * fluid[1] * nodes[2, i]
     for h in range(hinges.shape[0]):
-        _bend_tangent(hinges[h, 0], hinges[h, 1], hinges[h, 2], bending[h], by_place, rank, band)
-    if bed[3] > 0.0:
-        for i in range(x.shape[0]):
-            depth = bed[0] - x[i, 2]
-            if depth > 0.0 or fluid[2] > 0.0:
-                block[:] = 0.0
-                push, part = _cut(nodes[5, i] * depth - nodes[6, i] * v[i, 2], 0.0, fluid[2])
-                if part > 0.0:
-                    block[2, 2] = part * (by_place * nodes[5, i] + by_rate * nodes[6, i])
-                    speed = math.sqrt(v[i, 0] ** 2 + v[i, 1] ** 2 + bed[2] * bed[2])
-                    for p in range(2):
-                        block[p, p] = by_rate * bed[1] * push / speed
-                _add(band, rank, i, i, block, 1.0)
-    width = band.shape[1] - 1
+        for m in range(3):
+            value = by_place * bending[h, 0] * _turn_part(bending, h, m) ** 2
+            for p in range(3):
+                node_block[hinges[h, m], p, p] += value
     for i in range(x.shape[0]):
-        for axis in range(3):
-            if nodes[9 + axis, i] == 0.0:
-                row = 3 * rank[i] + axis
-                for column in range(width):
-                    band[row, column] = 0.0
-                for below in range(1, width + 1):
-                    if row + below < band.shape[0]:
-                        band[row + below, width - below] = 0.0
-                band[row, width] = 1.0
+        node_block[i, 0, 0] += node_law[1, i]
+        node_block[i, 1, 1] += node_law[1, i]
+        node_block[i, 2, 2] += node_law[0, i]
 
 
 @njit(cache=True, error_model="numpy")
-def _bend_tangent(a: int, b: int, c: int, stiffness: Any, scale: float, rank: Any, band: Any) -> None:
-    """Add the stiffness of a hinge, which does not change."""
-    nodes = (a, b, c)
-    parts = (stiffness[1], -stiffness[1] - stiffness[2], stiffness[2])
-    same = np.eye(3)
-    for m in range(3):
-        for n in range(3):
-            if rank[nodes[m]] > rank[nodes[n]] or m == n:
-                _add(band, rank, nodes[m], nodes[n], same, scale * stiffness[0] * parts[m] * parts[n])
+def mixed_laws(
+    x: Any, system: Any, bed: Any, soft: float, pulls: Any, pushes: Any, bar_law: Any, node_law: Any, force: Any,
+) -> float:  # fmt: skip
+    """Linearise bars and bed about tensions and pushes that are unknowns of their own [eq:flexible-mixed].
+
+    Writes ``bar_law`` and ``node_law`` as :func:`laws` does, adds to ``force`` (n, 3) what bars and bed give after the
+    linear step, and returns the largest difference between the law and the unknown [N].
+    """
+    nodes, bars, start, end, curve, curves, _, _, _ = system
+    t = np.empty(3)
+    most = 0.0
+    for k in range(start.size):
+        a, b = start[k], end[k]
+        size = 0.0
+        for axis in range(3):
+            t[axis] = x[b, axis] - x[a, axis]
+            size += t[axis] * t[axis]
+        size = max(math.sqrt(size), 1e-100)
+        elastic, slope = _elastic(bars, k, size, curve[k], curves)
+        share, gap = 1.0, elastic - pulls[k]
+        if bars[3, k] == 0.0:
+            # the tension of a bar that only pulls stays positive: pull (pull - elastic) = (soft / 2)^2
+            square = 0.25 * soft * soft / pulls[k]
+            share = pulls[k] / (pulls[k] + square)
+            gap += square
+        bar_law[0, k], bar_law[1, k], bar_law[2, k] = pulls[k], share * slope, share * gap
+        most = max(most, abs(share * gap))
+        for axis in range(3):
+            value = (pulls[k] + share * gap) * t[axis] / size
+            force[a, axis] += value
+            force[b, axis] -= value
+    for i in range(x.shape[0]):
+        node_law[0, i] = node_law[1, i] = node_law[2, i] = 0.0
+        if bed[3] > 0.0 and nodes[5, i] > 0.0:
+            square = 0.25 * soft * soft / pushes[i]
+            share = pushes[i] / (pushes[i] + square)
+            gap = share * (nodes[5, i] * (bed[0] - x[i, 2]) - pushes[i] + square)
+            node_law[0, i], node_law[2, i] = share * nodes[5, i], gap
+            most = max(most, abs(gap) * nodes[11, i])
+            force[i, 2] += pushes[i] + gap
+    return most
+
+
+@njit(cache=True, error_model="numpy")
+def mixed_step(
+    x: Any, step: Any, part: float, system: Any, bed: Any, bar_law: Any, node_law: Any, pulls: Any, pushes: Any,
+    new_x: Any, new_pulls: Any, new_pushes: Any, force: Any,
+) -> None:  # fmt: skip
+    """Take ``part`` of a linear step of places, tensions and pushes; add bars and bed at its end to ``force``.
+
+    What may not change sign keeps at least a tenth of what it was.
+    """
+    nodes, bars, start, end, _, _, _, _, _ = system
+    for i in range(x.shape[0]):
+        for axis in range(3):
+            new_x[i, axis] = x[i, axis] + part * step[i, axis]
+        if bed[3] > 0.0 and nodes[5, i] > 0.0:
+            change = node_law[2, i] - node_law[0, i] * step[i, 2]
+            new_pushes[i] = max(pushes[i] + part * change, 0.1 * pushes[i])
+            force[i, 2] += new_pushes[i]
+    for k in range(start.size):
+        a, b = start[k], end[k]
+        size = along = new = 0.0
+        for axis in range(3):
+            t = x[b, axis] - x[a, axis]
+            size += t * t
+            along += t * (step[b, axis] - step[a, axis])
+            new += (new_x[b, axis] - new_x[a, axis]) ** 2
+        value = pulls[k] + part * (bar_law[2, k] + bar_law[1, k] * along / max(math.sqrt(size), 1e-100))
+        new_pulls[k] = max(value, 0.1 * pulls[k]) if bars[3, k] == 0.0 else value
+        value = new_pulls[k] / max(math.sqrt(new), 1e-100)
+        for axis in range(3):
+            force[a, axis] += value * (new_x[b, axis] - new_x[a, axis])
+            force[b, axis] -= value * (new_x[b, axis] - new_x[a, axis])
+
+
+@njit(cache=True, error_model="numpy")
+def _turn_part(bending: Any, h: int, m: int) -> float:
+    """Return how the turn of a hinge depends on its node m."""
+    return bending[h, 1] if m == 0 else (-bending[h, 1] - bending[h, 2] if m == 1 else bending[h, 2])
+
+
+@njit(cache=True, error_model="numpy")
+def to_fronts(
+    node_block: Any, bar_block: Any, system: Any, by_place: float, own: Any, bar_pairs: Any, hinge_pairs: Any,
+    numbers: Any,
+) -> None:  # fmt: skip
+    """Write the blocks in the fronts of a :class:`moyai.flexible.sparse.SparsePlan`."""
+    nodes, _, start, end, _, _, hinges, bending, _ = system
+    numbers[:] = 0.0
+    for i in range(node_block.shape[0]):
+        place, row = own[i, 0], own[i, 1]
+        for p in range(3):
+            for q in range(3):
+                numbers[place + p * row + q] = node_block[i, p, q] * nodes[9 + p, i] * nodes[9 + q, i]
+            if nodes[9 + p, i] == 0.0:
+                numbers[place + p * row + p] = 1.0
+    for k in range(start.size):
+        for turned in range(2):
+            a, b = (start[k], end[k]) if turned == 0 else (end[k], start[k])
+            place, row = bar_pairs[k, turned, 1 - turned, 0], bar_pairs[k, turned, 1 - turned, 1]
+            for p in range(3):
+                for q in range(3):
+                    value = bar_block[k, turned, p, q] * nodes[9 + p, a] * nodes[9 + q, b]
+                    numbers[place + p * row + q] += value
+    for h in range(hinges.shape[0]):
+        for m in range(3):
+            for n in range(3):
+                if m != n:
+                    a, b = hinges[h, m], hinges[h, n]
+                    value = by_place * bending[h, 0] * _turn_part(bending, h, m) * _turn_part(bending, h, n)
+                    place, row = hinge_pairs[h, m, n, 0], hinge_pairs[h, m, n, 1]
+                    for p in range(3):
+                        numbers[place + p * row + p] += value * nodes[9 + p, a] * nodes[9 + p, b]
+
+
+@njit(cache=True, error_model="numpy")
+def add_elements(element: Any, members: Any, pairs: Any, free: Any, scale: float, numbers: Any) -> None:
+    """Add ``scale`` times the blocks (e, k, k, 3, 3) of a family of elements to the fronts."""
+    for e in range(members.shape[0]):
+        for i in range(members.shape[1]):
+            for j in range(members.shape[1]):
+                place, row = pairs[e, i, j, 0], pairs[e, i, j, 1]
+                for p in range(3):
+                    for q in range(3):
+                        value = element[e, i, j, p, q] * free[p, members[e, i]] * free[q, members[e, j]]
+                        numbers[place + p * row + q] += scale * value
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
-def factor(band: Any) -> bool:
-    """Cholesky's factor of a banded matrix in place; False when it is not positive."""
-    size, width = band.shape[0], band.shape[1] - 1
-    for row in range(size):
-        first = max(0, row - width)
-        for column in range(first, row):
-            start = max(first, column - width)
-            total = band[row, width - row + column]
-            left, right = width - row, width - column
-            for k in range(start, column):
-                total -= band[row, left + k] * band[column, right + k]
-            band[row, width - row + column] = total * band[column, width]
-        total = band[row, width]
-        for k in range(width - row + first, width):
-            total -= band[row, k] * band[row, k]
-        if not total > 0.0:
-            return False
-        # the diagonal keeps one over the root
-        band[row, width] = 1.0 / math.sqrt(total)
+def factor_fronts(numbers: Any, fronts: Any, target: Any) -> bool:
+    """Factor all fronts in place, L U without exchanging rows; False at a pivot that is not positive.
+
+    A matrix whose symmetric part is positive has positive pivots only; one that has not asks for a shorter step.
+    """
+    for s in range(fronts.shape[0]):
+        own, dim = 3 * fronts[s, 1], 3 * (fronts[s, 1] + fronts[s, 2])
+        front = numbers[fronts[s, 4] : fronts[s, 4] + dim * dim].reshape(dim, dim)
+        for k in range(0, own, 3):
+            # three pivots at a time: their rows first, then everything below and right of them
+            for q in range(3):
+                pivot = front[k + q, k + q]
+                if not pivot > 0.0:
+                    return False
+                inverse = 1.0 / pivot
+                for i in range(k + q + 1, k + 3):
+                    scale = front[i, k + q] * inverse
+                    front[i, k + q] = scale
+                    for j in range(k + q + 1, dim):
+                        front[i, j] -= scale * front[k + q, j]
+                front[k + q, k + q] = inverse
+            first, second, third = front[k], front[k + 1], front[k + 2]
+            for i in range(k + 3, dim):
+                line = front[i]
+                a = line[k] * first[k]
+                b = (line[k + 1] - a * first[k + 1]) * second[k + 1]
+                c = (line[k + 2] - a * first[k + 2] - b * second[k + 2]) * third[k + 2]
+                line[k], line[k + 1], line[k + 2] = a, b, c
+                for j in range(k + 3, dim):
+                    line[j] -= a * first[j] + b * second[j] + c * third[j]
+        parent = fronts[s, 5]
+        if parent >= 0:
+            wide = 3 * (fronts[parent, 1] + fronts[parent, 2])
+            base = fronts[parent, 4]
+            for i in range(fronts[s, 2]):
+                for p in range(3):
+                    row = base + (3 * target[fronts[s, 3] + i] + p) * wide
+                    line = front[own + 3 * i + p]
+                    for j in range(fronts[s, 2]):
+                        place = row + 3 * target[fronts[s, 3] + j]
+                        numbers[place] += line[own + 3 * j]
+                        numbers[place + 1] += line[own + 3 * j + 1]
+                        numbers[place + 2] += line[own + 3 * j + 2]
     return True
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
-def solve(band: Any, right: Any) -> None:
-    """Solve with the factor, in place."""
-    size, width = band.shape[0], band.shape[1] - 1
-    for row in range(size):
-        total = right[row]
-        for column in range(max(0, row - width), row):
-            total -= band[row, width - row + column] * right[column]
-        right[row] = total * band[row, width]
-    for row in range(size - 1, -1, -1):
-        value = right[row] * band[row, width]
-        right[row] = value
-        for column in range(max(0, row - width), row):
-            right[column] -= band[row, width - row + column] * value
+def solve_fronts(numbers: Any, fronts: Any, later: Any, order: Any, right: Any) -> None:
+    """Solve with the factors, in place; ``right`` is (n, 3)."""
+    most = 0
+    for s in range(fronts.shape[0]):
+        most = max(most, fronts[s, 1] + fronts[s, 2])
+    local = np.empty(3 * most)
+    for s in range(fronts.shape[0]):
+        first, pivots, rest = fronts[s, 0], fronts[s, 1], fronts[s, 2]
+        own, dim = 3 * pivots, 3 * (pivots + rest)
+        front = numbers[fronts[s, 4] : fronts[s, 4] + dim * dim].reshape(dim, dim)
+        for i in range(pivots):
+            for p in range(3):
+                local[3 * i + p] = right[order[first + i], p]
+        for i in range(own):
+            total = local[i]
+            for k in range(i):
+                total -= front[i, k] * local[k]
+            local[i] = total
+            right[order[first + i // 3], i % 3] = total
+        for i in range(rest):
+            node = order[later[fronts[s, 3] + i]]
+            for p in range(3):
+                total, line = right[node, p], front[own + 3 * i + p]
+                for k in range(own):
+                    total -= line[k] * local[k]
+                right[node, p] = total
+    for s in range(fronts.shape[0] - 1, -1, -1):
+        first, pivots, rest = fronts[s, 0], fronts[s, 1], fronts[s, 2]
+        own, dim = 3 * pivots, 3 * (pivots + rest)
+        front = numbers[fronts[s, 4] : fronts[s, 4] + dim * dim].reshape(dim, dim)
+        for i in range(rest):
+            node = order[later[fronts[s, 3] + i]]
+            for p in range(3):
+                local[own + 3 * i + p] = right[node, p]
+        for i in range(own - 1, -1, -1):
+            total, line = right[order[first + i // 3], i % 3], front[i]
+            for k in range(i + 1, dim):
+                total -= line[k] * local[k]
+            local[i] = total * line[i]
+            right[order[first + i // 3], i % 3] = local[i]
 
 
 @njit(cache=True, error_model="numpy")
-def _largest_step(change: Any) -> float:
-    most = 0.0
-    for i in range(change.size):
-        most = max(most, abs(change[i]))
-    return most
+def step_matrix(
+    x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, mass: Any, by_mass: float, by_rate: float,
+    by_place: float, plan: Any,
+) -> bool:  # fmt: skip
+    """Write and factor ``by_mass M + by_rate C + by_place K`` without its unsymmetric part.
+
+    The change of drag and added mass with the direction of the bars is left out: over a step it is small, and Newton's
+    method converges linearly at a rate far below one. ``plan`` is (own, pairs of bars, pairs of hinges, numbers,
+    fronts, target, later, order) of :class:`moyai.flexible.sparse.SparsePlan`.
+    """
+    node_block, bar_block = np.empty((x.shape[0], 3, 3)), np.empty((system[2].size, 2, 3, 3))
+    bar_law, node_law = np.empty((2, system[2].size)), np.empty((2, x.shape[0]))
+    laws(x, v, system, fluid, bed, by_rate, by_place, bar_law, node_law)
+    blocks(
+        x, v, water, system, fluid, mass, bar_law, node_law, by_mass, by_rate, by_place, False, node_block, bar_block
+    )
+    to_fronts(node_block, bar_block, system, by_place, plan[0], plan[1], plan[2], plan[3])
+    return factor_fronts(plan[3], plan[4], plan[5])
 
 
 @njit(cache=True, error_model="numpy")
@@ -345,75 +566,6 @@ def _masked_norm(force: Any, nodes: Any) -> tuple[float, int]:
             if not size <= most:
                 most, worst = size, i
     return most, worst
-
-
-@njit(cache=True, error_model="numpy")
-def relax(
-    x: Any, water: Any, system: Any, fluid: Any, bed: Any, rank: Any, band: Any, pace: float, reach: float,
-    tolerance: float, noise: float, most: int, tension: Any,
-) -> tuple[int, float, int]:  # fmt: skip
-    """Bring a network to rest: implicit steps of growing length whose velocity is dropped, ending in Newton's method.
-
-    [eq:flexible-relaxation]. ``pace`` is the first pseudo time step [s], ``reach`` the furthest that a node may go in
-    one
-    step [m], ``noise`` the rounding of the forces [N]. Returns the number of steps, the largest force left over the
-    largest force at work, and its node.
-    """
-    nodes = system[0]
-    count = x.shape[0]
-    force, trial, v = np.empty((count, 3)), np.empty((count, 3)), np.zeros((count, 3))
-    mass, change = np.empty((count, 6)), np.empty(3 * count)
-    scale = 1e-300
-    for i in range(count):
-        scale = max(scale, nodes[1, i] + fluid[0] * fluid[1] * nodes[2, i])
-    fluid[2] = scale
-    forces(x, v, water, system, fluid, bed, force, tension, mass)
-    left, worst = _masked_norm(force, nodes)
-    for step in range(most):
-        for k in range(tension.size):
-            scale = max(scale, abs(tension[k]))
-        enough = max(tolerance * scale, noise)
-        if left <= enough:
-            if fluid[2] <= 0.1 * enough:
-                return step, left / scale, worst
-            fluid[2] = 0.1 * enough
-            forces(x, v, water, system, fluid, bed, force, tension, mass)
-            left, worst = _masked_norm(force, nodes)
-        tangent(x, v, water, system, fluid, bed, mass, rank, 1.0 / (pace * pace), 1.0 / pace, 1.0, band)
-        if not factor(band):
-            pace *= 0.25
-            continue
-        for i in range(count):
-            for axis in range(3):
-                change[3 * rank[i] + axis] = force[i, axis] * nodes[9 + axis, i]
-        solve(band, change)
-        longest = _largest_step(change)
-        if not longest < np.inf:
-            pace *= 0.25
-            continue
-        cut = min(1.0, reach / longest) if longest > 0.0 else 1.0
-        for i in range(count):
-            for axis in range(3):
-                trial[i, axis] = x[i, axis] + cut * change[3 * rank[i] + axis]
-        before = left
-        forces(trial, v, water, system, fluid, bed, force, tension, mass)
-        left, worst = _masked_norm(force, nodes)
-        if not left < 1e3 * max(before, 1e-6 * scale) and pace > 1e-6:
-            pace *= 0.25
-            forces(x, v, water, system, fluid, bed, force, tension, mass)
-            left, worst = _masked_norm(force, nodes)
-            continue
-        x[:] = trial
-        # switched evolution: the pseudo time grows as the force falls, and shrinks faster where it rises
-        growth = before / max(left, 1e-300)
-        growth = min(1.3 * growth, 10.0) if growth >= 1.0 else max(0.5 * growth, 0.1)
-        pace = min(pace * (growth if cut == 1.0 else min(growth, 1.0)), 1e8)
-        if 0.3 * left < fluid[2]:
-            # slack and taut are told apart the more sharply the nearer the rest
-            fluid[2] = max(0.3 * left, 0.05 * enough)
-            forces(x, v, water, system, fluid, bed, force, tension, mass)
-            left, worst = _masked_norm(force, nodes)
-    return most, left / scale, worst
 
 
 @njit(cache=True, error_model="numpy")
@@ -476,15 +628,8 @@ def _mass_times(mass: Any, u: Any, nodes: Any, out: Any, sign: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _pack(values: Any, rank: Any, out: Any) -> None:
-    for i in range(values.shape[0]):
-        for axis in range(3):
-            out[3 * rank[i] + axis] = values[i, axis]
-
-
-@njit(cache=True, error_model="numpy")
 def acceleration(
-    x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, rank: Any, tension: Any, mass: Any, result: Any
+    x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, tension: Any, mass: Any, result: Any
 ) -> None:
     """Write the acceleration of what is free."""
     nodes = system[0]
@@ -503,13 +648,14 @@ def acceleration(
 
 @njit(cache=True, error_model="numpy")
 def _stage(
-    h: float, gain: float, ahead: Any, across: Any, guess: Any, system: Any, fluid: Any, bed: Any, rank: Any, band: Any,
+    h: float, gain: float, ahead: Any, across: Any, guess: Any, system: Any, fluid: Any, bed: Any, plan: Any,
     fresh: bool, water: Any, driving: Any, now: float, limits: Any, place: Any, speed: Any, mass: Any, tension: Any,
-    force: Any, right: Any, change: Any, counts: Any,
+    force: Any, change: Any, counts: Any,
 ) -> int:  # fmt: skip
     """Solve one stage for its acceleration ``guess`` by Newton's method; 0 when solved, 1 when not.
 
-    ``limits`` is allowed error of place, allowed error of tension. The factor in ``band`` is kept as long as it serves.
+    ``limits`` is allowed error of place, allowed error of tension. The factors in ``plan`` are kept as long as they
+    serve.
     """
     nodes, start, end = system[0], system[2], system[3]
     spring = system[1][1]
@@ -525,16 +671,14 @@ def _stage(
         counts[0] += 1
         _mass_times(mass, guess, nodes, force, -1.0)
         if fresh:
-            tangent(place, speed, water, system, fluid, bed, mass, rank, 1.0, gain, gain * gain, band)
             counts[1] += 1
-            if not factor(band):
+            if not step_matrix(place, speed, water, system, fluid, bed, mass, 1.0, gain, gain * gain, plan):
                 return 1
             fresh = False
-        _pack(force, rank, right)
-        solve(band, right)
+        solve_fronts(plan[3], plan[4], plan[6], plan[7], force)
         for i in range(count):
             for axis in range(3):
-                step = right[3 * rank[i] + axis] * nodes[9 + axis, i]
+                step = force[i, axis] * nodes[9 + axis, i]
                 guess[i, axis] += step
                 # a short step must not hide an error of the velocity behind its own square
                 change[i, axis] = gain * max(gain, 0.02) * step
@@ -619,7 +763,7 @@ def _powers(x: Any, v: Any, force: Any, system: Any, fluid: Any, own: Any, tensi
 
 @njit(cache=True, error_model="numpy")
 def implicit_march(
-    x: Any, v: Any, a: Any, system: Any, rank: Any, band: Any, fluid: Any, bed: Any, water: Any, driving: Any,
+    x: Any, v: Any, a: Any, system: Any, plan: Any, fluid: Any, bed: Any, water: Any, driving: Any,
     method: Any, control: Any, timing: Any, ledger: Any, saved: Any, counts: Any,
 ) -> tuple[int, int, float, int]:  # fmt: skip
     """Advance by rows of the result with an error-controlled implicit Runge-Kutta method [eq:flexible-dirk].
@@ -642,12 +786,12 @@ def implicit_march(
     vs, accelerations = np.zeros((many, count, 3)), np.zeros((many, count, 3))
     ahead, across, place, speed = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
     force, change, own = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
-    mass, old_mass, right = np.empty((count, 6)), np.empty((count, 6)), np.empty(3 * count)
+    mass, old_mass = np.empty((count, 6)), np.empty((count, 6))
     tension, peak = np.zeros(start.size), np.full(start.size, -1e300)
     limits, powers, before = np.empty(2), np.zeros(2), np.zeros(2)
     begin = time
     _water_at(now_water, base, rate, 0.0, moving)
-    acceleration(x, v, now_water, system, fluid, bed, rank, tension, mass, a)
+    acceleration(x, v, now_water, system, fluid, bed, tension, mass, a)
     old_mass[:] = mass
     forces(x, v, now_water, system, fluid, bed, force, tension, mass)
     _powers(x, v, force, system, fluid, own, tension, before)
@@ -675,8 +819,8 @@ def implicit_march(
                         accelerations[s, i, axis] = accelerations[s - 1, i, axis]
                 _water_at(now_water, base, rate, time + part * h - begin, moving)
                 bad = _stage(
-                    h, gain, ahead, across, accelerations[s], system, fluid, bed, rank, band, fresh, now_water, driving,
-                    time + part * h, limits, place, speed, mass, tension, force, right, change, counts,
+                    h, gain, ahead, across, accelerations[s], system, fluid, bed, plan, fresh, now_water, driving,
+                    time + part * h, limits, place, speed, mass, tension, force, change, counts,
                 )  # fmt: skip
                 if bad > 0:
                     break
@@ -693,11 +837,10 @@ def implicit_march(
                 # the stiff part of the estimate is filtered by the matrix of the step
                 own[:] = 0.0
                 _mass_times(mass, change, nodes, own, 1.0)
-                _pack(own, rank, right)
-                solve(band, right)
+                solve_fronts(plan[3], plan[4], plan[6], plan[7], own)
                 for i in range(count):
                     for axis in range(3):
-                        change[i, axis] = right[3 * rank[i] + axis]
+                        change[i, axis] = own[i, axis]
                 error = _measure(change, place, start, end, spring, limits[0], limits[1])
             if control[6] > 0.0:
                 if bad > 0:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,13 @@ from moyai.core.errors import InputError
 from moyai.flexible import implicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import Network
+from moyai.flexible.network import IntArray, Network
+from moyai.flexible.parts import network_parts
+from moyai.flexible.relaxation import kernel_bed, kernel_system
 from moyai.flexible.result import State
-from moyai.flexible.statics import kernel_bed, kernel_system, order_of_unknowns
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 Array = NDArray[np.float64]
 
@@ -51,40 +56,95 @@ def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow 
     InputError
         When nothing can move.
     """
-    from scipy.linalg import eigh
-
     arrays = kernel_arrays(network)
-    rank, width = order_of_unknowns(arrays)
     place = np.array(state.position)
-    nodes, still = len(network.nodes), np.zeros_like(place)
-    water = (flow or Flow()).at(1e300, place.T)
-    system, fluid = kernel_system(arrays), np.array([network.water.density, network.water.gravity, 0.0])
-    force, mass, tension = np.zeros((nodes, 3)), np.zeros((nodes, 6)), np.zeros(len(network.bars))
-    kernel.forces(place, still, water, system, fluid, kernel_bed(network), force, tension, mass)
-    dense = []
-    for by_mass, by_place in ((1.0, 0.0), (0.0, 1.0)):
-        band = np.zeros((3 * nodes, width + 1))
-        kernel.tangent(
-            place, still, water, system, fluid, kernel_bed(network), mass, rank, by_mass, 0.0, by_place, band
-        )
-        matrix = np.zeros((3 * nodes, 3 * nodes))
-        for below in range(width + 1):
-            rows = np.arange(below, 3 * nodes)
-            matrix[rows, rows - below] = matrix[rows - below, rows] = band[below:, width - below]
-        dense.append(matrix)
-    moves = np.empty(3 * nodes, dtype=bool)
-    for axis, name in enumerate(("free_x", "free_y", "free_z")):
-        moves[3 * rank + axis] = arrays.node(name) > 0.0
+    nodes = len(network.nodes)
+    water = np.ascontiguousarray((flow or Flow()).at(1e300, place.T))
+    mass, stiffness = tangent_matrices(network, place, water)
+    moves = arrays.nodes[9:12].T.ravel() > 0.0
     if not moves.any():
         raise InputError("nothing in the network can move", path="network", allowed="a free node")
-    size = int(moves.sum())
-    values, vectors = eigh(
-        dense[1][np.ix_(moves, moves)], dense[0][np.ix_(moves, moves)], subset_by_index=(0, min(count, size) - 1)
-    )
+    values, vectors = _lowest(stiffness[moves][:, moves], mass[moves][:, moves], min(count, int(moves.sum())))
     shapes = np.zeros((values.size, 3 * nodes))
     shapes[:, moves] = vectors.T
-    ordered = np.stack([shapes[:, 3 * rank + axis] for axis in range(3)], axis=2)
+    ordered = shapes.reshape(values.size, nodes, 3)
     largest = np.take_along_axis(
         ordered.reshape(values.size, -1), np.abs(ordered.reshape(values.size, -1)).argmax(axis=1)[:, None], axis=1
     )
     return Modes(np.sqrt(np.maximum(values, 0.0)), ordered / largest[:, :, None])
+
+
+def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_array, csr_array]:
+    """Return mass with added mass and tangent stiffness about a place, (3n, 3n), without drag and its turn.
+
+    Parameters
+    ----------
+    network : Network
+        The network.
+    place : ndarray, shape (n, 3)
+        Nodes [m].
+    water : ndarray, shape (7, n)
+        Velocity, acceleration, elevation of the water at the nodes.
+    """
+    from scipy.sparse import coo_array
+
+    arrays, parts = kernel_arrays(network), network_parts(network)
+    system, bed = kernel_system(arrays), kernel_bed(network)
+    nodes, bars = len(network.nodes), len(network.bars)
+    still, fluid = np.zeros_like(place), np.array([network.water.density, network.water.gravity, 0.0])
+    force, mass, tension = np.zeros((nodes, 3)), np.zeros((nodes, 6)), np.zeros(bars)
+    kernel.forces(place, still, water, system, fluid, bed, force, tension, mass)
+    bar_law, node_law = np.zeros((2, bars)), np.zeros((2, nodes))
+    kernel.laws(place, still, system, fluid, bed, 0.0, 1.0, bar_law, node_law)
+    node_block, bar_block = np.zeros((nodes, 3, 3)), np.zeros((bars, 2, 3, 3))
+    whole = np.arange(nodes)
+    kernel.blocks(
+        place, still, water, system, fluid, mass, np.zeros((2, bars)), np.zeros((2, nodes)), 1.0, 0.0, 0.0, False,
+        node_block, bar_block,
+    )  # fmt: skip
+    inertia = [(whole, whole, node_block.copy())]
+    kernel.blocks(
+        place, still, water, system, fluid, mass, bar_law, node_law, 0.0, 0.0, 1.0, False, node_block, bar_block
+    )  # fmt: skip
+    entries = [
+        (whole, whole, node_block),
+        (arrays.start, arrays.end, bar_block[:, 0]),
+        (arrays.end, arrays.start, bar_block[:, 1]),
+    ]
+    for m in range(3):
+        for n in range(3):
+            if m != n and len(arrays.hinges):
+                turn = np.stack([arrays.bending[:, 1], -arrays.bending[:, 1:].sum(axis=1), arrays.bending[:, 2]])
+                scale = arrays.bending[:, 0] * turn[m] * turn[n]
+                entries.append((arrays.hinges[:, m], arrays.hinges[:, n], scale[:, None, None] * np.eye(3)))
+    for part in parts:
+        found = part.blocks(place, still, water, 1.0)
+        for m in range(part.members.shape[1]):
+            for n in range(part.members.shape[1]):
+                symmetric = 0.5 * (found[:, m, n] + found[:, n, m].transpose(0, 2, 1))
+                entries.append((part.members[:, m], part.members[:, n], symmetric))
+
+    def assembled(blocks: list[tuple[IntArray, IntArray, Array]]) -> csr_array:
+        rows = np.concatenate([np.repeat(3 * i[:, None] + np.arange(3), 3, axis=1).ravel() for i, _, _ in blocks])
+        columns = np.concatenate([np.tile(3 * j[:, None] + np.arange(3), (1, 3)).ravel() for _, j, _ in blocks])
+        values = np.concatenate([b.reshape(-1) for _, _, b in blocks])
+        return coo_array((values, (rows, columns)), shape=(3 * nodes, 3 * nodes)).tocsr()
+
+    return assembled(inertia), assembled(entries)
+
+
+def _lowest(stiffness: csr_array, mass: csr_array, count: int) -> tuple[Array, Array]:
+    """Return the lowest eigenvalues and their vectors: dense for small networks, by shift and inversion for others."""
+    size = stiffness.shape[0]
+    if size <= 600 or count > size // 4:
+        from scipy.linalg import eigh
+
+        values, vectors = eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(0, count - 1))
+        return np.asarray(values), np.asarray(vectors)
+    from scipy.sparse.linalg import eigsh
+
+    # just below the lowest eigenvalue, so that free motions do no harm
+    scale = float(np.abs(stiffness.diagonal()).max() / mass.diagonal().min())
+    values, vectors = eigsh(stiffness.tocsc(), k=count, M=mass.tocsc(), sigma=-1e-9 * scale, which="LM")
+    order = np.argsort(values)
+    return np.asarray(values[order]), np.asarray(vectors[:, order])

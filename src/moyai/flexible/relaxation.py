@@ -1,120 +1,300 @@
-"""Rest of nets in a current by dynamic relaxation on the explicit kernels."""
+"""Towards rest: Newton's method on places and tensions together, in steps of a pseudo time.
+
+The tensions of the bars and the pushes of the bed are unknowns of their own, tied to the places by the laws of bars and
+bed [eq:flexible-mixed]. A stiff chain may then turn far in one step: the second-order lengthening of its bars, which
+would count as an enormous tension if tension followed from the places, is only a gap that the next step closes. What
+can only pull or push keeps its sign by a rounding that shrinks with the forces left (a primal-dual interior point).
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from moyai.core.errors import ConvergenceError
-from moyai.core.progress import Progress, silent
-from moyai.flexible import explicit_kernel as kernel
-from moyai.flexible.checks import name_of_node
-from moyai.flexible.explicit import ExplicitRun
+from moyai.flexible import implicit_kernel as kernel
+from moyai.flexible.arrays import KernelArrays, kernel_arrays
 from moyai.flexible.flow import Flow
-from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
-from moyai.flexible.relaxation_kernel import relax
-from moyai.flexible.result import State
-from moyai.flexible.statics import Equilibrium
+from moyai.flexible.parts import Part, network_parts
+from moyai.flexible.sparse import SparsePlan, make_plan
 
-#: Steps between two evaluations of the loads of the water, and between two looks at the current and the surface.
-EVERY, CHUNK = 5, 500
+Array = NDArray[np.float64]
+
+#: Steps below this turn of every bar [rad or strain] are taken whole, without a search along them.
+_SMALL_TURN = 1e-4
 
 
-def relax_network(
-    network: Network,
-    *,
-    flow: Flow | None = None,
-    start: State | None = None,
-    tolerance: float = 1e-6,
-    good_enough: float = 1e-3,
-    most_steps: int = 200_000,
-    progress: Progress = silent,
-) -> Equilibrium:
-    """Find a net, its ropes and floats at rest in a steady current.
+def kernel_system(arrays: KernelArrays) -> tuple[object, ...]:
+    """Return the tuple that the kernels take."""
+    return (
+        arrays.nodes, arrays.bars, arrays.start, arrays.end, arrays.curve, arrays.curves, arrays.hinges, arrays.bending,
+        arrays.attached,
+    )  # fmt: skip
 
-    Every node gets the mass for which a pseudo step of one is stable, and the motion is stopped whenever its kinetic
-    energy has passed a peak [eq:cage-relaxation]. It asks for no matrix and finds slack nets, whose tangent is
-    singular.
+
+def kernel_bed(network: Network, fade: float = 1e-3) -> Array:
+    """Return level, friction, speed below which friction fades [m/s], and whether there is a bed."""
+    bed = network.bed
+    return np.array([0.0, 0.0, 1.0, 0.0]) if bed is None else np.array([bed.level, bed.friction, fade, 1.0])
+
+
+def plan_of(network: Network, arrays: KernelArrays, parts: tuple[Part, ...] = ()) -> SparsePlan:
+    """Plan the sparse solver of a network: bars first, hinges second, then the parts."""
+    bars = np.stack([arrays.start, arrays.end], axis=1)
+    return make_plan(network.nodes.position, [bars, arrays.hinges, *(part.members for part in parts)])
+
+
+def kernel_plan(network: Network, arrays: KernelArrays) -> tuple[object, ...]:
+    """Return the plan of the sparse solver as the kernels take it, with room for its numbers."""
+    plan = plan_of(network, arrays)
+    return (
+        plan.own, plan.pairs[0], plan.pairs[1], np.zeros(plan.size), plan.fronts, plan.target, plan.later, plan.order,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """How far one call went.
+
+    Parameters
+    ----------
+    place : ndarray, shape (n, 3)
+        Where it ended [m].
+    residual : float
+        Largest force left over the largest force at work.
+    worst : int
+        Node of the force left.
+    steps : int
+        Solves.
+    converged : bool
+        Whether the tolerance was reached.
+    """
+
+    place: Array
+    residual: float
+    worst: int
+    steps: int
+    converged: bool
+
+
+class Relaxation:
+    """The equations of a network at rest.
 
     Parameters
     ----------
     network : Network
-    flow : Flow, optional
-        Steady current; waves are left out.
-    start : State, optional
-        First guess; as built when left out.
-    tolerance : float
-        Force left on a free node over the largest tension.
-    good_enough : float
-        What is returned as well when the steps are used up.
-    most_steps : int
-        Pseudo steps before it gives up.
-    progress : Progress
-
-    Raises
-    ------
-    ConvergenceError
-        When the forces stay above ``good_enough``; the message names the node.
+        The network.
+    flow : Flow
+        Steady current.
+    time : float
+        At which the flow is taken [s].
     """
-    calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
-    still = Motion(0.0, 1.0, np.zeros((2, 3)), np.zeros((2, 3)))
-    state = State.at_rest(network) if start is None else State(0.0, start.position, np.zeros_like(start.position))
-    run = ExplicitRun(network, dict.fromkeys(network.motion_names, still), calm, state, safety=1.0, load_steps=1)
-    packed, arrays = run.packed, run.arrays
-    mass = _masses(run)
-    pace = np.zeros((3, len(network.nodes)))
-    level = -1e300 if network.bed is None else network.bed.level
-    fluid = np.array([network.water.density, network.water.gravity])
-    done, left, worst, reference = 0, math.inf, 0, 1.0
-    while done < most_steps:
-        run.water = calm.at(0.0, run.place)
-        packed.node_rows(kernel.WU, 7)[:] = run.water
-        taken, left, worst = relax(
-            packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
-            fluid, run._near_surface(), run.nets, run.sheets, level, mass, pace, CHUNK, EVERY, tolerance * reference,
+
+    def __init__(self, network: Network, flow: Flow, time: float) -> None:
+        self.network, self.flow = network, flow
+        self.time = 1e300 if math.isinf(time) else time
+        self.arrays = arrays = kernel_arrays(network)
+        self.system, self.bed = kernel_system(arrays), kernel_bed(network)
+        # the bed bears without friction
+        self.bed[1] = 0.0
+        self.parts = network_parts(network)
+        self.plan = plan_of(network, arrays, self.parts)
+        count, bars = len(network.nodes), len(network.bars)
+        self.free = np.ascontiguousarray(arrays.nodes[9:12].T)
+        self.fluid = np.array([network.water.density, network.water.gravity, 0.0])
+        # loads alone: bars and bed without stiffness
+        nodes, self._bars = arrays.nodes.copy(), arrays.bars.copy()
+        nodes[5], self._bars[1] = 0.0, 0.0
+        self._loads = (nodes, self._bars, *self.system[2:4], np.full(bars, -1), *self.system[5:])
+        self._no_bed = np.zeros(4)
+        self.still = np.zeros((count, 3))
+        self.mass, self.tension = np.zeros((count, 6)), np.zeros(bars)
+        self._bar_law, self._node_law = np.zeros((3, bars)), np.zeros((3, count))
+        self._node_block, self._bar_block = np.zeros((count, 3, 3)), np.zeros((bars, 2, 3, 3))
+        self.numbers = np.zeros(self.plan.size)
+        self.steady = flow.current is None
+        self.water = np.ascontiguousarray(flow.at(self.time, network.nodes.position.T))
+        self.share = 1.0
+        self.length = arrays.bar("length")
+        self.typical = float(np.mean(self.length)) if bars else self._part_size()
+
+    def _part_size(self) -> float:
+        for part in self.parts:
+            edge = self.network.nodes.position[part.members[:, 0]] - self.network.nodes.position[part.members[:, 1]]
+            return float(np.mean(np.linalg.norm(edge, axis=1)))
+        return 1.0
+
+    @property
+    def own_weight(self) -> float:
+        """The largest weight or buoyancy of a node [N]."""
+        water = self.network.water
+        return float(np.max(self.arrays.node("weight") + water.density * water.gravity * self.arrays.node("volume")))
+
+    def current(self, factor: float) -> None:
+        """Multiply the current by a factor."""
+        base = self.flow.at(self.time, self.network.nodes.position.T)
+        base[:6] *= factor
+        self.water = np.ascontiguousarray(base)
+        self._factor = factor
+
+    def _take_water(self, place: Array) -> None:
+        if not self.steady:
+            self.water = np.ascontiguousarray(self.flow.at(self.time, place.T))
+            self.water[:6] *= getattr(self, "_factor", 1.0)
+
+    def forces(self, place: Array) -> Array:
+        """Return the forces left by the true laws on what is free, shape (n, 3); writes :attr:`tension`."""
+        self._take_water(place)
+        force = np.empty_like(place)
+        self.fluid[2] = 0.0
+        kernel.forces(
+            place, self.still, self.water, self.system, self.fluid, self.bed, force, self.tension, self.mass
         )  # fmt: skip
-        done += taken
-        reference = max(float(np.max(np.abs(packed.bar_row(kernel.PULL)), initial=0.0)), 1e-9)
-        if not np.isfinite(run.place).all() or left <= tolerance * reference:
-            break
-        progress("rest", done, most_steps)
-    residual = left / reference
-    if not (residual <= max(tolerance, good_enough) and np.isfinite(run.place).all()):
-        raise ConvergenceError(
-            f"no rest after {done} steps: {residual:.2g} of the largest tension is left at "
-            f"{name_of_node(network, int(worst))}",
-            path="statics",
-            allowed=f"at most {good_enough:g}",
-            remedy="look for a part that floats away or lines that cannot reach",
-        )
-    place = run.place.T.copy()
-    tension = packed.bar_row(kernel.PULL)
-    return Equilibrium(State(0.0, place, np.zeros_like(place)), tension, float(residual), done)
+        for part in self.parts:
+            part.add_forces(place, self.still, self.water, 1.0, force)
+        return force * self.free
 
+    def _loads_at(self, place: Array, radius: float) -> Array:
+        """Return all forces but those of bars and bed; bars cross the surface at least ``radius`` thick."""
+        self._take_water(place)
+        self._bars[10] = np.maximum(self.arrays.bars[10], radius)
+        force, unused = np.empty_like(place), self._bar_law[0]
+        self.fluid[2] = 0.0
+        kernel.forces(place, self.still, self.water, self._loads, self.fluid, self._no_bed, force, unused, self.mass)
+        for part in self.parts:
+            part.add_forces(place, self.still, self.water, self.share, force)
+        return force
 
-def _masses(run: ExplicitRun) -> np.ndarray:
-    """Return the masses for which a pseudo step of one is stable: half the sum of twice the stiffness at a node."""
-    arrays, count = run.arrays, len(run.network.nodes)
-    mass = np.zeros(count)
-    for end in (arrays.start, arrays.end):
-        np.add.at(mass, end, arrays.greatest_spring)
-    triples, stiffness = run.rings.hinges
-    for which, part in ((0, 1.0), (1, 2.0), (2, 1.0)):
-        np.add.at(mass, triples[:, which], 8.0 * part * stiffness[:, 0] * stiffness[:, 1] ** 2)
-        np.add.at(
-            mass,
-            arrays.hinges[:, which],
-            8.0 * part * arrays.bending[:, 0] * np.max(arrays.bending[:, 1:], axis=1) ** 2,
-        )
-    lift = run.network.water.density * run.network.water.gravity
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bob = np.where(arrays.node("height") > 0.0, 1.5 * lift * arrays.node("volume") / arrays.node("height"), 0.0)
-    mass += arrays.node("bed_stiffness") + bob
-    for end in (arrays.start, arrays.end):
-        np.add.at(mass, end, arrays.bar("buoyancy") / arrays.bar("radius"))
-    sheets = run.network.sheets
-    if sheets is not None:
-        mass += 4.0 * float(np.max(run.sheets[0], initial=0.0))
-    return 1.1 * mass + 1e-9
+    def _solve(self, place: Array, force: Array, by_mass: float) -> tuple[Array | None, float]:
+        """Return the step and the work of ``force`` along it; none where the matrix is not positive."""
+        for exact in (True, False):
+            kernel.blocks(
+                place, self.still, self.water, self._loads, self.fluid, self.mass, self._bar_law, self._node_law,
+                by_mass, 0.0, 1.0, exact, self._node_block, self._bar_block,
+            )  # fmt: skip
+            plan = self.plan
+            kernel.to_fronts(
+                self._node_block, self._bar_block, self.system, 1.0, plan.own, plan.pairs[0], plan.pairs[1],
+                self.numbers,
+            )  # fmt: skip
+            for part, pairs in zip(self.parts, plan.pairs[2:], strict=True):
+                blocks = part.blocks(place, self.still, self.water, self.share)
+                kernel.add_elements(blocks, part.members, pairs, self.arrays.nodes[9:12], 1.0, self.numbers)
+            if not kernel.factor_fronts(self.numbers, plan.fronts, plan.target):
+                continue
+            step = force.copy()
+            kernel.solve_fronts(self.numbers, plan.fronts, plan.later, plan.order, step)
+            work = float(np.sum(step * force))
+            if math.isfinite(work) and work > 0.0:
+                return step, work
+        return None, 0.0
+
+    def _first_pulls(self, place: Array, load: float, soft: float) -> tuple[Array, Array]:
+        """Return tensions and pushes to start with: those of the laws, no more than all loads together."""
+        self.fluid[2] = 0.0
+        law, node_law = self._bar_law, self._node_law
+        only = self.arrays.bar("least_tension") == 0.0
+        start, end = place[self.arrays.start], place[self.arrays.end]
+        size = np.linalg.norm(end - start, axis=1)
+        kernel.laws(place, self.still, self.system, self.fluid, self.bed, 0.0, 1.0, law, node_law)
+        pull = np.where(law[0] > 0.0, law[0], self.arrays.bar("spring") * (size - self.length))
+        pull = np.clip(pull, -load, load)
+        push = np.clip(self.arrays.node("bed_stiffness") * (self.bed[0] - place[:, 2]), -load, load)
+        rounded = 0.5 * (pull + np.sqrt(pull**2 + soft**2))
+        return np.where(only, rounded, pull), 0.5 * (push + np.sqrt(push**2 + soft**2))
+
+    def attempt(self, place: Array, *, turn: float, most: int, tolerance: float) -> Attempt:
+        """Go from ``place`` towards rest.
+
+        Parameters
+        ----------
+        place : ndarray, shape (n, 3)
+            Start [m].
+        turn : float
+            How far a bar may turn in one step [rad]: large is quick, small is safe.
+        most : int
+            Solves, at most.
+        tolerance : float
+            Force left over the largest force at work.
+        """
+        x = place.copy()
+        start, end = self.arrays.start, self.arrays.end
+        # rounding of a coordinate times the stiffest bar or sheet
+        stiffest = max([float(self.arrays.greatest_spring.max(initial=0.0)), *(p.stiffness for p in self.parts)])
+        noise = 16.0 * np.finfo(np.float64).eps * stiffest * float(np.max(np.abs(x)))
+        force = self._loads_at(x, 0.0) * self.free
+        sizes = np.linalg.norm(force, axis=1)
+        load, top = float(sizes.sum()), max(float(sizes.max()), 1e-300)
+        soft, radius = 0.3 * top, 0.2 * self.typical
+        pace = math.sqrt(self.typical / max(self.network.water.gravity, 1e-3))
+        pulls, pushes = self._first_pulls(x, load, soft)
+        own, before, taken = max(self.own_weight, top), float(np.abs(force).max()), 0
+        scale = own
+        while taken < most:
+            taken += 1
+            force = self._loads_at(x, radius)
+            kernel.mixed_laws(x, self.system, self.bed, soft, pulls, pushes, self._bar_law, self._node_law, force)
+            force *= self.free
+            step, work = self._solve(x, force, 1.0 / pace**2)
+            if step is None:
+                pace *= 0.3
+                if pace < 1e-12 or not np.isfinite(force).all():
+                    break
+                continue
+            scale = max(own, float(np.abs(pulls).max(initial=0.0)))
+            enough = max(tolerance * scale, noise)
+            big, part = float(np.abs(step).max()) / self.typical, 1.0
+            if start.size:
+                along = np.linalg.norm(step[end] - step[start], axis=1)
+                size = np.maximum(np.linalg.norm(x[end] - x[start], axis=1), 0.3 * self.length)
+                big = float(np.max(along / size))
+            if big > turn:
+                part = turn / big
+            x, pulls, pushes, force, part = self._search(x, step, part, work, pulls, pushes, radius, big)
+            left = float(np.abs(force).max())
+            if not math.isfinite(left):
+                break
+            ratio = before / max(left, 1e-300)
+            if part < 1.0:
+                pace *= max(0.2, math.sqrt(part))
+            elif ratio >= 1.0:
+                pace = min(1e8, pace * (min(10.0, 1.5 * ratio) if big < 0.5 * turn else 1.0))
+            else:
+                pace *= max(0.2, ratio)
+            before = left
+            if part == 1.0:
+                soft = max(min(soft, max(0.1 * soft, 0.3 * left)), 0.05 * enough)
+                radius = 0.0 if radius < 1e-6 * self.typical else 0.3 * radius
+            if self.share < 1.0 and left <= 1e-3 * scale:
+                break
+            if left <= enough and radius == 0.0:
+                true = self.forces(x)
+                if float(np.abs(true).max()) <= enough:
+                    return Attempt(x, *self._residual(true, scale), taken, True)
+        return Attempt(x, *self._residual(self.forces(x), scale), taken, False)
+
+    def _search(
+        self, x: Array, step: Array, part: float, work: float, pulls: Array, pushes: Array, radius: float, big: float
+    ) -> tuple[Array, Array, Array, Array, float]:
+        """Take a part of the step that does not overshoot: the forces at its end must not drive it back."""
+        for _ in range(6):
+            new, new_pulls, new_pushes = np.empty_like(x), np.empty_like(pulls), pushes.copy()
+            force = self._loads_at(x + part * step, radius)
+            kernel.mixed_step(
+                x, step, part, self.system, self.bed, self._bar_law, self._node_law, pulls, pushes, new, new_pulls,
+                new_pushes, force,
+            )  # fmt: skip
+            force *= self.free
+            back = float(np.sum(step * force))
+            if back >= -0.5 * work or big < _SMALL_TURN:
+                break
+            part = max(0.1 * part, min(0.5 * part, part * work / (work - back))) if math.isfinite(back) else 0.1 * part
+        return new, new_pulls, new_pushes, force, part
+
+    def _residual(self, force: Array, scale: float) -> tuple[float, int]:
+        """Return the largest force left over ``scale`` [N] and its node."""
+        sizes = np.abs(force).max(axis=1)
+        return float(sizes.max()) / scale, int(np.argmax(sizes))

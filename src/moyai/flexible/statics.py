@@ -4,30 +4,29 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from os import PathLike
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError
-from moyai.flexible import implicit_kernel as kernel
-from moyai.flexible.arrays import KernelArrays, kernel_arrays
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
+from moyai.flexible.relaxation import Attempt, Relaxation
 from moyai.flexible.result import State
 
 Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
-
-#: Steps towards Newton's method before the true motion is asked, and how often and how long it is asked.
-#: The solver of a line is quick, that of a net is not.
-_STEPS_OF_A_LINE, _STEPS_OF_A_NET, _SHAKES, _SHAKE_INTERVALS = 200, 40, 12, 40
-
-
-#: Part of the largest force that may be left when the tolerance is out of reach (slack lines that may lie anywhere).
+#: Part of the largest force that may be left when the tolerance is out of reach.
 _GOOD_ENOUGH = 1e-5
+#: Turns of the bars in one step [rad] and solves of the attempts, quick first.
+_QUICK, _SAFE, _SLOW = (1.0, 150), (0.25, 400), (0.08, 800)
+#: Parts of the current on the way to the whole.
+_CURRENTS = (0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0)
+#: How often and how long the true motion is asked for help.
+_SHAKES, _SHAKE_INTERVALS = 6, 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,46 +43,15 @@ class Equilibrium:
         Largest force left on a free node over the largest force at work.
     steps : int
         Solves that it took.
+    found : str
+        How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``true motion``.
     """
 
     state: State
     tension: Array
     residual: float
     steps: int
-
-
-def order_of_unknowns(arrays: KernelArrays) -> tuple[IntArray, int]:
-    """Return the rank of every node (reverse Cuthill-McKee) and the half band of the matrix in scalars."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import reverse_cuthill_mckee
-
-    count = arrays.nodes.shape[1]
-    i = np.concatenate([arrays.start, arrays.hinges[:, 0], arrays.hinges[:, 0], arrays.hinges[:, 1]])
-    j = np.concatenate([arrays.end, arrays.hinges[:, 1], arrays.hinges[:, 2], arrays.hinges[:, 2]])
-    if i.size == 0:
-        return np.arange(count), 2
-    natural = int(np.max(np.abs(i - j)))
-    graph = coo_array((np.ones(2 * i.size), (np.concatenate([i, j]), np.concatenate([j, i]))), shape=(count, count))
-    rank = np.empty(count, dtype=np.int64)
-    rank[reverse_cuthill_mckee(graph.tocsr(), symmetric_mode=True)] = np.arange(count)
-    found = int(np.max(np.abs(rank[i] - rank[j])))
-    if natural <= found:
-        rank, found = np.arange(count), natural
-    return rank, 3 * found + 2
-
-
-def kernel_system(arrays: KernelArrays) -> tuple[object, ...]:
-    """Return the tuple that the kernels take."""
-    return (
-        arrays.nodes, arrays.bars, arrays.start, arrays.end, arrays.curve, arrays.curves, arrays.hinges, arrays.bending,
-        arrays.attached,
-    )  # fmt: skip
-
-
-def kernel_bed(network: Network, fade: float = 1e-3) -> Array:
-    """Return level, friction, speed below which friction fades [m/s], and whether there is a bed."""
-    bed = network.bed
-    return np.array([0.0, 0.0, 1.0, 0.0]) if bed is None else np.array([bed.level, bed.friction, fade, 1.0])
+    found: str = "direct"
 
 
 def solve_equilibrium(
@@ -93,12 +61,14 @@ def solve_equilibrium(
     start: State | None = None,
     time: float = math.inf,
     tolerance: float = 1e-9,
-    most_steps: int = 800,
+    most_steps: int = 3000,
+    state_file: str | PathLike[str] | None = None,
 ) -> Equilibrium:
     """Find the network at rest.
 
-    Implicit pseudo-time steps whose velocity is dropped after each (dynamic relaxation with the true stiffness) grow
-    into Newton's method as the forces fall [eq:flexible-relaxation]. The bed bears without friction.
+    Newton's method on places and tensions together in pseudo-time steps [eq:flexible-relaxation]; where it fails, again
+    with smaller turns, with a stiffness of sheets or a current that rises from nothing, and last led by the true
+    motion, stopped at every peak of its speed. The bed bears without friction.
 
     Parameters
     ----------
@@ -114,6 +84,8 @@ def solve_equilibrium(
         Force left over the largest force at work. Where it stays out of reach, 1e-5 is returned too; see ``residual``.
     most_steps : int
         Solves before it gives up.
+    state_file : path, optional
+        Where the nearest state is kept when no equilibrium is found (:func:`moyai.flexible.recovery.read_state`).
 
     Returns
     -------
@@ -124,54 +96,92 @@ def solve_equilibrium(
     ConvergenceError
         When no equilibrium is found; the message names the node, the force left and what may be wrong.
     """
-    arrays = kernel_arrays(network)
-    rank, width = order_of_unknowns(arrays)
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0
     place[fixed] = network.nodes.position[fixed]
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
-    water = calm.at(1e300 if math.isinf(time) else time, place.T)
-    count = len(network.nodes)
-    band, tension = np.empty((3 * count, width + 1)), np.zeros(len(network.bars))
-    typical = float(np.mean(network.bars.length)) if len(network.bars) else 1.0
-    extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if count > 1 else 1.0
-    # rounding of a coordinate times the stiffest bar
-    noise = (
-        16.0 * np.finfo(np.float64).eps * float(arrays.greatest_spring.max(initial=0.0)) * float(np.max(np.abs(place)))
-    )
-    fluid = np.array([network.water.density, network.water.gravity, 0.0])
-    steps, residual, worst, shaken = 0, math.inf, 0, 0
-    at_once = _STEPS_OF_A_LINE if width <= 20 else _STEPS_OF_A_NET
-    while True:
-        before = place.copy()
-        taken, residual, worst = kernel.relax(
-            place, water, kernel_system(arrays), fluid, kernel_bed(network), rank, band,
-            math.sqrt(typical / network.water.gravity), max(0.5 * typical, 0.02 * extent), tolerance, noise,
-            min(at_once, most_steps - steps), tension,
-        )  # fmt: skip
-        steps += taken
-        if taken < at_once or steps >= most_steps or shaken >= _SHAKES:
-            break
-        # Newton's method goes in circles: let the true motion, stopped at every peak of its speed, lead the way
-        place = _shake(network, before if shaken == 0 or not np.isfinite(place).all() else place, calm, extent)
-        shaken += 1
-    rounding = 2.0 * noise / max(float(np.max(np.abs(tension), initial=0.0)), 1e-300)
-    if not residual <= max(tolerance, rounding, _GOOD_ENOUGH):
+    problem = Relaxation(network, calm, time)
+    best, found, steps = _ladder(problem, place, tolerance, most_steps)
+    if not (best.converged or best.residual <= max(tolerance, _GOOD_ENOUGH)):
+        kept = ""
+        if state_file is not None:
+            from moyai.flexible.recovery import write_state
+
+            kept = f"; nearest state in {write_state(state_file, State(0.0, best.place, np.zeros_like(place)))}"
         raise ConvergenceError(
-            f"no equilibrium after {steps} steps: {residual:.2g} of the largest force is left at "
-            f"{name_of_node(network, int(worst))}, z = {place[worst, 2]:.4g} m",
+            f"no equilibrium after {steps} steps: {best.residual:.2g} of the largest force is left at "
+            f"{name_of_node(network, best.worst)}, z = {best.place[best.worst, 2]:.4g} m{kept}",
             path="statics",
             allowed=f"at most {max(tolerance, _GOOD_ENOUGH):g}",
-            remedy=_advice(network, place),
+            remedy=_advice(network, best.place, calm),
         )
-    return Equilibrium(State(0.0, place, np.zeros_like(place)), tension, float(residual), int(steps))
+    problem.forces(best.place)
+    state = State(0.0, best.place, np.zeros_like(best.place))
+    return Equilibrium(state, problem.tension.copy(), best.residual, steps, found)
 
 
-def _shake(network: Network, place: Array, flow: Flow, extent: float) -> Array:
+def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> tuple[Attempt, str, int]:
+    """Try one way after another; return the nearest to rest, how it was found, and all solves."""
+    steps, best, found = 0, Attempt(place, math.inf, 0, 0, False), ""
+
+    def go(name: str, x: Array, turn: float, limit: int) -> Attempt:
+        nonlocal steps, best, found
+        outcome = problem.attempt(x, turn=turn, most=max(1, min(limit, most - steps)), tolerance=tolerance)
+        steps += outcome.steps
+        if problem.share == 1.0 and (outcome.converged or outcome.residual < best.residual):
+            best, found = outcome, name
+        return outcome
+
+    if any(part.stiffness > 0.0 for part in problem.parts):
+        x = place
+        for share in _shares(problem, place):
+            problem.share = share
+            x = go("rising stiffness", x, _SAFE[0], _SAFE[1]).place
+        if best.converged or steps >= most:
+            return best, found, steps
+    for name, (turn, limit) in (("direct", _QUICK), ("small steps", _SAFE)):
+        if go(name, place, turn, limit).converged or steps >= most:
+            return best, found, steps
+    if np.any(problem.water[:3] != 0.0):
+        x = place
+        for factor in _CURRENTS:
+            problem.current(factor)
+            # what is found with less current is a start, not an end
+            kept = best, found
+            outcome = go("rising current", x, _SAFE[0], 120)
+            x = outcome.place if np.isfinite(outcome.place).all() else x
+            if factor < 1.0:
+                best, found = kept
+        if best.converged or steps >= most:
+            return best, found, steps
+    if go("small steps", place, *_SLOW).converged or steps >= most:
+        return best, found, steps
+    x = place
+    for _ in range(_SHAKES):
+        x = _shake(problem.network, x, problem.flow)
+        if go("true motion", x, *_SAFE).converged or steps >= most:
+            break
+    return best, found, steps
+
+
+def _shares(problem: Relaxation, place: Array) -> list[float]:
+    """Return parts of the stiffness of sheets, from one that loads stretch by a tenth or so to the whole."""
+    problem.share = 1e-12
+    load = float(np.linalg.norm(problem._loads_at(place, 0.0) * problem.free, axis=1).sum())
+    stiffest = max(part.stiffness for part in problem.parts) * max(problem.typical, 1e-300)
+    share, shares = min(1.0, 10.0 * load / stiffest), []
+    while share < 0.2:
+        shares.append(share)
+        share *= 10.0
+    return [*shares, 1.0]
+
+
+def _shake(network: Network, place: Array, flow: Flow) -> Array:
     """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen."""
     from moyai.flexible.simulate import simulate
 
-    interval = 0.5 * math.sqrt(extent / network.water.gravity)
+    extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if len(network.nodes) > 1 else 1.0
+    interval = 0.5 * math.sqrt(max(extent, 1e-3) / network.water.gravity)
     still = Motion(0.0, 10.0 * interval, np.zeros((2, 3)), np.zeros((2, 3)))
     motions = dict.fromkeys(network.motion_names, still)
     state, energy = State(0.0, place, np.zeros_like(place)), 0.0
@@ -196,7 +206,7 @@ def _shake(network: Network, place: Array, flow: Flow, extent: float) -> Array:
     return np.array(state.position)
 
 
-def _advice(network: Network, place: Array) -> str:
+def _advice(network: Network, place: Array, flow: Flow) -> str:
     """Return what most likely hinders an equilibrium."""
     if not np.isfinite(place).all():
         return "positions are no longer finite: look for a bar whose stiffness or length is out of proportion"
@@ -208,4 +218,6 @@ def _advice(network: Network, place: Array) -> str:
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) + 1e-300
     if away > 3.0 * extent:
         return f"a node went {away:.3g} m away: something heavy or light hangs on nothing that bears it"
+    if flow.current is not None or np.any(np.asarray(flow.velocity) != 0.0):
+        return "slack parts may flutter in this current and have no rest: lower the current, or run it with time"
     return "give a better start, more steps, or look for slack parts that may lie anywhere"
