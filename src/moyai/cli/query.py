@@ -92,7 +92,11 @@ def _heading(name: str, unit: str, axis: bool) -> str:
 
 def _short(header: list[str]) -> list[str]:
     """Return the ends of the names of responses, where they tell them apart."""
-    ends = [name if ":" in name else name.rpartition("/")[2] for name in header]
+    ends = []
+    for name in header:
+        # Labels in brackets may hold slashes of their own
+        word, bracket, labels = name.partition("[")
+        ends.append(name if ":" in name else word.rpartition("/")[2] + bracket + labels)
     return [end if ends.count(end) == 1 else name for end, name in zip(ends, header)]
 
 

@@ -166,7 +166,7 @@ def split_response(text: str) -> tuple[str, str, tuple[tuple[str, str], ...]]:
     InputError
         When the text is no response.
     """
-    found = re.fullmatch(r"(?P<name>[^\[\]]+?)\s*(?:\[(?P<labels>[^\[\]]*)\])?", text.strip())
+    found = re.fullmatch(r"(?P<name>[^\[\]]+?)\s*(?:\[(?P<labels>.*)\])?", text.strip())
     if found is None:
         raise InputError(f"'{text}' is no response", path="response", allowed="group/name or group/name[line=seaward]")
     group, _, last = found["name"].rpartition("/")

@@ -216,3 +216,19 @@ def test_the_content_of_files_is_part_of_the_study(tmp_path):
     table.write_text(text.format(1.7), encoding="utf-8")
     with pytest.raises(InputError, match="another study"):
         run_study(load_study(path), tmp_path / "out", study_cases.any_case, workers=1)
+
+
+def test_labels_may_hold_brackets_and_slashes(tmp_path):
+    optimise = (
+        "{variables: {'lines[*].segments[0].length': [54 m, 57 m]}, minimise: SWL/cost,"
+        " trade_off: {response: SWL/tension, at_most: [950, 1000]}, starts: 1}"
+    )
+    study = load_study(study_cases.write_text(tmp_path, "[]", optimise=optimise))
+    run_study(study, tmp_path / "out", study_cases.linear_case, workers=1).write(tmp_path / "out" / "study.nc")
+    code, text = asked(tmp_path / "out", "-s", "best[variable=lines[*].segments[0].length [m]]", "--json")
+    found = json.loads(text)
+    assert code == 0 and [row[-1] for row in found["rows"]] == pytest.approx(
+        [55.0 * (1000.0 / bound) ** 0.25 for bound in (950.0, 1000.0)], rel=2e-3
+    )
+    code, text = asked(tmp_path / "out", "-w", "best[variable=lines[*].segments[0].length [m]] > 55.4 m")
+    assert code == 0 and "1 of 2 cases" in text and "best[variable" not in text
