@@ -128,7 +128,7 @@ def orbit_drawing(level: Level, sea: str, records: list[Record]) -> Drawing | No
         sketch.path(circle(cx, cz, 0.5 * record.height, 61), "flow")
         middle = 0.5 * (loop.max(axis=0) + loop.min(axis=0))
         placed = loop - middle + np.array([cx, cz])
-        sketch.path(placed, "sheet")
+        sketch.path(placed, "mooring")
         sketch.dot(float(placed[0, 0]), float(placed[0, 1]), 4.0, "marker")
         words = f"H {format_quantity(record.height, 'm')}, T {format_quantity(record.period, 's')}"
         sketch.text(cx, cz + 0.5 * cell, words, shift=(0.0, -4.0), size=12.0)

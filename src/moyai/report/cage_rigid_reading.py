@@ -236,4 +236,6 @@ def line_path(anchor: Array, end: Array, length: float, count: int = 15) -> Arra
     # shallow parabola of that length
     sag = np.minimum(np.sqrt(0.375 * span * spare), 0.5 * length)
     path[:, :, 1] -= 4.0 * (share * (1.0 - share))[None, :] * sag[:, None]
+    # what hangs lower than the anchor lies on the bed
+    path[:, :, 1] = np.maximum(path[:, :, 1], min(float(anchor[1]), float(end[:, 1].min())))
     return path

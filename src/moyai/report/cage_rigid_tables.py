@@ -75,7 +75,7 @@ def rest_table(level: Level) -> Table | None:
             name
         ]
         if unit == "rad":
-            columns.append(Column(label, list(np.degrees(values) + 0.0), "°"))
+            columns.append(Column(label, list(np.where(np.abs(values) < 1e-9, 0.0, np.degrees(values))), "°"))
         elif name == "immersion":
             columns.append(Column(label, list(100.0 * values), "%"))
         else:
@@ -214,7 +214,7 @@ def tension_table(level: Level, sea: Group) -> Table | None:
     if tops is not None:
         columns.append(Column("mean peak", [float(tops[w, n, 0]) for w, n in at], "N"))
     if slack is not None:
-        columns.append(Column("slack", [100.0 * float(slack[w, n]) for w, n in at], "% of time"))
+        columns.append(Column("time slack", [100.0 * float(slack[w, n]) for w, n in at], "%"))
     governing = int(np.argmax([peak[w, n, 0] for w, n in at]))
     return Table(
         key(level, sea.name, "tensions"),

@@ -139,9 +139,12 @@ def animation(level: Level, sea: str, record: Record) -> Animation | None:
 
 def _outlines(section: Section) -> tuple[Array, ...]:
     """Return frame, net and floats as closed outlines."""
-    net = tuple(np.concatenate([line, line[::-1]]) for line in net_lines(section.outline))
+    # lines there and back: an area would hide what runs behind the net
+    corners = section.outline
+    edges = [np.array([corners[n], corners[(n + 1) % len(corners)]]) for n in range(len(corners))]
+    net = tuple(np.concatenate([line, line[::-1]]) for line in (*edges, *net_lines(corners)))
     floats = tuple(circle(float(x), float(z), 0.5 * section.diameter, 17)[:-1] for x, z in section.floats)
-    return (section.outline, *net, *floats)
+    return (*net, *floats)
 
 
 def _lines(record: Record, section: Section, times: Array, pose: Array) -> tuple[MovingLine, ...]:

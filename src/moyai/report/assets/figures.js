@@ -92,11 +92,13 @@ class Figure {
     const line = { color: theme.muted, width: 1, dash: "dot" };
     const text = { text: MOYAI.escape(mark.label), showarrow: false, font: { size: 11, color: theme.muted }, bgcolor: theme.page, borderpad: 1 };
     const first = this.abscissa === this.spec.abscissae[0];
+    // shapes take values of a logarithmic axis, annotations their logarithm
+    const place = this.abscissa.log && mark.x !== null ? Math.log10(mark.x) : mark.x;
     if (mark.x !== null && mark.y !== null && first) {
-      layout.annotations.push({ ...text, showarrow: true, arrowhead: 6, arrowsize: 0.7, arrowwidth: 1.2, arrowcolor: theme.bad, ax: 40, ay: -14, xanchor: "left", x: mark.x, y: mark.y, yref: axis, font: { size: 11, color: theme.ink } });
+      layout.annotations.push({ ...text, showarrow: true, arrowhead: 6, arrowsize: 0.7, arrowwidth: 1.2, arrowcolor: theme.bad, ax: 40, ay: -14, xanchor: "left", x: place, y: mark.y, yref: axis, font: { size: 11, color: theme.ink } });
     } else if (mark.x !== null && first) {
       layout.shapes.push({ type: "line", x0: mark.x, x1: mark.x, yref: "paper", y0: 0, y1: 1, line });
-      layout.annotations.push({ ...text, x: mark.x, yref: "paper", y: 0, yanchor: "bottom", textangle: -90, xanchor: "right" });
+      layout.annotations.push({ ...text, x: place, yref: "paper", y: 0, yanchor: "bottom", textangle: -90, xanchor: "right" });
     } else if (mark.x === null && mark.y !== null) {
       layout.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, yref: axis, y0: mark.y, y1: mark.y, line });
       layout.annotations.push({ ...text, xref: "paper", x: 0.995, xanchor: "right", yref: axis, y: mark.y, yanchor: "bottom" });
