@@ -11,6 +11,7 @@ from moyai.core.results import Result
 #: Attribute ``model`` of a problem: who runs it
 RUNNERS = {
     "rigid": "moyai.cage.rigid_analysis:run",
+    "flexible": "moyai.cage.flexible_analysis:run",
 }
 
 

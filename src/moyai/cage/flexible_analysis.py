@@ -117,7 +117,8 @@ def _steps(problem: FlexibleCageProblem, collected: _Collected, progress: Progre
         collected.groups[f"{root}/cage"] = cage_dataset(model, built)
         rest: CageRest | None = None
         if "statics" in problem.settings.analyses:
-            rests, speeds = [], _speeds(problem, speed)
+            rests: list[CageRest] = []
+            speeds = _speeds(problem, speed)
             for number, value in enumerate(speeds):
                 progress("rest in the current", number, len(speeds))
                 flow = ScaledCurrent(profile, value / speed) if profile is not None and value > 0.0 else None

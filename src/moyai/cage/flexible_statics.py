@@ -90,7 +90,7 @@ def line_numbers(built: CageNetwork, tension: np.ndarray) -> dict[str, np.ndarra
 
 
 def deflection(built: CageNetwork, position: np.ndarray, calm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return for each cage the largest displacement of its knots against its collar, and the lift of the deepest [m]."""
+    """Return for each cage the largest displacement of its knots against its collar and the deepest one's lift."""
     furthest, lift = [], []
     for cage in built.cages:
         knots = cage.net_nodes
@@ -138,7 +138,8 @@ def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, re
             balance=missing / max(float(np.linalg.norm(split[:, :2].sum(axis=0))), 1e-9 * float(rest.tension.max())),
             residual=rest.residual,
             collar_place=np.stack([shape[0] for shape in shapes]),
-            collar_ovality=np.array([shape[1] for shape in shapes]), collar_warp=np.array([shape[2] for shape in shapes]),
+            collar_ovality=np.array([shape[1] for shape in shapes]),
+            collar_warp=np.array([shape[2] for shape in shapes]),
             net_deflection=far, bottom_lift=lift, position=position, tension=rest.tension,
             **line_numbers(built, rest.tension),
         )  # fmt: skip

@@ -173,7 +173,9 @@ def wave_attributes(wave: Wave) -> dict[str, Array]:
     }  # fmt: skip
 
 
-def _line_series(run: CageRun, settings: FlexibleSettings, steady: Array) -> dict[str, tuple[object, Array]]:
+def _line_series(
+    run: CageRun, settings: FlexibleSettings, steady: NDArray[np.bool_]
+) -> dict[str, tuple[object, Array]]:
     """Return tensions of the lines over time, their extremes, and their snaps."""
     history, built = run.history, run.rest.built
     if not built.lines:

@@ -48,9 +48,9 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "collar_stress_largest": ("Pa", "largest von Mises stress of the collar"),
     "net_deflection": (
         "m",
-        "largest displacement of a knot of the net from its place in still water, collar taken off",
+        "largest displacement of a knot of the net against the collar, from still water",
     ),
-    "bottom_lift": ("m", "rise of the deepest knot of the net over its depth in still water"),
+    "bottom_lift": ("m", "rise of the knot of the net that is deepest in still water"),
     "position": ("m", "places of the nodes"),
     "tension": ("N", "tension of the bars"),
     "line_tension": ("N", "tension at the upper end of the line"),

@@ -26,6 +26,11 @@ MODELS = {
         build="moyai.case.build_cage_rigid:build_problem",
         derived="moyai.case.derived_cage_rigid:derived_numbers",
     ),
+    "flexible": CageModel(
+        check="moyai.case.check_cage_flexible:check",
+        build="moyai.case.build_cage_flexible:build_problem",
+        derived="moyai.case.derived_cage_flexible:derived_numbers",
+    ),
 }
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_cage_flexible import FlexibleCageSettings, FlexibleCageStructure
 from moyai.case.schema_cage_parts import CageMooring, RigidFloats, RigidFrame, RigidNet, RigidShape, RigidWeight, Sinker
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
@@ -65,8 +66,7 @@ class RigidCageStructure(Block):
     mooring: CageMooring | None = Field(default=None, description="Lines; the cage floats freely when absent.")
 
 
-CageStructure = RigidCageStructure
-"""``Annotated[RigidCageStructure | ..., Field(discriminator="model")]`` once there is a further model."""
+CageStructure = Annotated[RigidCageStructure | FlexibleCageStructure, Field(discriminator="model")]
 
 
 class CageRegularWaves(RegularWaves):
@@ -136,6 +136,9 @@ class CageSettings(Block):
     """How the analyses are run."""
 
     rigid: RigidCageSettings = Field(default_factory=RigidCageSettings, description="Settings of `model: rigid`.")
+    flexible: FlexibleCageSettings = Field(
+        default_factory=FlexibleCageSettings, description="Settings of `model: flexible`."
+    )
     water_levels: Annotated[
         Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
         Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
