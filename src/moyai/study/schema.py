@@ -169,7 +169,9 @@ class LinesLost(Block):
     """The structure with all its lines, and with each of them lost."""
 
     name: Name = "lost_line"
-    path: Annotated[str, Field(description="Path of the list of lines.")] = "lines"
+    path: Annotated[
+        str, Field(description="Path of the list of lines; found by itself where only one list is called so.")
+    ] = "lines"
     intact: Annotated[Truth, Field(description="Run the structure with all lines as well.")] = True
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.special import ndtri
 
 from moyai.core.validation import ValidationCase
 from moyai.design.codes import LineLoad, check_line, design_code
-from moyai.design.extremes import fit
+from moyai.design.extremes import Fit, fit
 from moyai.design.fatigue import EnduranceCurve, count_cycles, damage
-from moyai.design.long_term import YEAR, return_level
+from moyai.design.long_term import YEAR, JointSea, environmental_contour, return_level
+from moyai.design.peaks import Kind, maximum_of_kinds
 
 
 def _rayleigh_maximum() -> float:
@@ -21,6 +23,28 @@ def _rayleigh_maximum() -> float:
 def _gumbel_mode() -> float:
     probability = (np.arange(2000) + 0.5) / 2000
     return fit(10.0 - 2.0 * np.log(-np.log(probability)), "gumbel").location
+
+
+def _weibull_tail() -> float:
+    # Quantiles of a Weibull law of exponent 1.4 above its median; nothing below is looked at
+    values = (-np.log(1.0 - (np.arange(20000) + 0.5) / 20000)) ** (1.0 / 1.4)
+    return float(fit(values, "weibull", location=0.0, threshold=float(np.median(values))).level(2e-4))
+
+
+def _two_kinds() -> float:
+    ordinary = Kind(Fit("weibull", 0.0, 1.0, 2.0, 0, math.nan), 400.0)
+    snaps = Kind(Fit("generalised_pareto", 2.0, 0.5, 0.0, 0, math.nan), 20.0)
+    level = maximum_of_kinds([ordinary, snaps], 0.9)
+    return float((1.0 - math.exp(-(level**2))) ** 400 * (1.0 - math.exp(-(level - 2.0) / 0.5)) ** 20)
+
+
+def _contour() -> float:
+    height = Fit("weibull", 0.3, 1.2, 1.3, 0, math.nan)
+    sea = JointSea(height, (0.7, 0.4, 0.5), (0.05, 0.1, -0.4))
+    significant, period = environmental_contour(sea, 50.0, 3600.0, 36)
+    first = -ndtri(height.exceedance(significant))
+    second = (np.log(period) - 0.7 - 0.4 * significant**0.5) / (0.05 + 0.1 * np.exp(-0.4 * significant))
+    return float(np.max(np.abs(np.hypot(first, second)[height.exceedance(significant) < 0.999999])))
 
 
 def _long_term() -> float:
@@ -49,6 +73,27 @@ CASES: tuple[ValidationCase, ...] = (
         2e-3,
     ),
     ValidationCase("extremes: mode of a Gumbel distribution from its quantiles", "10, exact", _gumbel_mode, 10.0, 1e-3),
+    ValidationCase(
+        "extremes: tail of a Weibull law above its median",
+        "(ln 10 000)^(1/1.4), exact: 1 in 5000 of the values above the median",
+        _weibull_tail,
+        math.log(10_000.0) ** (1.0 / 1.4),
+        2e-3,
+    ),
+    ValidationCase(
+        "extremes: maximum of ordinary peaks and snaps",
+        "0.9, product of the laws of both kinds at the level found",
+        _two_kinds,
+        0.9,
+        1e-9,
+    ),
+    ValidationCase(
+        "extremes: contour of 50 years, back in standard normal space",
+        "radius of the circle, 50 years of hours",
+        _contour,
+        float(-ndtri(3600.0 / (50.0 * YEAR))),
+        1e-6,
+    ),
     ValidationCase(
         "extremes: 100-year level of one Rayleigh sea state",
         "sqrt(2 ln N), N waves of 100 years, exact",

@@ -1,6 +1,7 @@
 """Reading a study file: every kind of variation, and one clear message for every slip."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from scipy.stats import norm
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
+from moyai.study import variations
 from moyai.study.paths import resolve, value_of
 from moyai.study.plan import case_at, load_study
 from moyai.study.scatter import read_scatter
@@ -319,3 +321,21 @@ def test_a_contour_from_pairs_needs_enough_of_them(tmp_path):
     )
     assert "at least 360" in faults(tmp_path, text)
     assert "no column 'te'" in faults(tmp_path, text.replace("period: tp", "period: te"))
+
+
+def test_lines_that_stand_below_the_structure_by_name_are_lost_too():
+    data = {
+        "site": {"water_depth": "5 m"},
+        "structure": {"kind": "network", "lines": {"north": {"length": "3 m"}, "south": {"count": 3}, "west east": {}}},
+    }
+    (axis,) = variations._lines_lost(True, data, Path())
+    assert [point.label for point in axis.points] == ["intact", "north", "one of south", "west east"]
+    assert axis.points[1].removals == ("structure.lines.north",) and axis.lost_line
+    assert axis.points[2].assignments == (("structure.lines.south.count", 2),)
+    for point in axis.points:
+        for path in (*point.removals, *dict(point.assignments)):
+            resolve(data, path)
+    with pytest.raises(InputError, match="the only line"):
+        variations._lines_lost(True, {"lines": {"name": "a", "length": "1 m"}}, Path())
+    with pytest.raises(InputError, match="the only line"):
+        variations._lines_lost(True, {"lines": {"a": {"length": "1 m"}}}, Path())
