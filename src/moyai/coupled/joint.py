@@ -26,15 +26,26 @@ class Joint:
     on a quasi-Newton step (Anderson 1965) replaces the plain repetition, which converges like stiffness times step
     squared over mass. What disagreement is left is added to the next step's reaction, so that no impulse is lost
     [eq:coupled-carry].
+
+    Parameters
+    ----------
+    carriers : sequence of PointCarrier
+    network : PointNetwork
+    tolerance : float
+        Disagreement over the largest reaction so far.
+    least : float
+        Reaction that the tolerance refers to at least [N] (slack lines pull with nothing).
     """
 
-    def __init__(self, carriers: Sequence[PointCarrier], network: PointNetwork, tolerance: float) -> None:
+    def __init__(
+        self, carriers: Sequence[PointCarrier], network: PointNetwork, tolerance: float, *, least: float = 0.0
+    ) -> None:
         self.carriers, self.network, self.tolerance = list(carriers), network, tolerance
         self.sizes = [len(carrier.points) for carrier in carriers]
         self.ends = np.cumsum(self.sizes)
         count = int(sum(self.sizes))
         self.reaction, self.before, self.carry = np.zeros((2, count, 3)), np.zeros((2, count, 3)), np.zeros((count, 3))
-        self.largest, self.passes, self.steps = 0.0, 0, 0
+        self.largest, self.passes, self.steps = least, 0, 0
         self._length = 0.0
         self._work, self._lost, self._impulse = 0.0, 0.0, 0.0
 
@@ -42,6 +53,11 @@ class Joint:
     def lost_impulse(self) -> float:
         """Impulse that is owed at the end, over the largest reaction times a step."""
         return self._impulse / max(self.largest * self._length, 1e-300)
+
+    @property
+    def work(self) -> float:
+        """Sum of the work exchanged at the points, all of it positive [J]."""
+        return self._work
 
     @property
     def lost_work(self) -> float:
@@ -110,7 +126,7 @@ class Joint:
             wanted = self.tolerance * max(self.largest, size)
             if not np.isfinite(miss).all():
                 return False
-            if float(np.max(np.abs(miss), initial=0.0)) <= wanted or (wanted == 0.0 and size == 0.0):
+            if float(np.max(np.abs(miss), initial=0.0)) <= wanted:
                 settled = True
                 break
             inputs.append(guess.ravel().copy())

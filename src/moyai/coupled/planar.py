@@ -145,6 +145,11 @@ class PlanarCarrier:
         self._rate = np.zeros(3)
 
     @property
+    def body_mass(self) -> float:
+        """Mass of the body with its added mass in sway [kg]."""
+        return float(self.body.model.inertia[0, 0])
+
+    @property
     def centre(self) -> Array:
         """Centre of gravity in site axes [m]."""
         return np.asarray(self.rest + np.array([self.q[0], 0.0, self.q[1]]))

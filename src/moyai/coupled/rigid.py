@@ -294,6 +294,11 @@ class RigidCarrier:
         return np.concatenate([self.state[7:10], self.rotation @ self.state[10:13]])
 
     @property
+    def body_mass(self) -> float:
+        """Mass of the body [kg]."""
+        return self.body.mass
+
+    @property
     def centre(self) -> Array:
         """Centre of gravity in site axes [m]."""
         return self.state[:3]

@@ -63,7 +63,8 @@ def _immersion(height: float, size: float, length: float, upright: float, elevat
     """Return the immersed part of a column whose centre stands ``height`` high [eq:coupled-lumps]."""
     if length == 0.0:
         return 1.0
-    half = 0.5 * length * abs(upright) + 0.5 * size * math.sqrt(max(0.0, 1.0 - upright * upright))
+    # along its axis while that is steep, over its breadth once it lies
+    half = 0.5 * max(length * abs(upright), size * math.sqrt(max(0.0, 1.0 - upright * upright)))
     return min(max((elevation - height + half) / (2.0 * half), 0.0), 1.0)
 
 

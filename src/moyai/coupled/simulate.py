@@ -144,12 +144,12 @@ def simulate_coupled(
         notices.append(notice)
     per_row = max(1, math.ceil(interval / body_step * (1.0 - 1e-9)))
     names = [point for carrier in moving.values() for point in carrier.points]
-    velocity = np.concatenate([carrier.place_and_velocity()[1] for carrier in moving.values()]).reshape(-1, 3)
+    velocity = np.concatenate([np.zeros((0, 3)), *(carrier.place_and_velocity()[1] for carrier in moving.values())])
     stepped = SteppedNetwork(
         network, names, motions=motions, flow=flow, start=start, velocity=velocity, step=step, safety=safety,
         load_steps=load_steps, keep_nodes=keep_nodes, keep_bars=keep_bars,
     )  # fmt: skip
-    joint = Joint(list(moving.values()), stepped, tolerance)
+    joint = Joint(list(moving.values()), stepped, tolerance, least=1e-3 * _least_weight(moving, network))
     logs = {name: BodyLog(bodies[name], moving[name]) for name in bodies}
     status, message = _drive(joint, stepped, logs, start.time, interval, rows, per_row, network, progress)
     return _history(joint, stepped, logs, interval / per_row, status, message, tuple(notices), network)
@@ -180,7 +180,8 @@ def _drive(
             for log in logs.values():
                 log.keep(joint)
             energy = stepped.energy
-            throughput = max(throughput, energy[0] + energy[1], abs(energy[2]))
+            kinetic = sum(float(log.rows[-1][5]) for log in logs.values() if log.rows)
+            throughput = max(throughput, energy[0] + energy[1], abs(energy[2]), joint.work, kinetic)
             gain = (energy[0] + energy[1]) - (start[0] + start[1]) - (energy[2] - start[2])
             if not gain <= ENERGY_STOP * throughput:
                 return "not_converged", (
@@ -193,6 +194,12 @@ def _drive(
     except ConvergenceError as error:
         return "not_converged", f"stopped at t = {stepped.time:g} s: {error.fault.message}"
     return "converged", ""
+
+
+def _least_weight(carriers: Mapping[str, PointCarrier], network: Network) -> float:
+    """Return the weight of the lightest body [N]."""
+    masses = [float(carrier.body_mass) for carrier in carriers.values() if hasattr(carrier, "body_mass")]
+    return min(masses, default=0.0) * network.water.gravity
 
 
 def _history(
@@ -208,7 +215,7 @@ def _history(
     record = stepped.record()
     total = record.kinetic_energy + record.elastic_energy
     gain = float(np.max(total - total[0] - (record.work - record.work[0])))
-    through = max(float(np.max(total)), float(np.max(np.abs(record.work))), 1e-12)
+    through = max(float(np.max(total)), float(np.max(np.abs(record.work))), joint.work, 1e-12)
     checks = (
         IdentityCheck(
             "energy from nowhere in the network", max(gain, 0.0) / through, ENERGY_TOLERANCE,
