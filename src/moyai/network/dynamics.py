@@ -242,11 +242,13 @@ def _frames(plan: RunPlan, history: History) -> xr.Dataset:
     step = max(1, math.ceil(rows * per_row / MOST_FRAME_VALUES))
     chosen = np.arange(0, rows, step)
     if history.tension.size:
-        highest = np.nan_to_num(history.tension).max(axis=1)
+        highest = np.nan_to_num(history.tension_peak).max(axis=1)
         chosen = np.union1d(chosen, [int(np.argmax(highest)), rows - 1])
+    # the highest since the row before: a snap between two rows must show
+    shown = np.maximum(history.tension, np.nan_to_num(history.tension_peak))
     data: dict[str, Any] = {
         "position": (("frame", "node", "axis"), history.position[chosen].astype(np.float32)),
-        "tension": (("frame", "bar"), history.tension[chosen].astype(np.float32)),
+        "tension": (("frame", "bar"), shown[chosen].astype(np.float32)),
         "final_position": (("every_node", "axis"), history.final.position, {"units": "m", "long_name": "last state"}),
         "final_velocity": (
             ("every_node", "axis"), history.final.velocity, {"units": "m/s", "long_name": "velocity of the last state"},
@@ -276,10 +278,9 @@ def _snaps(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecord]
         return {}
     for name in series["line"].values:
         highest = series["line_tension"].sel(line=name).values[chosen]
-        # a line is slack where its own ends or the middle bear nothing: the bar of the highest tension tells
-        record = np.maximum(
-            series["start_tension"].sel(line=name).values[chosen], series["end_tension"].sel(line=name).values[chosen]
-        )
+        # the more loaded end tells whether the line is slack; the other one may lie on the bed
+        ends = [series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
+        record = max(ends, key=lambda values: float(np.nanmean(values)))
         if not (np.isfinite(highest).all() and np.isfinite(record).all()):
             continue
         taut = record[record > settings.slack_level]

@@ -6,19 +6,21 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.network.model import STILL, NetworkProblem
 from moyai.sea.components import WaveComponents
+from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.sea.water import Water
 
 #: Periods of a run whose length is left to the program, rows in its shortest period, most components of a sea.
-PERIODS, ROWS_PER_PERIOD, COMPONENTS = 20, 100, 240
+PERIODS, ROWS_PER_PERIOD, COMPONENTS = 20, 100, 150
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +58,22 @@ class RunPlan:
     seed: int = -1
 
 
+@dataclass(frozen=True, eq=False)
+class _Within:
+    """A current asked at any height: nodes sink a little into the bed, and profiles end there."""
+
+    profile: CurrentProfile
+    depth: float
+
+    def velocity(self, z: ArrayLike) -> NDArray[np.float64]:
+        """Return the velocity (..., 2) at heights z, of the nearest end beyond the ends."""
+        return np.asarray(self.profile.velocity(np.clip(z, -self.depth, 0.0)))
+
+
 def steady_flow(problem: NetworkProblem, water: Water) -> Flow:
     """Return the current alone."""
     current = problem.environment.current
-    return Flow() if current is None else Flow(current=current.in_depth(water.depth))
+    return Flow() if current is None else Flow(current=_Within(current.in_depth(water.depth), water.depth))
 
 
 def mean_current(problem: NetworkProblem, water: Water) -> tuple[float, float]:

@@ -395,7 +395,7 @@ def scene_3d(scene: Scene3D) -> dict[str, Any]:
         "bed": scene.bed,
         "box": [[float(value) for value in low], [float(value) for value in high]],
         "home": [yaw, pitch],
-        "extents": {"3-D": [], "Side": [], "Along x": [], "Above": []},
+        "extents": {"3-D": [], "Side": [], "End": [], "Plan": []},
         "window": [float(span[0]), float(span[1])],
         "start": scene.moment,
         "maximum": scene.moment,

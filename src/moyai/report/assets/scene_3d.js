@@ -61,7 +61,7 @@ class Scene3D {
 
   // ---- camera
   frameOf(view) {
-    const fixed = { Side: [0, 0], "Along x": [-Math.PI / 2, 0], Above: [0, Math.PI / 2] }[view];
+    const fixed = { Side: [0, 0], End: [-Math.PI / 2, 0], Plan: [0, Math.PI / 2] }[view];
     const [yaw, pitch] = fixed || [this.yaw, this.pitch], c = Math.cos(yaw), s = Math.sin(yaw), u = Math.cos(pitch), v = Math.sin(pitch);
     return { right: [c, s, 0], away: [-u * s, u * c, -v], up: [-v * s, v * c, u], parallel: Boolean(fixed), pitch };
   }
