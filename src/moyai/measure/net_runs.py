@@ -43,11 +43,11 @@ class Specimen:
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(f"{name} of net {self.name} is {value:g} m2", path=name, allowed="greater than 0 m2")
-        if self.projected_area > 2.0 * self.panel_area:
+        if not 0.25 * self.net.listed < self.projected_area / self.panel_area < 2.0:
             raise InputError(
                 f"the twines of net {self.name} shade {self.projected_area:.4g} m2 of a panel of {self.panel_area:.4g}",
                 path="projected_area",
-                allowed="at most twice the outline, crossings counted twice",
+                allowed=f"about {self.net.listed:.3g} of the outline, the solidity of the net",
                 remedy="check the units: cm2 or m2",
             )
 

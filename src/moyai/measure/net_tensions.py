@@ -167,18 +167,21 @@ def measure_tensions(record: CageRecord) -> tuple[tuple[EndTension, ...], tuple[
 
 
 def _rise_notice(name: str, end: EndRecord, values: Array, step: float) -> list[Notice]:
-    top = int(np.argmax(values))
-    low = 0.1 * float(values[top])
-    before = np.flatnonzero(values[:top] <= low)
-    if before.size == 0 or values[top] <= 0.0:
+    peak = float(values.max())
+    # every rise from a tenth to nine tenths of the peak, in steps
+    high = np.flatnonzero((values[1:] >= 0.9 * peak) & (values[:-1] < 0.9 * peak)) + 1
+    low = np.flatnonzero(values <= 0.1 * peak)
+    last = np.searchsorted(low, high) - 1
+    rises = high[last >= 0] - low[last[last >= 0]]
+    if peak <= 0.0 or rises.size == 0:
         return []
-    rise = top - int(before[-1])
+    rise = int(rises.min())
     if rise >= _LEAST_RISE:
         return []
     return [
         Notice(
             "cage-tension-sampling",
-            f"run {name}: the highest peak of {end.line} {end.end} rises within {rise} steps of {1e3 * step:.3g} ms; "
+            f"run {name}: a peak of {end.line} {end.end} rises within {rise} steps of {1e3 * step:.3g} ms; "
             "the true peak may be higher",
             float(rise),
             float(_LEAST_RISE),

@@ -179,7 +179,7 @@ def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[Flow, t
                     "check period, speed, 'following' and the clock",
                 )
             )
-        slower = met / run.period
+        slower = (-1.0 if run.following and _overtakes(run, tank) else 1.0) * met / run.period
     if run.velocity is not None:
         # mean and harmonics of the meter; the water's own acceleration is that of the wave at rest
         velocity, rate = _harmonic(time, signal, met)

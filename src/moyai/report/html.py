@@ -163,7 +163,7 @@ def column_texts(column: Column) -> list[str]:
 
 def words(text: str) -> str:
     """Escape a text for HTML; the letter behind ``K_`` is lowered."""
-    return re.sub(r"\b([KC])_([TRgDE])(?![A-Za-z])", r"\1<sub>\2</sub>", escape(text))
+    return re.sub(r"\b([KC])_([TRgDELM])(?![A-Za-z])", r"\1<sub>\2</sub>", escape(text))
 
 
 def is_text_column(column: Column) -> bool:

@@ -223,7 +223,8 @@ def _law_blocks(law: Group, nets: Group) -> list[Block]:
         ),
         note="ln C_D = a0 + a1 ln Re + a2 S + a3 S ln Re + a4 ln d (d in m), so A = exp(a0 + a2 S + a4 ln d) and "
         f"B = -(a1 + a3 S), with the {attributes.get('solidity', '')} solidity. Spread between nets {between:.1f} %, "
-        f"within {within:.1f} %. A net left out is predicted to {left:.1f} %, by one power law for all to {pooled:.1f} %.",
+        f"within {within:.1f} %. A net left out is predicted to "
+        f"{left:.1f} %, by one power law for all to {pooled:.1f} %.",
     )
     return [table, *_factor_figure(nets)]
 

@@ -99,8 +99,8 @@ def net_table(nets: Group) -> list[Block]:
         return []
     columns = [
         Column("Net", list(nets.labels("net"))),
-        Column("twine", _numbers(nets, "twine_diameter", "net"), "m"),
-        Column("pitch", _numbers(nets, "mesh_pitch", "net"), "m"),
+        Column("twine", [1e3 * value for value in _numbers(nets, "twine_diameter", "net")], "mm", fixed=True),
+        Column("pitch", [1e3 * value for value in _numbers(nets, "mesh_pitch", "net")], "mm", fixed=True),
         Column("solidity, geometric", _numbers(nets, "solidity", "net")),
         Column("solidity, listed", _numbers(nets, "solidity_listed", "net")),
         Column("A", _numbers(nets, "factor", "net")),
