@@ -16,7 +16,7 @@ PARTS = ("net walls", "net bottoms", "collars", "sinker tubes", "weights", "line
 
 
 def _drag_on_bars(network: Network, position: Array, velocity: Array, water: Array) -> Array:
-    """Return the drag of every bar (m, 3) [N], as the engine takes it [eq:flexible-morison]."""
+    """Return the drag on both ends of every bar (2, m, 3) [N], as the engine takes it [eq:flexible-morison]."""
     bars = network.bars
     a, b = bars.start, bars.end
     along = position[b] - position[a]
@@ -27,14 +27,14 @@ def _drag_on_bars(network: Network, position: Array, velocity: Array, water: Arr
     low, high = np.minimum(over[a], over[b]) - radius, np.maximum(over[a], over[b]) + radius
     wet = np.clip(-low / (high - low), 0.0, 1.0)
     head = 0.25 * network.water.density * bars.of_type("diameter") * bars.length * wet
-    force = np.zeros((len(bars), 3))
-    for end in (a, b):
+    force = np.zeros((2, len(bars), 3))
+    for side, end in enumerate((a, b)):
         relative = bars.flow_factor[:, None] * water[:3, end].T - velocity[end]
         slide = np.einsum("ij,ij->i", relative, t)
         across = relative - slide[:, None] * t
         speed = np.linalg.norm(across, axis=1)
-        force += (head * bars.of_type("drag_normal") * speed)[:, None] * across
-        force += (head * bars.of_type("drag_tangential") * np.abs(slide) * slide)[:, None] * t
+        force[side] += (head * bars.of_type("drag_normal") * speed)[:, None] * across
+        force[side] += (head * bars.of_type("drag_tangential") * np.abs(slide) * slide)[:, None] * t
     return force
 
 
@@ -66,7 +66,7 @@ def drag_split(built: CageNetwork, network: Network, position: Array, velocity: 
     panels = network.panels
     assert panels is not None
     _, each = forces_on_panels(panels, position, velocity, water, network.water.density)
-    bars = _drag_on_bars(network, position, velocity, water)
+    bars = _drag_on_bars(network, position, velocity, water).sum(axis=0)
     points = _drag_on_nodes(network, position, velocity, water)
     out = np.zeros((len(PARTS), 3))
     for cage in built.cages:
@@ -82,10 +82,30 @@ def drag_split(built: CageNetwork, network: Network, position: Array, velocity: 
     return out
 
 
+def drag_on_holds(built: CageNetwork, network: Network, position: Array, water: Array) -> Array:
+    """Return the drag that acts on the holds themselves, at rest, (holds, 3) [N].
+
+    Half of the last bar of an anchor line, and the upper corners of the panels of a held collar: no bar pulls it.
+    """
+    panels = network.panels
+    assert panels is not None
+    still = np.zeros_like(position)
+    total, _ = forces_on_panels(panels, position, still, water, network.water.density)
+    ends = _drag_on_bars(network, position, still, water)
+    np.add.at(total, network.bars.start, ends[0])
+    np.add.at(total, network.bars.end, ends[1])
+    return np.asarray(total[holds_of(built)])
+
+
+def holds_of(built: CageNetwork) -> NDArray[np.int64]:
+    """Return the nodes of the anchors, or of a collar that is held."""
+    return built.anchors if built.anchors.size else built.cages[0].collar[0]
+
+
 def pull_on_anchors(built: CageNetwork, network: Network, position: Array, tension: Array) -> Array:
     """Return the force of the cage on its anchors, or on what holds its collar, (holds, 3) [N]."""
     bars = network.bars
-    held = built.anchors if built.anchors.size else built.cages[0].collar[0]
+    held = holds_of(built)
     t = position[bars.end] - position[bars.start]
     t = t / np.linalg.norm(t, axis=1)[:, None]
     total = np.zeros_like(position)

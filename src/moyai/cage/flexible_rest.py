@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.cage.flexible_loads import PARTS, drag_split, pull_on_anchors
+from moyai.cage.flexible_loads import PARTS, drag_on_holds, drag_split, pull_on_anchors
 from moyai.cage.flexible_model import FlexibleCage
 from moyai.cage.flexible_parts import CageNetwork, CageParts
 from moyai.cage.flexible_wake import sheltered
@@ -157,7 +157,8 @@ def horizontal_balance(rest: CageRest) -> tuple[Array, Array]:
     position = rest.state.position
     water = Flow(current=rest.current).at(0.0, position.T)
     split = drag_split(rest.built, rest.network, position, np.zeros_like(position), water)
-    return split, pull_on_anchors(rest.built, rest.network, position, rest.tension).sum(axis=0)
+    pull = pull_on_anchors(rest.built, rest.network, position, rest.tension)
+    return split, (pull + drag_on_holds(rest.built, rest.network, position, water)).sum(axis=0)
 
 
 __all__ = [

@@ -33,6 +33,9 @@ Around = Annotated[int, Field(strict=True, ge=8, le=400, multiple_of=4)]
 Meshes = Annotated[int, Field(strict=True, ge=1, le=200)]
 Few = Annotated[int, Field(strict=True, ge=1, le=20)]
 Samples = Annotated[int, Field(strict=True, ge=8, le=2000)]
+BedStiffness = Annotated[
+    float, QuantityOf(quantities.Kind("a stiffness of the bed", "Pa/m", "pascals per metre", "1e5 Pa/m"), above=0.0)
+]
 Ratio = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=1.0)]
 Slack = Annotated[float, QuantityOf(quantities.NUMBER, above=-0.2, below=1.0)]
 

@@ -10,6 +10,7 @@ from moyai.report.document import Document
 #: Attribute ``cage_model`` of the result: who composes its pages
 PAGES = {
     "rigid": "moyai.report.cage_rigid_page:compose",
+    "flexible": "moyai.report.cage_flexible_page:compose",
 }
 
 

@@ -1,0 +1,143 @@
+"""Three-dimensional views of a flexible cage: at rest in each current, and in motion."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.report.cage_rigid_reading import Level, key
+from moyai.report.document import Animation, Block, Choice, Option
+from moyai.report.formatting import format_quantity
+from moyai.report.reading import Group
+from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+
+Array = NDArray[np.float64]
+
+#: Periods of the window that an animation opens with.
+_WINDOW_PERIODS = 4.0
+
+
+def _parts(level: Level) -> tuple[Array, Array, tuple[Faces, ...], tuple[Marker, ...], tuple[str, ...]] | None:
+    """Return bars, which of them are thin, faces, markers and names of the bars."""
+    cage = level.part("cage")
+    start, end, kind = (cage.array(name, "bar") for name in ("bar_start", "bar_end", "bar_kind"))
+    corners = cage.array("panel_corners", "panel", "corner")
+    line = cage.array("bar_line", "bar")
+    if start is None or end is None or kind is None or corners is None or line is None:
+        return None
+    words = {0: "net", 1: "collar", 2: "sinker tube", 4: "bracket"}
+    lines = cage.labels("line")
+    names = tuple(
+        lines[number] if number >= 0 else words.get(what, "")
+        for number, what in zip(line.astype(int).tolist(), kind.astype(int).tolist(), strict=True)
+    )
+    quads = corners[corners[:, 3] >= 0].astype(np.int64)
+    flat = corners[corners[:, 3] < 0][:, :3].astype(np.int64)
+    faces = tuple(
+        Faces(nodes, name, "net") for nodes, name in ((quads, "net"), (flat, "net, middle of the bottom")) if len(nodes)
+    )
+    markers: list[Marker] = []
+    for dim, node_name, words_of, what in (
+        ("anchor", "anchor_node", "anchor", "anchor"),
+        ("buoy", "buoy_node", "buoy", "float"),
+        ("sinker", "sinker_node", "sinker", "clump"),
+    ):
+        nodes = cage.array(node_name, dim)
+        for number, node in enumerate(() if nodes is None else nodes.astype(int)):
+            markers.append(Marker(int(node), f"{words_of} {number + 1}", what))  # type: ignore[arg-type]
+    return np.stack([start, end], axis=1).astype(np.int64), kind == 0, faces, tuple(markers), names
+
+
+def _current(level: Level, speed: float) -> tuple[float, float]:
+    heading = float(level.group.attributes.get("heading", 0.0))
+    return speed * math.cos(heading), speed * math.sin(heading)
+
+
+def _bed(level: Level) -> float:
+    return float(level.part("cage").attributes.get("bed", -level.depth))
+
+
+def rest_views(level: Level) -> Block | None:
+    """Return the cage at rest in each current to choose from, ``None`` where there is none."""
+    parts, statics = _parts(level), level.part("statics")
+    position, tension = statics.array("position", "current", "node", "axis"), statics.array("tension", "current", "bar")
+    speed = statics.real("current_speed", "current")
+    if parts is None or position is None or tension is None or speed is None:
+        return None
+    bars, thin, faces, markers, names = parts
+    options = []
+    for number, value in enumerate(speed):
+        scene = Scene3D(
+            np.array([0.0, 1.0]), np.stack([position[number]] * 2), bars, np.stack([tension[number]] * 2), thin, faces,
+            markers, bed=_bed(level), current=_current(level, float(value)), maximum=0.0, names=names, is_still=True,
+        )  # fmt: skip
+        said = format_quantity(float(value), "m/s") if value > 0.0 else "still water"
+        options.append(
+            Option(
+                said,
+                (
+                    animation_3d(
+                        key(level, "rest-view", str(number + 1)), f"The cage at rest, {said}", scene,
+                        "To scale; colour and breadth grow with the tension, dashed grey is slack.",
+                    ),
+                ),
+            )
+        )  # fmt: skip
+    return Choice(f"rest-view-{level.name}", "Current", tuple(options), len(options) - 1, print_all=False)
+
+
+def run_view(level: Level, sea: str, run: Group) -> Animation | None:
+    """Return the animation of a run, ``None`` where it kept no pictures."""
+    parts = _parts(level)
+    time = run.real("frame_time", "frame")
+    position, tension = run.array("position", "frame", "node", "axis"), run.array("tension", "frame", "bar")
+    if parts is None or time is None or position is None or tension is None:
+        return None
+    good = np.isfinite(position).all(axis=(1, 2))
+    if good.sum() < 2:
+        return None
+    time, position, tension = time[good], position[good], tension[good]
+    bars, thin, faces, markers, names = parts
+    period = float(run.attributes.get("period", math.nan))
+    length = _WINDOW_PERIODS * period
+    window = (float(time[0]), float(time[-1]))
+    if math.isfinite(length) and window[1] - window[0] > length:
+        window = (window[1] - length, window[1])
+    rows = frame_rows(time, nodes=position.shape[1], bars=len(bars), window=window)
+    scene = Scene3D(
+        time[rows], position[rows], bars, tension[rows], thin, faces, markers, traces=_traces(level, run, names),
+        waves=_waves(run), bed=_bed(level),
+        current=_current(level, float(level.group.attributes.get("current", 0.0))), window=window, names=names,
+    )  # fmt: skip
+    return animation_3d(
+        key(level, sea, run.name, "view"),
+        f"The cage in motion: {run.attributes.get('wave', run.name)}",
+        scene,
+        "To scale, not enlarged; colour and breadth grow with the tension, dashed grey is slack.",
+    )
+
+
+def _traces(level: Level, run: Group, names: tuple[str, ...]) -> tuple[Trace, ...]:
+    time, peak = run.real("time", "time"), run.array("line_peak", "time", "line")
+    broken = level.part("cage").real("line_breaking_load", "line")
+    if time is None or peak is None:
+        return ()
+    return tuple(
+        Trace(
+            line, time, np.nan_to_num(peak[:, k]), names.index(line) if line in names else -1,
+            math.nan if broken is None else float(broken[k]),
+        )
+        for k, line in enumerate(run.labels("line"))
+    )  # fmt: skip
+
+
+def _waves(run: Group) -> Waves3D | None:
+    values = [
+        run.attributes.get(f"component_{name}") for name in ("amplitude", "omega", "wave_number", "heading", "phase")
+    ]
+    if any(value is None for value in values):
+        return None
+    amplitude, omega, number, heading, phase = (np.atleast_1d(np.asarray(value, dtype=float)) for value in values)
+    return Waves3D(amplitude, omega, number, heading, phase, float(run.attributes.get("ramp", 0.0)))
