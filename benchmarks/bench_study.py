@@ -4,11 +4,11 @@ Prints JSON lines. Everything is a ratio within this run: to the cases themselve
 workers would ask for.
 
     OMP_NUM_THREADS=1 python benchmarks/bench_study.py
-    OMP_NUM_THREADS=1 python benchmarks/bench_study.py --workers 10 100 300 1000
+    OMP_NUM_THREADS=1 python benchmarks/bench_study.py --workers 2 10 100 200
 
 With ``--workers`` only the scheduler is measured: so many worker objects, all in one other process, connect to it as
 workers on other machines would, and are given trivial cases. What they compute does not count; what scheduler and
-client need does.
+client need does. Every worker holds a dozen sockets: some hundreds fit into one process on an idle machine.
 """
 
 from __future__ import annotations

@@ -149,14 +149,26 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
             place = ("study", "responses", number)
             raise CaseError([document.fault(place, "rainflow needs the 'exponent' of the endurance curve")])
     wanted += _wanted_of_assessment(document, block.assess)
+    watch = _watched(document, block, search)
     keep = block.keep == "results"
     study = Study(
-        block.title, base, base_path, tuple(axes), cases, tuple(dict.fromkeys(wanted)), block.watch, keep, "", search
+        block.title, base, base_path, tuple(axes), cases, tuple(dict.fromkeys(wanted)), watch, keep, "", search
     )
     skips = block.on_refused == "skip"
     study = replace(study, assessment=block.assess, replays=block.replays, skips_refused=skips)
     named, refused = check_cases(study, progress)
     return replace(study, key=_key(study, named), refused=refused)
+
+
+def _watched(document: Document, block: schema.StudyBlock, search: Any) -> str:
+    """Return the response that is shown on the way; a search is watched by what it finds."""
+    if search is None:
+        return block.watch
+    found = ("limit/limit", "limit/runs") if block.limit is not None else ("optimum/objective", "optimum/runs")
+    if block.watch and block.watch not in found:
+        message = f"'{block.watch}' is no result of a search"
+        raise CaseError([document.fault(("study", "watch"), message, allowed=", ".join(found), remedy="leave it out")])
+    return block.watch or found[0]
 
 
 def _wanted_of_assessment(document: Document, assess: schema.Assessment | None) -> list[Wanted]:
