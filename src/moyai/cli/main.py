@@ -29,6 +29,7 @@ from moyai.cli.console import (
     say,
     tell,
 )
+from moyai.cli.convert import Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
@@ -53,6 +54,7 @@ app.command()(query)
 app.command()(fit)
 app.add_typer(measure)
 app.command()(compare)
+app.command()(convert)
 app.command()(scale)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
@@ -167,16 +169,20 @@ def run(
     report: Annotated[bool, typer.Option(help="Write the report and its tables beside results.nc.")] = True,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
     quiet: Quiet = False,
+    motion: Motion = None,
+    duration: Duration = None,
 ) -> None:
-    """Run a case: results.nc, report.html and tables as CSV."""
+    """Run a case, or a deck of MoorDyn: results.nc, report.html and tables as CSV."""
     with guard(as_json):
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
 
         started = time.perf_counter()
+        folder = output if output is not None else Path("out") / file.stem
+        file = _deck_or_case(file, folder, motion or [], duration)
         case = load_case(file)
-        folder = prepare_output(output if output is not None else Path("out") / file.stem)
+        folder = prepare_output(folder)
         if not as_json and not quiet:
             for warning in case.warnings:
                 tell(f"warning: {warning}")
@@ -200,6 +206,19 @@ def run(
             tell(f"{result.status}: {result.message}")
         failed = any(not identity.passed for identity in result.checks)
         raise typer.Exit(OK if result.status == "converged" and not failed else FAILED)
+
+
+def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float | None) -> Path:
+    """Return the case file: FILE itself, or that of a deck of MoorDyn, written into the folder of the results."""
+    from moyai.interop.moordyn_case import is_deck
+
+    if is_deck(file):
+        return case_of_deck(file, folder / "case.yaml", motions, duration, None, replace=True)
+    if motions or duration is not None:
+        from moyai.core.errors import InputError
+
+        raise InputError("a case file has its motions and durations in itself", path="--motion, --duration")
+    return file
 
 
 def _run_record(case: Any, result: Any, files: list[Path], seconds: float, figures: list[Any]) -> dict[str, Any]:

@@ -1,0 +1,89 @@
+"""``moyai convert``: decks of MoorDyn to case files of networks, and back. And what lets ``moyai run`` take a deck."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from moyai.cli.console import guard, print_json, tell
+from moyai.core.errors import InputError
+
+
+def motions_of(options: list[str]) -> dict[int, Path]:
+    """Return the files of ``--motion 3=surge.csv`` by point.
+
+    Raises
+    ------
+    InputError
+        For an option of another form.
+    """
+    found: dict[int, Path] = {}
+    for option in options:
+        number, sign, name = option.partition("=")
+        if not sign or not number.strip().isdigit() or not name.strip():
+            raise InputError(
+                f"'{option}' is no motion of a point", path="--motion", allowed="the ID of a coupled point = a file",
+                remedy="for instance --motion 3=surge.csv",
+            )  # fmt: skip
+        found[int(number)] = Path(name.strip()).resolve()
+    return found
+
+
+def case_of_deck(
+    deck: Path, target: Path, motions: list[str], duration: float | None, output_step: float | None, *, replace: bool
+) -> Path:
+    """Write the case file of a deck and return its path; what is worth knowing goes to standard error."""
+    from moyai.cli.files import write_text
+    from moyai.interop.moordyn_case import case_text
+    from moyai.interop.moordyn_reader import read_deck
+
+    read = read_deck(deck)
+    text = case_text(read, motions=motions_of(motions), duration=duration, output_step=output_step)
+    write_text(target, text, replace=replace)
+    return target
+
+
+Motion = Annotated[
+    list[str] | None,
+    typer.Option("--motion", metavar="POINT=FILE", help="Motion of a coupled point of a deck: time, x, y, z; repeat."),
+]
+Duration = Annotated[float | None, typer.Option("--duration", help="Length of the run of a deck [s].", min=0.0)]
+
+
+def convert(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Deck of MoorDyn, or case file of a network.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File to write; the name of FILE with another ending.")
+    ] = None,
+    motion: Motion = None,
+    duration: Duration = None,
+    water_level: Annotated[str | None, typer.Option(help="Water level of the deck; the first when absent.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+) -> None:
+    """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck."""
+    with guard(as_json):
+        from moyai.interop.moordyn_case import deck_of_case, is_deck
+        from moyai.interop.moordyn_deck import write_deck
+
+        if not file.is_file():
+            raise InputError(f"no such file: {file}", path="FILE")
+        if is_deck(file):
+            target = case_of_deck(
+                file, output or file.with_suffix(".yaml"), motion or [], duration, None, replace=force
+            )
+            following = f"moyai run {target}"
+        else:
+            from moyai.case.reader import load_case
+
+            target = output or file.with_suffix(".txt")
+            if target.exists() and not force:
+                raise InputError(f"{target} exists", path="output", remedy="choose another name, or add --force")
+            write_deck(deck_of_case(load_case(file), water_level), target)
+            following = "the motions of coupled points are given to MoorDyn by the program that runs it"
+        if as_json:
+            print_json({"file": str(target), "faults": []})
+        else:
+            tell(f"wrote {target}; {following}")
