@@ -49,7 +49,9 @@ LENGTH, SPRING, VISCOUS, LIMIT, ACROSS, SKIN, CROSS, ALONG, LIFT, SHARE, RADIUS,
 FX, FY, FZ, PULL, PEAK, WET, RATE = (row * ROW for row in range(62, 69))
 AX, AY, AZ, EX, EY, EZ = (row * ROW for row in range(69, 75))
 DXX, DXY, DXZ, DYY, DYZ, DZZ = (row * ROW for row in range(75, 81))
-ROWS_OF_NODES, ROWS = 49, 81
+#: Difference of the lifts of both ends of a bar that crosses the surface, over the whole.
+LEAN = 81 * ROW
+ROWS_OF_NODES, ROWS = 49, 82
 #: Length of the ledger of a run; behind it stand, for each driven point, the impulse of the network on it (three
 #: numbers, N s) and the moment of that impulse about the start of the call (three numbers, N s2).
 LEDGER = 6
@@ -257,7 +259,7 @@ def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
 def wetness(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
-    """Write the immersed part of bars, cut by the surface over them [eq:flexible-immersion]."""
+    """Write immersed part and lean of the lift of bars, cut by the surface over them [eq:flexible-immersion]."""
     for i in range(count):
         a, b, k = a0 + i, b0 + i, k0 + i
         ha, hb = A[Z + a] - A[ETA + a], A[Z + b] - A[ETA + b]
@@ -265,7 +267,9 @@ def wetness(A: Any, a0: int, b0: int, k0: int, count: int) -> None:
         high = (hb if ha < hb else ha) + A[RADIUS + k]
         part = -low / (high - low)
         part = part if part < 1.0 else 1.0
-        A[WET + k] = part if part > 0.0 else 0.0
+        part = part if part > 0.0 else 0.0
+        A[WET + k] = part
+        A[LEAN + k] = part * (1.0 - part) * (hb - ha) / (high - low)
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -301,7 +305,8 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         size, slide = held * size, held * slide * along
         A[AX + k] = size * ux + slide * tx
         A[AY + k] = size * uy + slide * ty
-        A[AZ + k] = size * uz + slide * tz + lift
+        lean = A[LEAN + k] * A[LIFT + k]
+        A[AZ + k] = size * uz + slide * tz + lift + lean
         ux, uy, uz = share * A[WU + b] - A[U + b], share * A[WV + b] - A[V + b], share * A[WW + b] - A[W + b]
         along = ux * tx + uy * ty + uz * tz
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
@@ -312,7 +317,7 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         other, slide = held * other, held * slide * along
         A[EX + k] = other * ux + slide * tx
         A[EY + k] = other * uy + slide * ty
-        A[EZ + k] = other * uz + slide * tz + lift
+        A[EZ + k] = other * uz + slide * tz + lift - lean
         A[RATE + k] = (size + other) * A[LIGHT + k]
     if waves:
         for i in range(count):

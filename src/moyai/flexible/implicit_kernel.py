@@ -41,15 +41,16 @@ def _cut(pull: float, least: float, soft: float) -> tuple[float, float]:
 
 
 @njit(cache=True, error_model="numpy")
-def _wet_part(x: Any, water: Any, a: int, b: int, radius: float) -> tuple[float, float]:
-    """Return the immersed part of a bar and its slope over height [eq:flexible-immersion]."""
+def _wet_part(x: Any, water: Any, a: int, b: int, radius: float) -> tuple[float, float, float]:
+    """Return the immersed part of a bar, its slope over height, and the lean of its lift [eq:flexible-immersion]."""
     ha, hb = x[a, 2] - water[6, a], x[b, 2] - water[6, b]
     low, high = min(ha, hb) - radius, max(ha, hb) + radius
     if high <= 0.0:
-        return 1.0, 0.0
+        return 1.0, 0.0, 0.0
     if low >= 0.0:
-        return 0.0, 0.0
-    return -low / (high - low), 1.0 / (high - low)
+        return 0.0, 0.0, 0.0
+    part, steep = -low / (high - low), 1.0 / (high - low)
+    return part, steep, (hb - ha) * steep
 
 
 @njit(cache=True, error_model="numpy")
@@ -93,7 +94,7 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
         elastic, _ = _elastic(bars, k, size, curve[k], curves)
         pull, _ = _cut(elastic + bars[2, k] * rate, bars[3, k], fluid[2])
         tension[k] = pull
-        wet, _ = _wet_part(x, water, a, b, bars[10, k])
+        wet, _, lean = _wet_part(x, water, a, b, bars[10, k])
         for axis in range(3):
             force[a, axis] += pull * t[axis]
             force[b, axis] -= pull * t[axis]
@@ -114,7 +115,7 @@ def forces(x: Any, v: Any, water: Any, system: Any, fluid: Any, bed: Any, force:
             for axis in range(3):
                 force[node, axis] += across * u[axis] + slide * t[axis]
                 force[node, axis] += whole * water[3 + axis, node] + more * still * t[axis]
-            force[node, 2] += wet * bars[8, k]
+            force[node, 2] += wet * bars[8, k] * (1.0 + (1.0 - wet) * (lean if side == 0 else -lean))
             mass[node, 0] += even + more * t[0] * t[0]
             mass[node, 1] += more * t[0] * t[1]
             mass[node, 2] += more * t[0] * t[2]
@@ -229,7 +230,7 @@ def blocks(
                 node_block[a, p, q] += value
                 node_block[b, p, q] += value
                 bar_block[k, 0, p, q] = bar_block[k, 1, p, q] = -value
-        wet, steep = _wet_part(x, water, a, b, bars[10, k])
+        wet, steep, lean = _wet_part(x, water, a, b, bars[10, k])
         if wet <= 0.0:
             continue
         for side_node in range(2):
@@ -252,6 +253,10 @@ def blocks(
                         node_block[node, p, q] += value
             if not exact:
                 node_block[node, 2, 2] += by_place * bars[8, k] * steep
+                if steep > 0.0:
+                    tilt = by_place * bars[8, k] * wet * (1.0 - wet) * 2.0 * bars[10, k] * steep * steep
+                    node_block[node, 2, 2] += tilt
+                    bar_block[k, side_node, 2, 2] -= tilt
                 continue
             normal, skin = bars[4, k] * across, bars[5, k] * abs(along)
             if across > 0.0 or along != 0.0:
@@ -284,7 +289,10 @@ def blocks(
                 mine = by_low if (side_node == 0) != upside else by_high
                 for axis in range(3):
                     part_of[axis] = normal * u[axis] + skin * along * t[axis]
-                part_of[2] += bars[8, k]
+                part_of[2] += bars[8, k] * (1.0 + (1.0 - 2.0 * wet) * (lean if side_node == 0 else -lean))
+                tilt = by_place * bars[8, k] * wet * (1.0 - wet) * 2.0 * bars[10, k] * steep * steep
+                node_block[node, 2, 2] += tilt
+                bar_block[k, side_node, 2, 2] -= tilt
                 for p in range(3):
                     node_block[node, p, 2] += by_place * part_of[p] * mine
                     bar_block[k, side_node, p, 2] += by_place * part_of[p] * (steep - mine)
@@ -446,10 +454,11 @@ def add_elements(element: Any, members: Any, pairs: Any, free: Any, scale: float
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
-def factor_fronts(numbers: Any, fronts: Any, target: Any) -> bool:
-    """Factor all fronts in place, L U without exchanging rows; False at a pivot that is not positive.
+def factor_fronts(numbers: Any, fronts: Any, target: Any, strict: bool) -> bool:
+    """Factor all fronts in place, L U without exchanging rows; False at a pivot that is zero or, if ``strict``, negative.
 
-    A matrix whose symmetric part is positive has positive pivots only; one that has not asks for a shorter step.
+    A matrix whose symmetric part is positive has positive pivots only; one of drag may lack it and still be that of a
+    stable rest.
     """
     for s in range(fronts.shape[0]):
         own, dim = 3 * fronts[s, 1], 3 * (fronts[s, 1] + fronts[s, 2])
@@ -458,7 +467,7 @@ def factor_fronts(numbers: Any, fronts: Any, target: Any) -> bool:
             # three pivots at a time: their rows first, then everything below and right of them
             for q in range(3):
                 pivot = front[k + q, k + q]
-                if not pivot > 0.0:
+                if not (pivot > 0.0 or (pivot < 0.0 and not strict)):
                     return False
                 inverse = 1.0 / pivot
                 for i in range(k + q + 1, k + 3):
@@ -553,7 +562,7 @@ def step_matrix(
         x, v, water, system, fluid, mass, bar_law, node_law, by_mass, by_rate, by_place, False, node_block, bar_block
     )
     to_fronts(node_block, bar_block, system, by_place, plan[0], plan[1], plan[2], plan[3])
-    return factor_fronts(plan[3], plan[4], plan[5])
+    return factor_fronts(plan[3], plan[4], plan[5], True)
 
 
 @njit(cache=True, error_model="numpy")

@@ -117,7 +117,7 @@ class Relaxation:
         self.numbers = np.zeros(self.plan.size)
         self.steady = flow.current is None
         self.water = np.ascontiguousarray(flow.at(self.time, network.nodes.position.T))
-        self.share = 1.0
+        self.share = self.factor = 1.0
         self.length = arrays.bar("length")
         self.typical = float(np.mean(self.length)) if bars else self._part_size()
 
@@ -133,17 +133,15 @@ class Relaxation:
         water = self.network.water
         return float(np.max(self.arrays.node("weight") + water.density * water.gravity * self.arrays.node("volume")))
 
-    def current(self, factor: float) -> None:
-        """Multiply the current by a factor."""
-        base = self.flow.at(self.time, self.network.nodes.position.T)
-        base[:6] *= factor
-        self.water = np.ascontiguousarray(base)
-        self._factor = factor
+    def raise_current(self, factor: float) -> None:
+        """Use a part of the current."""
+        self.factor = factor
+        self._take_water(self.network.nodes.position, True)
 
-    def _take_water(self, place: Array) -> None:
-        if not self.steady:
+    def _take_water(self, place: Array, anew: bool = False) -> None:
+        if anew or not self.steady:
             self.water = np.ascontiguousarray(self.flow.at(self.time, place.T))
-            self.water[:6] *= getattr(self, "_factor", 1.0)
+            self.water[:6] *= self.factor
 
     def forces(self, place: Array) -> Array:
         """Return the forces left by the true laws on what is free, shape (n, 3); writes :attr:`tension`."""
@@ -168,8 +166,8 @@ class Relaxation:
             part.add_forces(place, self.still, self.water, self.share, force)
         return force
 
-    def _solve(self, place: Array, force: Array, by_mass: float) -> tuple[Array | None, float]:
-        """Return the step and the work of ``force`` along it; none where the matrix is not positive."""
+    def _solve(self, place: Array, force: Array, by_mass: float, bold: bool) -> tuple[Array | None, float]:
+        """Return the step and the work of ``force`` along it; none where the matrix is not positive (unless bold)."""
         for exact in (True, False):
             kernel.blocks(
                 place, self.still, self.water, self._loads, self.fluid, self.mass, self._bar_law, self._node_law,
@@ -183,12 +181,12 @@ class Relaxation:
             for part, pairs in zip(self.parts, plan.pairs[2:], strict=True):
                 blocks = part.blocks(place, self.still, self.water, self.share)
                 kernel.add_elements(blocks, part.members, pairs, self.arrays.nodes[9:12], 1.0, self.numbers)
-            if not kernel.factor_fronts(self.numbers, plan.fronts, plan.target):
+            if not kernel.factor_fronts(self.numbers, plan.fronts, plan.target, not bold):
                 continue
             step = force.copy()
             kernel.solve_fronts(self.numbers, plan.fronts, plan.later, plan.order, step)
             work = float(np.sum(step * force))
-            if math.isfinite(work) and work > 0.0:
+            if math.isfinite(work) and (work > 0.0 or bold):
                 return step, work
         return None, 0.0
 
@@ -206,7 +204,9 @@ class Relaxation:
         rounded = 0.5 * (pull + np.sqrt(pull**2 + soft**2))
         return np.where(only, rounded, pull), 0.5 * (push + np.sqrt(push**2 + soft**2))
 
-    def attempt(self, place: Array, *, turn: float, most: int, tolerance: float) -> Attempt:
+    def attempt(
+        self, place: Array, *, turn: float, most: int, tolerance: float, bold: bool = False, soft: float = 0.0
+    ) -> Attempt:
         """Go from ``place`` towards rest.
 
         Parameters
@@ -219,6 +219,10 @@ class Relaxation:
             Solves, at most.
         tolerance : float
             Force left over the largest force at work.
+        bold : bool
+            Whether to go where the matrix is not positive: drag may make it so about a stable rest.
+        soft : float
+            First rounding of what only pulls or pushes, over the largest load; 0.3 when left out.
         """
         x = place.copy()
         start, end = self.arrays.start, self.arrays.end
@@ -228,7 +232,7 @@ class Relaxation:
         force = self._loads_at(x, 0.0) * self.free
         sizes = np.linalg.norm(force, axis=1)
         load, top = float(sizes.sum()), max(float(sizes.max()), 1e-300)
-        soft, radius = 0.3 * top, 0.2 * self.typical
+        soft, radius = (soft or 0.3) * top, 0.2 * self.typical if soft == 0.0 else 0.0
         pace = math.sqrt(self.typical / max(self.network.water.gravity, 1e-3))
         pulls, pushes = self._first_pulls(x, load, soft)
         own, before, taken = max(self.own_weight, top), float(np.abs(force).max()), 0
@@ -238,7 +242,7 @@ class Relaxation:
             force = self._loads_at(x, radius)
             kernel.mixed_laws(x, self.system, self.bed, soft, pulls, pushes, self._bar_law, self._node_law, force)
             force *= self.free
-            step, work = self._solve(x, force, 1.0 / pace**2)
+            step, work = self._solve(x, force, 1.0 / pace**2, bold)
             if step is None:
                 pace *= 0.3
                 if pace < 1e-12 or not np.isfinite(force).all():
@@ -253,7 +257,9 @@ class Relaxation:
                 big = float(np.max(along / size))
             if big > turn:
                 part = turn / big
-            x, pulls, pushes, force, part = self._search(x, step, part, work, pulls, pushes, radius, big)
+            x, pulls, pushes, force, part = self._search(
+                x, step, part, work, pulls, pushes, radius, big, 2.0 * before if bold else math.inf
+            )
             left = float(np.abs(force).max())
             if not math.isfinite(left):
                 break
@@ -277,7 +283,16 @@ class Relaxation:
         return Attempt(x, *self._residual(self.forces(x), scale), taken, False)
 
     def _search(
-        self, x: Array, step: Array, part: float, work: float, pulls: Array, pushes: Array, radius: float, big: float
+        self,
+        x: Array,
+        step: Array,
+        part: float,
+        work: float,
+        pulls: Array,
+        pushes: Array,
+        radius: float,
+        big: float,
+        most: float,
     ) -> tuple[Array, Array, Array, Array, float]:
         """Take a part of the step that does not overshoot: the forces at its end must not drive it back."""
         for _ in range(6):
@@ -288,8 +303,15 @@ class Relaxation:
                 new_pushes, force,
             )  # fmt: skip
             force *= self.free
+            if big < _SMALL_TURN:
+                break
+            if math.isfinite(most):
+                if float(np.abs(force).max()) <= most:
+                    break
+                part *= 0.5
+                continue
             back = float(np.sum(step * force))
-            if back >= -0.5 * work or big < _SMALL_TURN:
+            if back >= -0.5 * work:
                 break
             part = max(0.1 * part, min(0.5 * part, part * work / (work - back))) if math.isfinite(back) else 0.1 * part
         return new, new_pulls, new_pushes, force, part

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import dataclass
 from os import PathLike
@@ -22,7 +23,7 @@ Array = NDArray[np.float64]
 #: Part of the largest force that may be left when the tolerance is out of reach.
 _GOOD_ENOUGH = 1e-5
 #: Turns of the bars in one step [rad] and solves of the attempts, quick first.
-_QUICK, _SAFE, _SLOW = (1.0, 150), (0.25, 400), (0.08, 800)
+_QUICK, _SAFE, _SLOW, _RISING = (1.0, 150), (0.25, 400), (0.08, 600), (0.25, 120)
 #: Parts of the current on the way to the whole.
 _CURRENTS = (0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0)
 #: How often and how long the true motion is asked for help.
@@ -61,7 +62,7 @@ def solve_equilibrium(
     start: State | None = None,
     time: float = math.inf,
     tolerance: float = 1e-9,
-    most_steps: int = 3000,
+    most_steps: int = 4000,
     state_file: str | PathLike[str] | None = None,
 ) -> Equilibrium:
     """Find the network at rest.
@@ -124,42 +125,43 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
     """Try one way after another; return the nearest to rest, how it was found, and all solves."""
     steps, best, found = 0, Attempt(place, math.inf, 0, 0, False), ""
 
-    def go(name: str, x: Array, turn: float, limit: int) -> Attempt:
-        nonlocal steps, best, found
-        outcome = problem.attempt(x, turn=turn, most=max(1, min(limit, most - steps)), tolerance=tolerance)
-        steps += outcome.steps
-        if problem.share == 1.0 and (outcome.converged or outcome.residual < best.residual):
-            best, found = outcome, name
-        return outcome
+    def go(name: str, x: Array, way: tuple[float, int], bold: bool, soft: float = 0.0) -> bool:
+        nonlocal steps, best, found, last
+        turn, limit = way
+        last = problem.attempt(
+            x, turn=turn, most=max(1, min(limit, most - steps)), tolerance=tolerance, bold=bold, soft=soft
+        )
+        steps += last.steps
+        if problem.share == 1.0 and problem.factor == 1.0 and (last.converged or last.residual < best.residual):
+            best, found = last, name
+        return best.converged or steps >= most
 
+    # in a current the matrix need not be positive about a stable rest
+    moving, last = bool(np.any(problem.water[:3] != 0.0)), best
     if any(part.stiffness > 0.0 for part in problem.parts):
         x = place
         for share in _shares(problem, place):
             problem.share = share
-            x = go("rising stiffness", x, _SAFE[0], _SAFE[1]).place
-        if best.converged or steps >= most:
-            return best, found, steps
-    for name, (turn, limit) in (("direct", _QUICK), ("small steps", _SAFE)):
-        if go(name, place, turn, limit).converged or steps >= most:
-            return best, found, steps
-    if np.any(problem.water[:3] != 0.0):
+            if go("rising stiffness", x, _SAFE, moving):
+                return best, found, steps
+            x = last.place
+    for name, way in (("direct", _QUICK), ("small steps", _SAFE), ("small steps", _SLOW)):
+        for bold in (True, False) if moving else (False, True):
+            # slack parts that lean on each other want the careful way also in a current
+            if (moving or not bold or way == _SAFE) and go(name, place, way, bold):
+                return best, found, steps
+    if moving:
         x = place
         for factor in _CURRENTS:
-            problem.current(factor)
-            # what is found with less current is a start, not an end
-            kept = best, found
-            outcome = go("rising current", x, _SAFE[0], 120)
-            x = outcome.place if np.isfinite(outcome.place).all() else x
-            if factor < 1.0:
-                best, found = kept
-        if best.converged or steps >= most:
-            return best, found, steps
-    if go("small steps", place, *_SLOW).converged or steps >= most:
-        return best, found, steps
+            problem.raise_current(factor)
+            if go("rising current", x, _RISING, True):
+                return best, found, steps
+            x = last.place if np.isfinite(last.place).all() else x
     x = place
-    for _ in range(_SHAKES):
-        x = _shake(problem.network, x, problem.flow)
-        if go("true motion", x, *_SAFE).converged or steps >= most:
+    for turn in range(_SHAKES):
+        x = _shake(problem.network, x, problem.flow, not moving or turn % 2 == 1)
+        # near the rest nothing is rounded much
+        if go("true motion", x, _SAFE, moving and turn % 2 == 0, 1e-3):
             break
     return best, found, steps
 
@@ -176,8 +178,11 @@ def _shares(problem: Relaxation, place: Array) -> list[float]:
     return [*shares, 1.0]
 
 
-def _shake(network: Network, place: Array, flow: Flow) -> Array:
-    """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen."""
+def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
+    """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen.
+
+    Without ``stops`` the water alone calms it, as it does a net in a current.
+    """
     from moyai.flexible.simulate import simulate
 
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if len(network.nodes) > 1 else 1.0
@@ -185,24 +190,19 @@ def _shake(network: Network, place: Array, flow: Flow) -> Array:
     still = Motion(0.0, 10.0 * interval, np.zeros((2, 3)), np.zeros((2, 3)))
     motions = dict.fromkeys(network.motion_names, still)
     state, energy = State(0.0, place, np.zeros_like(place)), 0.0
-    for _ in range(_SHAKE_INTERVALS):
-        history = simulate(
-            network,
-            motions,
-            duration=interval,
-            output_step=interval,
-            flow=flow,
-            start=state,
-            keep_nodes=[0],
-            keep_bars=[],
-        )
-        if history.status != "converged":
-            break
-        now = float(history.kinetic_energy[-1])
-        calm = now < energy
-        energy = 0.0 if calm else now
-        final = history.final
-        state = State(0.0, final.position, np.zeros_like(place) if calm else final.velocity)
+    with contextlib.suppress(OverflowError, ValueError):
+        for _ in range(_SHAKE_INTERVALS):
+            history = simulate(
+                network, motions, duration=interval, output_step=interval, flow=flow, start=state, keep_nodes=[0],
+                keep_bars=[],
+            )  # fmt: skip
+            if history.status != "converged":
+                break
+            now = float(history.kinetic_energy[-1])
+            calm = stops and now < energy
+            energy = 0.0 if calm else now
+            final = history.final
+            state = State(0.0, final.position, np.zeros_like(place) if calm else final.velocity)
     return np.array(state.position)
 
 

@@ -140,7 +140,7 @@ def test_the_sparse_solver_is_gauss_elimination(seed):
             numbers[plan.own[node, 0] + axis * (plan.own[node, 1] + 1)] += weight
     right = rng.normal(size=(count, 3))
     exact = np.linalg.solve(matrix + weight * np.eye(3 * count), right.ravel())
-    assert implicit_kernel.factor_fronts(numbers, plan.fronts, plan.target)
+    assert implicit_kernel.factor_fronts(numbers, plan.fronts, plan.target, True)
     implicit_kernel.solve_fronts(numbers, plan.fronts, plan.later, plan.order, right)
     assert right.ravel() == pytest.approx(exact, rel=1e-9, abs=1e-12)
 
