@@ -14,6 +14,8 @@ from moyai.case.measured import read_points
 from moyai.core.errors import InputError
 from moyai.core.quantities import FORCE, TIME
 from moyai.curtain.drag import DragLaw, closure_drag, constant_drag, gap_speed_drag
+from moyai.curtain.dynamic import DynamicSettings
+from moyai.curtain.dynamic_model import Mesh
 from moyai.curtain.limits import Strength
 from moyai.curtain.model import (
     UNJUDGED,
@@ -330,6 +332,46 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             math.remainder(angle, 2.0 * math.pi),
             limits.impact,
         ),
+        dynamic=dynamic_settings(model),
+    )
+
+
+def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
+    """Return how the whole span is run, ``None`` where it is not asked for.
+
+    Raises
+    ------
+    InputError
+        When the mass of the sheet is not known.
+    """
+    if "dynamic" not in model.analyses:
+        return None
+    given, skirt = model.settings.dynamic, model.structure.skirt
+    mass, volume = given.sheet_mass, math.nan
+    if mass is None and skirt.mass_per_area is not None:
+        mass = skirt.mass_per_area
+        volume = mass / skirt.sheet_density if skirt.sheet_density is not None else math.nan
+    if mass is None and skirt.film is not None:
+        film = flume_material(skirt.film.material)
+        mass, volume = film.density * skirt.film.thickness, skirt.film.thickness
+    return DynamicSettings(
+        mesh=Mesh(given.cells_along, given.cells_down, given.cable_viscosity, given.skirt_damping_time),
+        sheet_mass=mass,
+        sheet_volume=volume,
+        span_stiffness=given.span_stiffness,
+        shear_stiffness=given.shear_stiffness,
+        ballast_density=given.ballast_density,
+        float_height=given.float_height,
+        support_mass=given.support_mass,
+        profile=given.start_profile,
+        settled_periods=given.settled_periods,
+        analysed_periods=given.analysed_periods,
+        wave_count=given.wave_count,
+        duration=given.duration,
+        start=given.start,
+        sensitivity=given.sensitivity,
+        slack_level=given.slack_level,
+        threshold=given.snap_threshold,
     )
 
 

@@ -37,6 +37,7 @@ def check(model: CurtainCase, findings: Findings, folder: Path) -> None:
     _check_slack(model, findings)
     _check_directions(model, findings)
     _check_class(model, findings)
+    _check_dynamic(model, findings)
     _check_record(model, findings, folder)
     _check_by_building(model, findings, folder)
 
@@ -275,6 +276,74 @@ def _check_directions(model: CurtainCase, findings: Findings) -> None:
         allowed="less than 90 degrees",
         remedy="turn 'structure.normal_deg' to the downstream side; along the curtain only friction acts",
     )
+
+
+def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
+    """Check what the dynamic analysis needs beyond the others."""
+    given, unit = model.settings.dynamic, model.structure
+    if "dynamic" not in model.analyses:
+        if "dynamic" in model.settings.model_fields_set:
+            findings.warn(("settings", "dynamic"), "the analysis 'dynamic' is not asked for; these settings do nothing")
+        return
+    if not model.waves and model.current is None and model.settings.impact.start_speed is None:
+        findings.fault(
+            ("analyses",),
+            "the analysis 'dynamic' needs 'waves', 'current', or 'settings.impact.start_speed'",
+            remedy="give what moves the curtain",
+        )
+    if unit.skirt.stiffness == math.inf:
+        findings.fault(
+            ("structure", "skirt", "stiffness"),
+            "the analysis 'dynamic' needs a skirt that stretches",
+            allowed="modulus times thickness",
+        )
+    if given.sheet_mass is None and unit.skirt.mass_per_area is None and unit.skirt.film is None:
+        findings.fault(
+            ("settings", "dynamic"),
+            "the analysis 'dynamic' needs the mass of the sheet",
+            remedy="give 'settings.dynamic.sheet_mass', or 'mass_per_area' with 'sheet_density' in 'structure.skirt'",
+        )
+    if unit.anchors is not None and given.support_mass is None:
+        findings.fault(
+            ("settings", "dynamic"),
+            "the buoys of anchored supports need 'settings.dynamic.support_mass'",
+            remedy="give the mass of one buoy with its added mass, or leave 'structure.anchors' out for fixed supports",
+        )
+    if unit.length <= unit.span:
+        findings.fault(
+            ("structure", "length"),
+            f"the curtain of {unit.length:g} m is not longer than its span: the analysis 'dynamic' starts from slack",
+            allowed=f"more than {unit.span:g} m",
+        )
+    for side in ("upper", "lower"):
+        cable = getattr(unit.cables, side)
+        if cable is not None and cable.axial_stiffness == math.inf:
+            findings.fault(
+                ("structure", "cables", side, "axial_stiffness"),
+                "the analysis 'dynamic' needs cables that stretch",
+                remedy="give EA",
+            )
+    if given.shear_stiffness > 0.0 and given.span_stiffness == 0.0:
+        findings.fault(
+            ("settings", "dynamic", "shear_stiffness"),
+            "a shear stiffness of a sheet without 'span_stiffness'",
+            remedy="give both, or neither",
+        )
+    if given.start == "drifting" and model.current is None and model.settings.impact.start_speed is None:
+        findings.fault(
+            ("settings", "dynamic", "start"),
+            "a drifting start needs a speed",
+            remedy="give 'current', or 'settings.impact.start_speed'",
+        )
+    for name, level in model.site.water_levels.items():
+        depth = model.site.water_depth + level
+        if 0.0 < depth <= unit.skirt.length and findings.sound("structure"):
+            findings.fault(
+                ("analyses",),
+                f"the analysis 'dynamic' needs water under the toe; the skirt of {unit.skirt.length:g} m reaches the "
+                f"bed at {name}, {depth:g} m deep",
+                allowed=f"a skirt shorter than {depth:g} m, or other 'settings.water_levels'",
+            )
 
 
 def _check_class(model: CurtainCase, findings: Findings) -> None:

@@ -40,7 +40,7 @@ from moyai.core.quantities import Kind
 
 _WEIGHT_PER_AREA = Kind("a weight per area", "N/m2", "newtons per square metre", "8 N/m2")
 
-Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits"]
+Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits", "dynamic"]
 WeightPerArea = Annotated[float, QuantityOf(_WEIGHT_PER_AREA)]
 WeightPerLength = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, above=0.0)]
 LiftPerLength = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, least=0.0)]
@@ -60,6 +60,12 @@ HighFactor = Annotated[float, QuantityOf(quantities.NUMBER, least=1.0)]
 Contraction = Annotated[float, QuantityOf(quantities.NUMBER, above=0.5, most=1.0)]
 Blockage = Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, below=1.0)]
 Instant = Annotated[float, QuantityOf(quantities.TIME)]
+_VISCOSITY = Kind("a viscosity", "N s", "newton seconds", "40 N s")
+CableViscosity = Annotated[float, QuantityOf(_VISCOSITY, least=0.0)]
+SkirtDampingTime = Annotated[float, QuantityOf(quantities.TIME, least=0.0)]
+SpanStiffness = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, least=0.0)]
+CellsAlong = Annotated[int, Field(ge=8, le=400)]
+CellsDown = Annotated[int, Field(ge=4, le=100)]
 PositiveSpeed = Annotated[float, QuantityOf(quantities.SPEED, above=0.0)]
 
 
@@ -393,6 +399,66 @@ class Limits(Block):
     )
 
 
+class Dynamic(Block):
+    """The whole span through time: cables, skirt, floats, ballast and anchor lines as a flexible network."""
+
+    cells_along: CellsAlong = Field(default=24, description="Cells along the span, 8 to 400. Default: 24.")
+    cells_down: CellsDown = Field(default=8, description="Cells over the skirt, 4 to 100. Default: 8.")
+    sheet_mass: MassPerArea | None = Field(
+        default=None, description="Mass per area of the sheet; absent: that of 'structure.skirt', where it is given."
+    )
+    span_stiffness: SpanStiffness = Field(
+        default=0.0,
+        description="Modulus times thickness of the sheet along the span; 0: slack along the span. Default: 0.",
+    )
+    shear_stiffness: SpanStiffness = Field(
+        default=0.0, description="Shear modulus times thickness, with 'span_stiffness'. Default: 0."
+    )
+    ballast_density: Density = Field(
+        default=7850.0, description="Of lower cable, chain and ballast, for their mass. Default: 7850 kg/m3, steel."
+    )
+    float_height: PositiveLength | None = Field(
+        default=None, description="Height of the floats; absent: of a round float with the buoyancy given."
+    )
+    support_mass: Mass | None = Field(
+        default=None, description="Of the buoy at a support with its added mass; needed with 'structure.anchors'."
+    )
+    start: Literal["auto", "at_rest", "drifting"] = Field(
+        default="auto",
+        description="At rest in water that begins to move, or drifting and just taut. Default: at rest in waves, else "
+        "drifting.",
+    )
+    start_profile: Literal["uniform", "sag"] = Field(
+        default="uniform", description="Speed of a drifting start over the span: the same, or as the sag."
+    )
+    settled_periods: Annotated[int, Field(ge=0)] = Field(
+        default=1, description="Periods of regular waves left out after the ramp of one period. Default: 1."
+    )
+    analysed_periods: Whole = Field(default=3, description="Periods of regular waves analysed. Default: 3.")
+    wave_count: Annotated[int, Field(ge=2, le=2000)] = Field(
+        default=8, description="Peak periods run around the highest crest of an irregular sea. Default: 8."
+    )
+    duration: Duration | None = Field(
+        default=None, description="Of the run without waves; absent: four times the rise of model A."
+    )
+    cable_viscosity: CableViscosity | None = Field(
+        default=None, description="Internal damping of the cables in N s; absent: 5 % of critical on the mesh."
+    )
+    skirt_damping_time: SkirtDampingTime | None = Field(
+        default=None, description="Time by which the rate of strain of the skirt is multiplied; absent: likewise."
+    )
+    sensitivity: Truth = Field(
+        default=True,
+        description="Whether runs with half the step, half the cells and twice the viscosity follow. Default: true.",
+    )
+    slack_level: Annotated[float, QuantityOf(quantities.FORCE, least=0.0)] | None = Field(
+        default=None, description="Tension up to which a line counts as slack; absent: 1 % of its highest."
+    )
+    snap_threshold: PositiveForce | None = Field(
+        default=None, description="Peak above which a contact is a snap; absent: twice the mean of the taut times."
+    )
+
+
 class CurtainSettings(Block):
     """How the analyses are run."""
 
@@ -400,6 +466,7 @@ class CurtainSettings(Block):
     waves: Cycles = Field(default_factory=Cycles, description="Slack and taut cycles in waves.")
     anchor_loads: AnchorLoads | None = Field(default=None, description="Anchor loads in waves by the energy model.")
     limits: Limits = Field(default_factory=Limits, description="The operating-limit table.")
+    dynamic: Dynamic = Field(default_factory=Dynamic, description="The whole span through time.")
     safety_factors: Factors = Field(default_factory=Factors, description="Safety factors on strength.")
     least_float_reserve: OpenShare = Field(
         default=0.0, description="Share of the buoyancy that must be left. Default: 0."
@@ -448,7 +515,8 @@ class CurtainCase(Block):
     current: Current | None = Field(default=None, description="Steady current.")
     structure: CurtainStructure = Field(description="The curtain.")
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
-        description="What is computed.", examples=[["statics", "impact", "waves", "anchor_loads", "limits"]]
+        description="What is computed.",
+        examples=[["statics", "impact", "waves", "anchor_loads", "limits"], ["dynamic"]],
     )
     record: Record | None = Field(default=None, description="A flume record to hold the impact models against.")
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")

@@ -10,6 +10,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.curtain.analysis_anchor import anchor_checks, anchor_dataset, anchor_notices
+from moyai.curtain.analysis_dynamic import dynamic_answer
 from moyai.curtain.analysis_impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
 from moyai.curtain.analysis_impact_groups import impact_groups
 from moyai.curtain.analysis_limits import fastest_water, limits_dataset
@@ -130,6 +131,16 @@ def _level_steps(
         collected.checks.extend(anchor_checks(unit, loads))
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
+    if "dynamic" in settings.analyses and settings.dynamic is not None:
+        moved = dynamic_answer(unit, settings, seas, progress)
+        collected.groups.update(
+            {f"{root}/dynamic" + (f"/{name}" if name else ""): data for name, data in moved.groups.items()}
+        )
+        collected.checks.extend(moved.checks)
+        collected.notices.extend(moved.notices)
+        yield
+    if not {"statics", "impact", "waves", "anchor_loads", "limits"} & set(settings.analyses):
+        return
     curve = drag_curve(unit, fastest_water(unit, settings, waves))
     proportions = answer
     if proportions is None and "waves" in settings.analyses:

@@ -17,6 +17,7 @@ from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.drag import DragLaw
+from moyai.curtain.dynamic import DynamicSettings
 from moyai.curtain.limits import Strength
 from moyai.curtain.section import LoadLaw, Skirt
 from moyai.curtain.snap_flow import SkirtVelocity
@@ -25,7 +26,7 @@ from moyai.curtain.squared_velocity import DirectionRule
 from moyai.curtain.statics import FloatLine
 from moyai.sea.environment import Environment
 
-Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits"]
+Analysis = Literal["statics", "impact", "waves", "anchor_loads", "limits", "dynamic"]
 ANALYSES: tuple[Analysis, ...] = ("statics", "impact", "waves", "anchor_loads", "limits")
 COMPONENTS = ("upper cable", "lower cable", "skirt", "joint", "float", "anchor line", "anchor")
 #: What is not known to have a strength is never judged
@@ -292,6 +293,7 @@ class Settings:
     waves: WaveSettings = field(default_factory=WaveSettings)
     anchor_loads: AnchorLoadSettings | None = None
     limits: LimitSettings = field(default_factory=LimitSettings)
+    dynamic: DynamicSettings | None = None
 
     @property
     def direction(self) -> tuple[DirectionRule, float]:

@@ -29,9 +29,9 @@ SAFETY = 0.95
 #: The same where bars go slack with a damping ratio on the mesh below ``LEAST_DAMPING``: a spring that only pulls gives
 #: back more than it took when (w dt)^2 > 2, half of the bound of a spring that also pushes [eq:flexible-one-sided].
 SAFETY_UNDAMPED, LEAST_DAMPING = 0.5, 0.05
-#: Steps between two evaluations of the loads, at most; with sections of added mass, whose frames turn at these moments,
-#: and the same where hardly any viscosity calms what is quick.
-LOAD_STEPS, LOAD_STEPS_OF_BLOCKS, LOAD_STEPS_UNDAMPED = 12, 4, 1
+#: Steps between two evaluations of the loads, at most; with sections of added mass, whose frames turn at these moments
+#: (light sheets that move along themselves gain or lose energy by frames that lag by more).
+LOAD_STEPS, LOAD_STEPS_OF_BLOCKS = 12, 1
 #: Bound of the load interval times the fastest rate of drag.
 DRAG_SHARE = 0.3
 
@@ -98,8 +98,7 @@ class ExplicitRun:
         self._loads()
         self.safety = self._usual_safety() if safety is None else safety
         if network.blocks is not None:
-            calm = self._usual_safety() == SAFETY
-            self.load_steps = min(load_steps, LOAD_STEPS_OF_BLOCKS if calm else LOAD_STEPS_UNDAMPED)
+            self.load_steps = min(load_steps, LOAD_STEPS_OF_BLOCKS)
 
     def _usual_safety(self) -> float:
         """Return the part of the stable step that suits the viscosity of the bars."""
@@ -156,7 +155,7 @@ class ExplicitRun:
             self._near_surface(), not self.flow.steady, 0.0, self.sheets,
         )  # fmt: skip
         if self.network.blocks is not None:
-            kernel.section_loads(self.packed.memory, self.blocks, not self.flow.steady)
+            kernel.section_loads(self.packed.memory, self.blocks, not self.flow.steady, self.sheets[2])
 
     def _near_surface(self) -> bool:
         """Whether any bar may cross the surface before the next chunk."""

@@ -428,7 +428,7 @@ def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def section_loads(A: Any, blocks: Any, moving: bool) -> None:
+def section_loads(A: Any, blocks: Any, moving: bool, light: Any) -> None:
     """Turn the frames of dense mass blocks, add their loads, and take their nodes out of the kick of all nodes."""
     nodes, guides, frames, added, _, _, own, whole = blocks
     set_frames(nodes, guides, frames, A, X, ROW, whole)
@@ -440,6 +440,7 @@ def section_loads(A: Any, blocks: Any, moving: bool) -> None:
                 A[IXX + row * ROW + node] = 0.0
                 A[MXX + row * ROW + node] = 0.0
             A[MXX + node] = A[MYY + node] = A[MZZ + node] = own[g, i]
+            light[2, node], light[3, node] = frames[g, i, 1], -frames[g, i, 0]
 
 
 @njit(cache=True, error_model="numpy")
@@ -651,7 +652,7 @@ def march(
             if screened:
                 screens(A, count, panels, 0.5 * fluid[0], screen, per_load * step, step)
             if dense:
-                section_loads(A, blocks, moving)
+                section_loads(A, blocks, moving, sheets[2])
             if ledger[4] == 0.0:
                 for axis in range(3):
                     for i in range(count):

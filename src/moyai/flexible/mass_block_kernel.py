@@ -108,7 +108,7 @@ def block_loads(
     """
     count = nodes.shape[1]
     w, e, p, q = np.empty(2 * count), np.empty(2 * count), np.empty(2 * count), np.empty(2 * count)
-    turn, grow, slide, across = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
+    turn, grow, slide = np.empty(count), np.empty(count), np.empty(count)
     for g in range(nodes.shape[0]):
         for i in range(count):
             node = nodes[g, i]
@@ -125,7 +125,7 @@ def block_loads(
                 dx = A[vel + b] - A[vel + a] - A[water + b] + A[water + a]
                 dy = A[vel + axis + b] - A[vel + axis + a] - A[water + axis + b] + A[water + axis + a]
                 turn[i], grow[i] = (c * dy - s * dx) / size, 0.5 * r * (c * dx + s * dy) / size
-                slide[i], across[i] = u, n
+                slide[i] = u
                 e[i], e[count + i] = grow[i] * n + r * turn[i] * u, grow[i] * z
             if moving:
                 px, py, pz = A[by + 3 * axis], A[by + 4 * axis], A[by + 5 * axis]

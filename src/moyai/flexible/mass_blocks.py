@@ -96,8 +96,9 @@ class PackedBlocks:
         Added mass and inverse of the whole mass [kg], [1/kg]; zero rows where held.
     along : ndarray, shape (g, k)
         One over the own mass of each node, for motion along the cable [1/kg]; zero where held.
-    light : ndarray, shape (n,)
-        One over the mass of every node of the network in the direction in which the water pushes [1/kg].
+    light : ndarray, shape (4, n)
+        One over the own mass of every node of the network, and over its mass along the normal of its section [1/kg];
+        that normal in plan, which the kernels turn.
     """
 
     nodes: IntArray
@@ -132,7 +133,8 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     free : ndarray, shape (3, n)
         1 where a component is free.
     """
-    light = np.where(free.max(axis=0) > 0.0, 1.0 / mass, 0.0)
+    own_light = np.where(free.max(axis=0) > 0.0, 1.0 / mass, 0.0)
+    light = np.stack([own_light, own_light, np.zeros_like(mass), np.zeros_like(mass)])
     if blocks is None:
         return no_blocks(light)
     groups, count = blocks.nodes.shape
@@ -143,6 +145,7 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     if np.any(frames[..., kernel.LENGTH] <= 0.0):
         raise InputError("guides of a section stand in one place", path="blocks.guides", allowed="apart in plan")
     kernel.set_frames(blocks.nodes, blocks.guides, frames, position.ravel(), 0, position.shape[1], False)
+    light[2, blocks.nodes], light[3, blocks.nodes] = frames[..., kernel.SIN], -frames[..., kernel.COS]
     own = mass[blocks.nodes]
     whole = blocks.added_mass + np.stack([np.diag(np.concatenate([row, row])) for row in own])
     # a node that is free along one horizontal axis is taken to have its normal there
@@ -152,9 +155,7 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     for g in range(groups):
         chosen = np.flatnonzero(moves[g] > 0.0)
         inverse[g][np.ix_(chosen, chosen)] = np.linalg.inv(whole[g][np.ix_(chosen, chosen)])
-    light = light.copy()
-    # the water pushes mostly along the normal: the node's share of the inverse there
-    light[blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
+    light[1, blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
     along = np.where(np.minimum(free[0], free[1])[blocks.nodes] > 0.0, 1.0 / own, 0.0)
     return PackedBlocks(
         blocks.nodes.copy(), blocks.guides.copy(), frames, blocks.added_mass.copy(), inverse, along, light

@@ -46,7 +46,7 @@ def _sheet_blocks(C: Any, triangles: Any, x: Any, v: Any, water: Any, width: flo
     """Write central differences of the forces of every triangle, its water included, over the places of its corners."""
     place, speed, flow = np.empty(9), np.empty(9), np.empty(21)
     edges, rates, force, pull = np.empty(6), np.empty(6), np.empty(9), np.empty((2, 9))
-    one, light = np.arange(3).reshape(1, 3), np.zeros(3)
+    one, light = np.arange(3).reshape(1, 3), np.zeros((4, 3))
     for t in range(triangles.shape[0]):
         for corner in range(3):
             node = triangles[t, corner]
@@ -82,7 +82,7 @@ class SheetPart:
         assert network.sheets is not None
         self.members = np.ascontiguousarray(network.sheets.triangles)
         self.table = network.sheets.constants(network.water)
-        self.peak, self.light = np.zeros(len(self.members)), np.zeros(len(network.nodes))
+        self.peak, self.light = np.zeros(len(self.members)), np.zeros((4, len(network.nodes)))
         self.width = 1e-6 * float(np.sqrt(np.min(network.sheets.area)))
         self.stiffness = float(np.max(self.table[:, [sheet.C11, sheet.C22, sheet.C33]]))
         self._blocks = np.zeros((len(self.members), 3, 3, 3, 3))

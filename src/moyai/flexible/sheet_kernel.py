@@ -227,8 +227,9 @@ def sheet_loads(
     """Add buoyancy and drag of the water to ``F``; weight stands with the nodes.
 
     The drag of each corner takes its own relative velocity, across and along the triangle [eq:flexible-sheet-drag].
-    ``W`` holds velocity, acceleration and elevation of the water in the same layout; ``light`` is one over the mass of
-    each node in the direction that the water pushes [1/kg]. Returns the fastest rate at which drag damps a node [1/s].
+    ``W`` holds velocity, acceleration and elevation of the water in the same layout; ``light`` (4, n) is one over the
+    own mass of each node and over its mass along a horizontal axis [1/kg], and that axis. Returns the fastest rate at which
+    drag damps a node [1/s].
     """
     p, n, u = np.empty(6), np.empty(3), np.empty(3)
     fastest = 0.0
@@ -261,7 +262,9 @@ def sheet_loads(
                 u[a] -= along * n[a] * per
                 slide += u[a] * u[a]
             hold, rub = across * abs(along), skin * math.sqrt(slide)
-            rate = 2.0 * max(hold, rub) * light[point]
+            facing = (n[0] * light[2, point] + n[1] * light[3, point]) * per
+            part = light[0, point] + (light[1, point] - light[0, point]) * facing * facing
+            rate = 2.0 * max(hold * part, rub * light[0, point])
             fastest = max(fastest, rate)
             quick = ahead * rate
             held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
@@ -273,7 +276,7 @@ def sheet_loads(
 
 @njit(cache=True, error_model="numpy")
 def sheet_stiffness(C: Any, triangles: Any, place: Any, stiff: Any, damp: Any) -> None:
-    """Add a bound of the stiffness of every triangle, wholly taut, to the 3x3 blocks of its nodes, shape (n, 6).
+    """Add a bound of the stiffness of every taut triangle to the 3x3 blocks of its nodes, shape (n, 6).
 
     The blocks are half of it, as those of a bar are: (sum y_a)^2 <= sum y_a^2 / w_a for shares w_a that add to one
     [eq:flexible-sheet-step].

@@ -1,0 +1,457 @@
+"""A whole span of a curtain as a network: cables, skirt with sections of added mass, floats, ballast, anchor lines.
+
+Axes of the span: x downstream, y along the span from support to support, z up from still water. The span is turned to
+the site by the headings of waves and current, not the other way round.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.curtain.dynamic_section import SectionMesh, section_mesh
+from moyai.curtain.impact_kernels import taut_shape
+from moyai.flexible.mass_blocks import MassBlocks
+from moyai.flexible.network import FIXED, FREE, Bars, BarType, Network, Nodes, Strand
+from moyai.flexible.result import State
+from moyai.flexible.sheets import Sheets, sheet_grid
+from moyai.sea.water import Water
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Viscosity of cables and skirt where none is given, as a part of what would be critical on the mesh.
+MESH_DAMPING = 0.05
+_TIGHT = 1e-9
+
+
+@dataclass(frozen=True)
+class AnchoredSupport:
+    """What holds both ends of the span when they are buoys: an anchor line upstream and one downstream of each.
+
+    The neighbours of the span are alike, so that each buoy and its lines belong to two spans by halves.
+
+    Parameters
+    ----------
+    line_length, slope : float
+        Of one straight line [m], angle from the horizontal [rad].
+    stiffness : float
+        EA of a line [N].
+    pretension : float
+        Of both lines in still water [N].
+    mass : float
+        Of the buoy with its added mass [kg].
+    """
+
+    line_length: float
+    slope: float
+    stiffness: float
+    pretension: float
+    mass: float
+
+
+@dataclass(frozen=True)
+class CurtainSpan:
+    """One span of a curtain for dynamics.
+
+    Parameters
+    ----------
+    span, length : float
+        Distance of the supports and unstretched length of cables and skirt between them [m].
+    skirt_length : float
+        Of the skirt along itself, unstretched [m].
+    chord : float
+        Straight distance of its edges when the cables come taut [m]; ``skirt_length`` for a flat one.
+    upper_stiffness, lower_stiffness : float
+        EA [N]; 0 for no lower cable.
+    upper_mass, lower_mass : float
+        Per length, of the upper cable with floats and fittings and of the lower one with ballast [kg/m].
+    lower_volume : float
+        Displaced by lower cable and ballast per length [m2].
+    sheet_stiffness, span_stiffness, shear_stiffness : float
+        Of the sheet along its depth, along the span and in shear [N/m]; the last two 0 for a sheet that is slack along
+        the span.
+    sheet_mass, sheet_volume : float
+        Per area [kg/m2], [m].
+    drag_coefficient : float
+        On the normal velocity.
+    float_volume, float_height : float
+        Of the floats per length [m2], and their height [m]; 0 volume: the upper edge stays at its level.
+    edges : {"held", "risen", "free"}
+        Whether the lower cable is held at its level, may rise but ends at the supports, or ends freely.
+    support : AnchoredSupport or None
+        None: fixed.
+
+    Raises
+    ------
+    InputError
+        For numbers that are not positive, a curtain without slack, or a skirt that does not bulge.
+    """
+
+    span: float
+    length: float
+    skirt_length: float
+    chord: float
+    upper_stiffness: float
+    lower_stiffness: float
+    upper_mass: float
+    lower_mass: float
+    sheet_stiffness: float
+    sheet_mass: float
+    lower_volume: float = 0.0
+    span_stiffness: float = 0.0
+    shear_stiffness: float = 0.0
+    sheet_volume: float = 0.0
+    drag_coefficient: float = 0.0
+    float_volume: float = 0.0
+    float_height: float = 0.0
+    edges: Literal["held", "risen", "free"] = "held"
+    support: AnchoredSupport | None = None
+
+    def __post_init__(self) -> None:
+        positive = (
+            "span", "length", "skirt_length", "chord", "upper_stiffness", "upper_mass", "lower_mass", "sheet_stiffness",
+            "sheet_mass",
+        )  # fmt: skip
+        for name in positive:
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"{name} is {value:g}", path=f"span.{name}", allowed="greater than 0, finite")
+        rest = (
+            "lower_stiffness", "lower_volume", "span_stiffness", "shear_stiffness", "sheet_volume", "drag_coefficient",
+            "float_volume", "float_height",
+        )  # fmt: skip
+        for name in rest:
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise InputError(f"{name} is {value:g}", path=f"span.{name}", allowed="0 or more, finite")
+        if self.length <= self.span:
+            raise InputError(
+                f"the curtain of {self.length:g} m is not longer than its span of {self.span:g} m",
+                path="span.length",
+                allowed=f"more than {self.span:g} m",
+                remedy="a curtain without slack does not snap; statics takes it",
+            )
+        if self.chord > self.skirt_length * (1.0 + _TIGHT):
+            raise InputError(
+                f"the chord of {self.chord:g} m is longer than the skirt of {self.skirt_length:g} m",
+                path="span.chord",
+                allowed=f"at most {self.skirt_length:g} m",
+            )
+        if self.float_volume > 0.0 and self.float_height <= 0.0:
+            raise InputError("floats without height", path="span.float_height", allowed="greater than 0")
+        if (self.span_stiffness > 0.0) != (self.shear_stiffness > 0.0) and self.shear_stiffness > 0.0:
+            raise InputError(
+                "a shear stiffness without span stiffness", path="span.shear_stiffness", remedy="give both, or neither"
+            )
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Cells along the span and over the skirt, and the viscosity.
+
+    Parameters
+    ----------
+    along, down : int
+        Cells.
+    cable_viscosity : float or None
+        BA of the cables [N s]; None: 5 % of critical on the mesh.
+    skirt_damping_time : float or None
+        [s]; None: the same of the skirt.
+    convective : bool
+        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`).
+    """
+
+    along: int
+    down: int
+    cable_viscosity: float | None = None
+    skirt_damping_time: float | None = None
+    convective: bool = True
+
+    def __post_init__(self) -> None:
+        if self.along < 4 or self.down < 2:
+            raise InputError(
+                f"a mesh of {self.along} x {self.down} cells",
+                path="mesh",
+                allowed="at least 4 along the span and 2 over the skirt",
+            )
+        for name in ("cable_viscosity", "skirt_damping_time"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value >= 0.0):
+                raise InputError(f"{name} is {value:g}", path=f"mesh.{name}", allowed="0 or more")
+
+
+@dataclass(frozen=True, eq=False)
+class CurtainNetwork:
+    """A span ready to run.
+
+    Parameters
+    ----------
+    span : CurtainSpan
+    mesh : Mesh
+    network : Network
+        Strands ``upper cable``, ``lower cable`` and ``anchor line ...``.
+    state : State
+        Where it starts.
+    grid : ndarray of int, shape (along + 1, down + 1)
+        Nodes, from support to support and from top to toe.
+    section : SectionMesh
+        The skirt's section.
+    """
+
+    span: CurtainSpan
+    mesh: Mesh
+    network: Network
+    state: State
+    grid: IntArray
+    section: SectionMesh
+
+    def bars(self, name: str) -> IntArray:
+        """Return the bars of a strand; none where there is no such strand."""
+        found = [strand.bars for strand in self.network.strands if strand.name == name]
+        return found[0] if found else np.zeros(0, dtype=np.int64)
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """Names of the anchor lines."""
+        return tuple(s.name for s in self.network.strands if s.name.startswith("anchor line"))
+
+
+def build_span(
+    span: CurtainSpan,
+    mesh: Mesh,
+    water: Water,
+    *,
+    speed: float = 0.0,
+    profile: Literal["uniform", "sag"] = "uniform",
+    weight: bool = True,
+    deep: bool = False,
+) -> CurtainNetwork:
+    """Return the network of a span that has just come taut downstream.
+
+    Parameters
+    ----------
+    span : CurtainSpan
+    mesh : Mesh
+    water : Water
+    speed : float
+        Of the curtain downstream [m/s].
+    profile : {"uniform", "sag"}
+        Whether every point moves with that speed, or as the sag of its cable.
+    weight : bool
+        Whether weight and buoyancy act; without them skirt and ballast have mass alone.
+    deep : bool
+        Whether the added mass is that of deep water, as the papers take it.
+
+    Returns
+    -------
+    CurtainNetwork
+
+    Raises
+    ------
+    InputError
+        As :class:`CurtainSpan`, and for a skirt that reaches the bed or floats that do not carry it.
+    """
+    along, down = mesh.along, mesh.down
+    section = section_mesh(span.skirt_length, span.chord, down, math.inf if deep else float(water.depth), water.density)
+    shape, arc = _plan(span, along)
+    normal = _normals(shape)
+    sag = float(np.max(shape[:, 0]))
+    drop, sink, stretched = _hang(span, section, water, weight)
+    grid = np.arange((along + 1) * (down + 1)).reshape(down + 1, along + 1).T.copy()
+    count = grid.size
+    place = np.zeros((count, 3))
+    place[grid, 0] = shape[:, :1] + normal[:, :1] * section.x
+    place[grid, 1] = shape[:, 1:] + normal[:, 1:] * section.x
+    place[grid, 2] = (sink + section.z + drop)[None, :]
+    velocity = np.zeros_like(place)
+    velocity[grid, 0] = (speed if profile == "uniform" else speed * shape[:, :1] / sag) * np.ones((1, down + 1))
+    extra = 4 if span.support is not None else 0
+    place = np.vstack([place, np.zeros((extra, 3))])
+    velocity = np.vstack([velocity, np.zeros((extra, 3))])
+    nodes = _nodes(span, grid, place, arc, water, weight)
+    velocity[(nodes.kind == FIXED)] = 0.0
+    velocity[nodes.held] = 0.0
+    bars, strands = _bars(span, mesh, grid, place, arc, weight)
+    triangles, rest = sheet_grid(grid, arc, np.concatenate([[0.0], np.cumsum(stretched)]))
+    cell = float(np.min(stretched))
+    time = mesh.skirt_damping_time
+    if time is None:
+        time = 4.0 * MESH_DAMPING * cell * math.sqrt(span.sheet_mass / span.sheet_stiffness)
+    sheets = Sheets(
+        triangles, rest, span.span_stiffness, span.sheet_stiffness, span.shear_stiffness,
+        mass_per_area=span.sheet_mass, volume_per_area=span.sheet_volume if weight else 0.0,
+        drag_normal=span.drag_coefficient, damping_time=time,
+    )  # fmt: skip
+    network = Network(
+        nodes, bars, water if weight else replace(water, gravity=_TIGHT), strands=strands,
+        points={"mid-span": int(grid[along // 2, 0])}, sheets=sheets,
+        blocks=_blocks(grid, arc, section, nodes, mesh.convective),
+    )  # fmt: skip
+    return CurtainNetwork(span, mesh, network, State(0.0, place, velocity), grid, section)
+
+
+def _plan(span: CurtainSpan, along: int) -> tuple[Array, Array]:
+    """Return the just-taut nodes in plan (x, y) and the unstretched places along the cable, as long as their chords."""
+    b = taut_shape(span.span / span.length)
+    scale = 0.5 * span.span / b
+    steps = np.linspace(-0.5 * span.length, 0.5 * span.length, along + 1)
+    y = scale * np.arcsinh(steps / scale)
+    y[[0, -1]] = -0.5 * span.span, 0.5 * span.span
+    x = scale * (math.cosh(b) - np.cosh(y / scale))
+    arc = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+    return np.stack([x, y], axis=1), arc
+
+
+def _normals(shape: Array) -> Array:
+    """Return unit normals of the cable in plan, downstream."""
+    way = np.empty_like(shape)
+    way[1:-1] = shape[2:] - shape[:-2]
+    way[0], way[-1] = (0.0, 1.0), (0.0, 1.0)
+    way /= np.linalg.norm(way, axis=1)[:, None]
+    return np.stack([way[:, 1], -way[:, 0]], axis=1)
+
+
+def _hang(span: CurtainSpan, section: SectionMesh, water: Water, weight: bool) -> tuple[Array, float, Array]:
+    """Return how far each node hangs below its unstretched place, the level of the top, and the lengths of the cells.
+
+    A flat skirt is stretched by its weight; a bulging one is just taut.
+    """
+    cells = np.hypot(np.diff(section.x), np.diff(section.z))
+    drop = np.zeros(section.x.size)
+    if not weight:
+        return drop, 0.0, cells
+    rho, g = water.density, water.gravity
+    below = (span.lower_mass - rho * span.lower_volume) * g
+    skin = (span.sheet_mass - rho * span.sheet_volume) * g
+    if span.edges != "held" and span.chord >= span.skirt_length * (1.0 - _TIGHT):
+        # each node bears what hangs below the middle of the cell under it
+        load = below + skin * (span.skirt_length - np.cumsum(cells) + 0.5 * cells)
+        strain = np.sqrt(1.0 + 2.0 * np.maximum(load, 0.0) / span.sheet_stiffness) - 1.0
+        drop[1:] = -np.cumsum(strain * cells)
+    whole = below + skin * span.skirt_length + span.upper_mass * g
+    lift = rho * g * span.float_volume
+    if span.float_volume <= 0.0:
+        return drop, 0.0, cells
+    if lift <= whole:
+        raise InputError(
+            f"the floats lift {lift:g} N/m, curtain and ballast weigh {whole:g} N/m",
+            path="structure.floats.buoyancy",
+            allowed=f"more than {whole:g} N/m",
+            remedy="give larger floats or a lighter toe",
+        )
+    return drop, span.float_height * (0.5 - whole / lift), cells
+
+
+def _nodes(span: CurtainSpan, grid: IntArray, place: Array, arc: Array, water: Water, weight: bool) -> Nodes:
+    """Return the nodes: ends by their supports, the upper edge with its floats."""
+    count = len(place)
+    kind = np.full(count, FREE, dtype=np.int64)
+    held = np.zeros((count, 3), dtype=np.bool_)
+    mass, volume, height = np.zeros(count), np.zeros(count), np.zeros(count)
+    share = np.zeros(arc.size)
+    share[:-1] += 0.5 * np.diff(arc)
+    share[1:] += 0.5 * np.diff(arc)
+    top, toe, ends = grid[:, 0], grid[:, -1], grid[[0, -1]]
+    if span.float_volume > 0.0 and weight:
+        volume[top], height[top] = span.float_volume * share, span.float_height
+    else:
+        held[top, 2] = True
+    if span.edges == "held":
+        held[toe, 2] = True
+    if span.lower_stiffness == 0.0:
+        # ballast without a cable that bears: its mass alone
+        mass[toe] += span.lower_mass * share
+        volume[toe] += span.lower_volume * share if weight else 0.0
+    support = span.support
+    if support is None:
+        if span.edges == "free":
+            # held in all components, not fixed: the rest of the column moves, and its section with it
+            held[ends[:, 0]] = True
+            held[ends[:, 1:], 1] = True
+        else:
+            kind[ends.ravel()] = FIXED
+    else:
+        held[ends, 1] = True
+        held[ends[:, 0], 2] = True
+        volume[ends[:, 0]] = 0.0
+        mass[ends[:, 0]] += 0.5 * support.mass
+        reach, depth = support.line_length * math.cos(support.slope), support.line_length * math.sin(support.slope)
+        for number, (end, side) in enumerate(((0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0))):
+            at = place[ends[end, 0]]
+            place[grid.size + number] = at + np.array([side * reach, 0.0, -depth])
+        kind[grid.size :] = FIXED
+    return Nodes(place, kind, held, mass=mass, volume=volume, height=height)
+
+
+def _bars(
+    span: CurtainSpan, mesh: Mesh, grid: IntArray, place: Array, arc: Array, weight: bool
+) -> tuple[Bars, tuple[Strand, ...]]:
+    """Return cables and anchor lines; unstretched lengths are the chords of the just-taut shape."""
+    along, cells = mesh.along, np.diff(arc)
+    longest = float(np.max(cells))
+
+    def cable(name: str, stiffness: float, mass: float, volume: float) -> BarType:
+        viscosity = mesh.cable_viscosity
+        if viscosity is None:
+            viscosity = MESH_DAMPING * longest * math.sqrt(stiffness * mass)
+        return BarType(name, mass, stiffness, 0.0, volume_per_length=volume, viscosity=viscosity)
+
+    types = [cable("upper cable", span.upper_stiffness, span.upper_mass, 0.0)]
+    start, end, length, which = [grid[:-1, 0]], [grid[1:, 0]], [cells], [np.zeros(along, dtype=np.int64)]
+    strands = [Strand("upper cable", grid[:, 0], np.arange(along))]
+    if span.lower_stiffness > 0.0:
+        types.append(cable("lower cable", span.lower_stiffness, span.lower_mass, span.lower_volume if weight else 0.0))
+        start.append(grid[:-1, -1])
+        end.append(grid[1:, -1])
+        length.append(cells)
+        which.append(np.ones(along, dtype=np.int64))
+        strands.append(Strand("lower cable", grid[:, -1], np.arange(along, 2 * along)))
+    support = span.support
+    if support is not None:
+        first = sum(part.size for part in start)
+        half = 0.5 * support.stiffness
+        # a straight line without mass: its own waves are left out, its mass stands with the buoy
+        mass = 1e-3 * support.mass / support.line_length
+        rub = MESH_DAMPING * math.sqrt(half / support.line_length * support.mass) * support.line_length
+        types.append(BarType("anchor line", mass, half, 0.0, volume_per_length=0.0, viscosity=rub))
+        tops = grid[[0, 0, -1, -1], 0]
+        anchors = grid.size + np.arange(4)
+        start.append(tops)
+        end.append(anchors)
+        ways = np.linalg.norm(place[anchors] - place[tops], axis=1)
+        length.append(ways / (1.0 + support.pretension / support.stiffness))
+        which.append(np.full(4, len(types) - 1, dtype=np.int64))
+        names = ("first support, upstream", "first support, downstream", "last support, upstream",
+                 "last support, downstream")  # fmt: skip
+        for number, name in enumerate(names):
+            strands.append(
+                Strand(f"anchor line, {name}", np.array([tops[number], anchors[number]]), np.array([first + number]))
+            )
+    bars = Bars(*(np.concatenate(part) for part in (start, end, length, which)), tuple(types))
+    return bars, tuple(strands)
+
+
+def _blocks(grid: IntArray, arc: Array, section: SectionMesh, nodes: Nodes, convective: bool) -> MassBlocks | None:
+    """Return the sections that can move, each with the added mass of its part of the span."""
+    chosen, guides, share = [], [], []
+    for row in range(grid.shape[0]):
+        column = grid[row]
+        if np.any(nodes.kind[column] == FIXED):
+            continue
+        inner = 0 < row < grid.shape[0] - 1
+        before, behind = (grid[row - 1], grid[row + 1]) if inner else (grid[0], grid[-1])
+        chosen.append(column)
+        guides.append(np.stack([before, behind], axis=1))
+        lengths = np.diff(arc)
+        share.append(0.5 * (lengths[row - 1] + lengths[row]) if inner else 0.5 * lengths[0])
+    matrices = np.asarray(share)[:, None, None] * section.added_mass
+    return MassBlocks(np.array(chosen), np.array(guides), matrices, convective)
+
+
+__all__ = ["MESH_DAMPING", "AnchoredSupport", "CurtainNetwork", "CurtainSpan", "Mesh", "build_span"]
