@@ -411,3 +411,35 @@ def test_campaigns_that_cannot_be():
         Tank(1000.0, 1e-6, 9.81, 0.45, -0.6)
     with pytest.raises(InputError, match="viscosity"):
         Tank(1000.0, -1e-6, 9.81, 0.45, -0.2)
+
+
+@pytest.mark.parametrize(("following", "distance"), [(False, 0.0), (False, 0.8), (True, -0.5)])
+def test_records_made_by_hand(following, distance):
+    """Force, surface and encounter written down here, dispersion by bisection: nothing of the product makes them."""
+    rng = np.random.default_rng(61)
+    net, depth, z, period, speed = specimen(), 0.6, -0.25, 1.15, 0.45
+    omega, low, high = 2.0 * math.pi / period, 1e-3, 100.0
+    for _ in range(200):
+        k = 0.5 * (low + high)
+        low, high = (k, high) if 9.81 * k * math.tanh(k * depth) < omega**2 else (low, k)
+    time = np.arange(0.0, 24.0, 0.02)
+    sense = -1.0 if following else 1.0
+    # place of the panel along the waves; the gauge stands 'distance' before it
+    place = -sense * speed * time
+    angle, gauge = k * place - omega * time, k * (place - distance) - omega * time
+    amplitude = 0.035 * omega * math.cosh(k * (z + depth)) / math.sinh(k * depth)
+    u = speed + sense * amplitude * np.cos(angle)
+    rate = sense * amplitude * omega * np.sin(angle)
+    tank = Tank(1025.0, 1.2e-6, 9.81, depth, z)
+    records = []
+    for name, area, volume in (("n", 1.7 * net.projected_area + 3e-3, 1.8 * net.volume + 1e-5), ("f", 3e-3, 1e-5)):
+        force = 0.5 * 1025.0 * area * u * np.abs(u) + 1025.0 * volume * rate + 1e-4 * rng.normal(size=time.size)
+        records.append(
+            NetRun(name, "A" if name == "n" else "", "towing_waves", time, force, speed=speed, distance=distance,
+                   elevation=0.035 * np.cos(gauge), period=period, following=following)
+        )  # fmt: skip
+    found, notices = coefficients(*records, net, tank=tank)
+    assert found.drag == pytest.approx(1.7, rel=1e-3)
+    assert found.inertia == pytest.approx(1.8, rel=2e-2)
+    assert found.velocity_amplitude == pytest.approx(amplitude, rel=1e-4)
+    assert not [item for item in notices if item.code == "net-encounter-period"]
