@@ -302,7 +302,8 @@ def _simulation(
         for column, name in enumerate(static_lines.names):
             tension[:, [line.name for line in unit.lines].index(name)] = found[:, column]
     for number, name in zip(lines.index, lines.names, strict=True):
-        tension[:, number] = history.network.tension[:count, lines.strand(name).bars[-1]]
+        record = history.network
+        tension[:, number] = lines.end_tensions(name, record.position[:count], record.tension[:count])[0]
     status = {"converged": "converged", "not_converged": "diverged", "interrupted": "interrupted"}[history.status]
     return Simulation(
         history.time, position, velocity, force, tension, carrier.elevation(history.time), history.body_step,
@@ -327,9 +328,9 @@ def _lines_in_motion(
     lengths = lines.network.bars.length
     for column, name, at_rest in zip(lines.index, lines.names, rest, strict=True):
         strand = lines.strand(name)
-        first, last = strand.bars[0], strand.bars[-1]
-        peak[:, column] = np.maximum(network.tension_peak[:count, last], simulation.tension[:, column])
-        anchor[:, column] = network.tension[:count, first]
+        highest = lines.end_tensions(name, network.position[:count], network.tension_peak[:count])[0]
+        peak[:, column] = np.maximum(highest, simulation.tension[:, column])
+        anchor[:, column] = lines.end_tensions(name, network.position[:count], network.tension[:count])[1]
         along = network.position[:count, strand.nodes[1]] - network.position[:count, strand.nodes[0]]
         uplift[:, column] = anchor[:, column] * along[:, 2] / np.maximum(np.linalg.norm(along, axis=1), 1e-300)
         weight = np.zeros(strand.nodes.size)
@@ -396,7 +397,8 @@ def _sensitivity(
         other, _ = _run(unit, lines, body, forcing, waves, current, ramp, step, rows, network_step, progress)
         change = np.full(len(unit.lines), np.nan)
         for column, line in zip(lines.index, lines.names, strict=True):
-            series = other.network.tension_peak[: other.time.size, lines.strand(line).bars[-1]]
+            record, size = other.network, other.time.size
+            series = lines.end_tensions(line, record.position[:size], record.tension_peak[:size])[0]
             largest = float(np.max(found.peak[after, column]))
             if other.status == "converged" and largest > 0.0:
                 change[column] = float(np.max(series[after[: series.size]])) / largest - 1.0

@@ -193,7 +193,7 @@ class LineDynamics(Block):
     )
     bed_stiffness: PositiveNumber | None = Field(
         default=None,
-        description="Stiffness of the bed per contact area, Pa/m. Default: the line sinks a tenth of its diameter.",
+        description="Stiffness of the bed per contact area, Pa/m. Default: the line sinks a fiftieth of its diameter.",
     )
     bed_damping: NonNegativeNumber | None = Field(
         default=None, description="Normal damping of the bed per contact area, Pa s/m. Default: half of critical."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -48,6 +49,9 @@ class Joint:
         self.largest, self.passes, self.steps = least, 0, 0
         self._length = 0.0
         self._work, self._lost, self._impulse = 0.0, 0.0, 0.0
+        self._oldest, self._slips = np.zeros((2, count, 3)), np.zeros(2)
+        self._moved: list[Array] = []
+        self._change: list[Array] = []
 
     @property
     def lost_impulse(self) -> float:
@@ -104,9 +108,10 @@ class Joint:
     def _agree(self, end: float, length: float) -> bool:
         """Try one step; accept it and return whether both sides agree."""
         guess = self.reaction.copy()
+        forecasts: list[Array] = []
         if self._length > 0.0:
-            # straight on through the means of the last two steps
-            guess[0] += (self.reaction[0] - self.before[0]) * 0.5 * (1.0 + length / self._length)
+            forecasts = self._forecasts(length)
+            guess[0] = forecasts[int(np.argmin(self._slips))]
             guess[1] *= length / self._length
             owed = self.carry * self._length / length
         else:
@@ -134,27 +139,50 @@ class Joint:
             guess = self._better(inputs, misses).reshape(guess.shape)
         if not settled:
             return False
+        if forecasts:
+            # which forecast was better of late: smooth reactions like the curved one, ringing ones the straight one
+            slips = np.array([float(np.max(np.abs(answer[0] - item), initial=0.0)) for item in forecasts])
+            self._slips = 0.7 * self._slips + 0.3 * slips
+        self._remember(inputs, misses, guess, miss)
         self._book(start, (place, speed), given, answer, length)
         self._impulse = float(np.max(np.abs(miss[0]), initial=0.0)) * length
         for carrier in self.carriers:
             carrier.accept()
         self.network.accept()
-        previous, self.reaction = self.reaction, answer
+        self._oldest, previous, self.reaction = self.before, self.reaction, answer
         self.before = previous if self._length > 0.0 else answer.copy()
+        if self._length == 0.0:
+            self._oldest = answer.copy()
         self.carry = miss[0]
         self.largest, self._length, self.steps = max(self.largest, size), length, self.steps + 1
         return True
 
-    @staticmethod
-    def _better(inputs: list[Array], misses: list[Array]) -> Array:
-        """Return the next guess: repetition first, then the step that would cancel the misses if they were linear."""
-        if len(inputs) < 2:
+    def _forecasts(self, length: float) -> list[Array]:
+        """Return means of the reaction continued straight and along a parabola."""
+        last, before, oldest = self.reaction[0], self.before[0], self._oldest[0]
+        share = length / self._length
+        straight = last + (last - before) * 0.5 * (1.0 + share)
+        return [straight, straight + (last - 2.0 * before + oldest) * 0.5 * (1.0 + share) * share]
+
+    def _remember(self, inputs: list[Array], misses: list[Array], guess: Array, miss: Array) -> None:
+        """Keep how the misses answered to the guesses of this step, for the next one."""
+        inputs, misses = [*inputs, guess.ravel().copy()], [*misses, miss.ravel().copy()]
+        self._moved += [b - a for a, b in itertools.pairwise(inputs)]
+        self._change += [b - a for a, b in itertools.pairwise(misses)]
+        del self._moved[:-MEMORY], self._change[:-MEMORY]
+
+    def _better(self, inputs: list[Array], misses: list[Array]) -> Array:
+        """Return the next guess: the step that would cancel the miss if misses were linear, as far as known."""
+        moved = [b - a for a, b in itertools.pairwise(inputs)]
+        change = [b - a for a, b in itertools.pairwise(misses)]
+        if len(inputs) < 4:
+            # what earlier steps taught, until this one has taught enough
+            moved, change = [*self._moved, *moved], [*self._change, *change]
+        if not moved:
             return inputs[-1] + misses[-1]
-        first = max(0, len(inputs) - MEMORY - 1)
-        moved = np.stack([b - a for a, b in zip(inputs[first:-1], inputs[first + 1 :], strict=True)], axis=1)
-        change = np.stack([b - a for a, b in zip(misses[first:-1], misses[first + 1 :], strict=True)], axis=1)
-        weight, *_ = np.linalg.lstsq(change, misses[-1], rcond=1e-10)
-        return inputs[-1] + misses[-1] - (moved + change) @ weight
+        steps, answers = np.stack(moved[-MEMORY:], axis=1), np.stack(change[-MEMORY:], axis=1)
+        weight, *_ = np.linalg.lstsq(answers, misses[-1], rcond=1e-6)
+        return np.asarray(inputs[-1] + misses[-1] - (steps + answers) @ weight)
 
     def _book(
         self, start: tuple[Array, Array], end: tuple[Array, Array], given: Array, answer: Array, length: float

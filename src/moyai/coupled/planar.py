@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 
 #: Places of the force's table in its shortest period; a cubic between them keeps 1e-7.
 SAMPLES_PER_PERIOD = 160
+#: Start, middle and end of a step, for the tilt of the reaction.
+_STAGES = np.array([-1.0, 0.0, 1.0])[:, None, None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +144,7 @@ class PlanarCarrier:
         self._weights: dict[float, tuple[NDArray[np.complex128], ...]] = {}
         self._tried = (self.q.copy(), self.v.copy(), self.z.copy(), time)
         self._guess: tuple[float, Array, Array] | None = None
+        self._outside: tuple[tuple[float, float], Array] = ((np.nan, np.nan), np.zeros((3, 3)))
         self._rate = np.zeros(3)
 
     @property
@@ -183,12 +186,12 @@ class PlanarCarrier:
         """Return place [m] and velocity [m/s] of the carried points, (points, 3), in site axes."""
         return _places(self.q, self.v, self.arms, self.rest)
 
-    def modal(self, angle: float, pulls: Array) -> Array:
-        """Return the force of pulls on the points in the three modes, at an angle of roll [rad]."""
-        c, s = np.cos(angle), np.sin(angle)
+    def modal(self, angles: Array, pulls: Array) -> Array:
+        """Return the force of pulls (k, points, 3) on the points in the three modes, at angles of roll (k,) [rad]."""
+        c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
         x, z = c * self.arms[:, 0] + s * self.arms[:, 2], -s * self.arms[:, 0] + c * self.arms[:, 2]
-        fx, fz = self.copies * pulls[:, 0], self.copies * pulls[:, 2]
-        return np.array([fx.sum(), fz.sum(), float(np.sum(z * fx - x * fz))])
+        fx, fz = self.copies * pulls[..., 0], self.copies * pulls[..., 2]
+        return np.stack([fx.sum(axis=1), fz.sum(axis=1), (z * fx - x * fz).sum(axis=1)], axis=1)
 
     def try_step(self, end: float, reaction: Array) -> tuple[Array, Array]:
         """Move to ``end`` [s] under mean and tilt of the forces on the points; return place and velocity there."""
@@ -197,10 +200,11 @@ class PlanarCarrier:
         last_q, last_v = self.q + h * self.v + 0.5 * h * h * self._rate, self.v + h * self._rate
         if self._guess is not None and self._guess[0] == end:
             last_q, last_v = self._guess[1], self._guess[2]
-        angles = (q[2], 0.5 * (q[2] + last_q[2]) + 0.125 * h * (v[2] - last_v[2]), last_q[2])
-        force = np.array(self._force(np.array([self.time, self.time + 0.5 * h, end])))
-        for row, angle in enumerate(angles):
-            force[row] += self.modal(angle, reaction[0] + (row - 1.0) * reaction[1])
+        angles = np.array([q[2], 0.5 * (q[2] + last_q[2]) + 0.125 * h * (v[2] - last_v[2]), last_q[2]])
+        if self._outside[0] != (self.time, end):
+            at = np.array([self.time, self.time + 0.5 * h, end])
+            self._outside = ((self.time, end), np.asarray(self._force(at)))
+        force = self._outside[1] + self.modal(angles, reaction[0] + _STAGES * reaction[1])
         key = round(h, 14)
         if key not in self._weights:
             self._weights[key] = exponential_weights(self._memory.poles, h)

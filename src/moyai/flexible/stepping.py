@@ -24,13 +24,26 @@ from moyai.flexible.result import State
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-#: Rows of the array of the kernels that hold history; everything else is computed again or never changes.
-_HISTORY = (
-    kernel.X, kernel.Y, kernel.Z, kernel.U, kernel.V, kernel.W, kernel.PX, kernel.PY, kernel.PZ, kernel.QX, kernel.QY,
-    kernel.QZ, kernel.BX, kernel.BY, kernel.BZ, kernel.TX, kernel.TY, kernel.TZ, *range(kernel.IXX, kernel.MASS,
-    kernel.ROW), *range(kernel.WU, kernel.TX, kernel.ROW),
-)  # fmt: skip
-_BAR_HISTORY = (*range(kernel.FX, kernel.RATE + kernel.ROW, kernel.ROW), *range(kernel.AX, kernel.DZZ + 1, kernel.ROW))
+#: Accepted steps after which the step of the network is chosen again.
+_CHOSEN_FOR = 4
+
+
+class _SteppedRun(ExplicitRun):
+    """The explicit scheme with a choice of step that holds for some calls."""
+
+    _choice: tuple[float, float, int, int] | None = None
+
+    def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
+        """Return the last choice for an interval of this length, a fresh one otherwise."""
+        if self._choice is None or abs(row_interval - self._choice[0]) > 1e-9 * row_interval:
+            step, per_load, per_row = super().choose(row_interval, wanted)
+            self._choice = (row_interval, step, per_load, per_row)
+        _, _, per_load, per_row = self._choice
+        return row_interval / (per_load * per_row), per_load, per_row
+
+    def forget(self) -> None:
+        """Choose again at the next call."""
+        self._choice = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +126,7 @@ class SteppedNetwork:
         self._given = dict(motions or {})
         nodes = carried_nodes(network, self.points)
         start = start or State.at_rest(network)
-        self.run = ExplicitRun(
+        self.run = _SteppedRun(
             network,
             self._all_motions(nodes, start.time),
             flow or Flow(),
@@ -148,10 +161,10 @@ class SteppedNetwork:
         self._row = (*(np.zeros(shape) for shape in shapes), self.keep_nodes, self.keep_bars)
         self.run.first_row(self._row)
         self._history: list[tuple[Array, ...]] = []
-        self._before = start.time
+        self._before, self._accepted = start.time, 0
         self._peak, self._trough = self._row[2][0].copy(), self._row[1][0].copy()
         self.keep_row()
-        self._kept, self._energy = self._snapshot(), self._row[3][0].copy()
+        self._kept, self._energy, self._fresh = self._snapshot(), self._row[3][0].copy(), True
         self.steps, self.smallest = 0, math.inf
 
     def _all_motions(self, nodes: IntArray, time: float) -> dict[str, Motion]:
@@ -176,7 +189,7 @@ class SteppedNetwork:
     @property
     def time(self) -> float:
         """Time of the accepted state [s]."""
-        return float(self._kept[3][0])
+        return self._kept[1]
 
     @property
     def energy(self) -> tuple[float, float, float]:
@@ -189,24 +202,22 @@ class SteppedNetwork:
         self._restore()
         return self.run.state()
 
-    def _snapshot(self) -> tuple[Array, Array, Array, tuple[float, float], Array, Array]:
+    def _rows_of_memory(self) -> Array:
+        """Return a view of what the kernels use of their array; the rest of each row is never touched."""
+        packed = self.run.packed
+        ribs = int(packed.runs[:, 3].sum()) if len(packed.runs) else 0
+        width = max(int(packed.sizes.max()), ribs) + 8
+        return packed.memory[: kernel.TOTAL_ROWS * kernel.ROW].reshape(kernel.TOTAL_ROWS, kernel.ROW)[:, :width]
+
+    def _snapshot(self) -> tuple[Array, float, float, Array, Array]:
         run = self.run
-        memory, width = run.packed.memory, int(run.packed.sizes.max()) + 8
-        ribs = int(run.packed.runs[:, 3].sum()) if len(run.packed.runs) else 0
-        rows = np.stack([memory[first : first + width] for first in _HISTORY])
-        spine = np.stack([memory[first : first + width] for first in _BAR_HISTORY])
-        rib = np.stack([memory[kernel.RIB + first : kernel.RIB + first + ribs] for first in _BAR_HISTORY])
-        return rows, spine, rib, (run.time, run.step), run.water.copy(), run.ledger.copy()
+        return self._rows_of_memory().copy(), run.time, run.step, run.water.copy(), run.ledger.copy()
 
     def _restore(self) -> None:
-        rows, spine, rib, (self.run.time, self.run.step), water, ledger = self._kept
-        memory, width = self.run.packed.memory, rows.shape[1]
-        for first, values in zip(_HISTORY, rows, strict=True):
-            memory[first : first + width] = values
-        for first, values, others in zip(_BAR_HISTORY, spine, rib, strict=True):
-            memory[first : first + width] = values
-            memory[kernel.RIB + first : kernel.RIB + first + others.size] = others
+        rows, self.run.time, self.run.step, water, ledger = self._kept
+        self._rows_of_memory()[:] = rows
         self.run.water, self.run.ledger[:] = water.copy(), ledger
+        self._fresh = True
 
     def try_step(self, end: float, place: Array, velocity: Array) -> Array:
         """Move to ``end`` [s] while the carried points go to ``place`` [m] with ``velocity`` [m/s] there.
@@ -222,7 +233,9 @@ class SteppedNetwork:
         ConvergenceError
             When values are no longer finite.
         """
-        self._restore()
+        if not self._fresh:
+            self._restore()
+        self._fresh = False
         run, interval = self.run, end - self.run.time
         self._next[0, self._rows], self._next[1, self._rows] = place, velocity
         for row, name in self._others:
@@ -258,7 +271,10 @@ class SteppedNetwork:
 
     def accept(self) -> None:
         """Keep the last tried step."""
-        self._kept = self._snapshot()
+        self._kept, self._fresh = self._snapshot(), True
+        self._accepted += 1
+        if self._accepted % _CHOSEN_FOR == 0:
+            self.run.forget()
         self._now = self._next.copy()
         np.maximum(self._peak, self._row[2][0], out=self._peak)
         np.minimum(self._trough, self._row[1][0], out=self._trough)

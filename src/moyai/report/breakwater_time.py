@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from moyai.report.animation import (
     tabulated_line,
 )
 from moyai.report.breakwater_figures import key
+from moyai.report.breakwater_lines import in_motion, line_blocks, moving_paths
 from moyai.report.breakwater_reading import MODES, Level, Sea, attribute_number
 from moyai.report.decimate import focus_indices, mean_crossing_period, window_around
 from moyai.report.document import Abscissa, Animation, Block, Column, Figure, Mark, Panel, Series, Table
@@ -79,7 +80,7 @@ def read_record(level: Level, run: Group) -> Record | None:
     if not set(MODES) <= set(names):
         return None
     pose = pose[:, [names.index(mode) for mode in MODES]]
-    tension = run.real("tension", "time", "line")
+    tension = run.real("tension_peak", "time", "line") if in_motion(run) else run.real("tension", "time", "line")
     tension = np.zeros((time.size, 0)) if tension is None else tension
     elevation = run.real("surface_elevation", "time")
     good = np.isfinite(pose).all(axis=1)
@@ -132,6 +133,7 @@ def run_blocks(level: Level, sea: Sea, record: Record, animate: bool, bins: int)
             blocks.append(scene)
     blocks.append(time_series(level, sea, record, bins))
     blocks.append(statistics(level, sea, record))
+    blocks.extend(line_blocks(level, sea, record.run, window_of(record), record.governing_line))
     return tuple(blocks)
 
 
@@ -295,6 +297,8 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     pose = np.column_stack([np.interp(times, record.time, record.pose[:, n]) for n in range(3)])
     bed = -level.depth if math.isfinite(level.depth) else None
     lines = _moving_lines(level, record, times, pose, pivot, bed)
+    moving = moving_paths(record.run, record.lines, times)
+    lines = tuple(replace(line, path=moving[line.name]) if line.name in moving else line for line in lines)
     extents = _extents(outlines, lines, record, bed)
     surface = _surface(level, record, times, extents)
     scene = side_view(
@@ -322,7 +326,9 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     caption = (
         f"To scale; opened at the governing maximum, t = {moment:.2f} s. The cross is the centre of gravity at rest."
     )
-    if lines and level.group.child("statics").variable("line_shape_x") is None:
+    if moving:
+        caption += " Lines: in motion, as their nodes were."
+    elif lines and level.group.child("statics").variable("line_shape_x") is None:
         caption += " Lines: their shape at rest, led along with the fairlead."
     if surface is not None:
         reflection = level.group.child("rao").array("reflection_coefficient", "omega")
