@@ -12,6 +12,7 @@ from moyai.report import curtain_sea_figures as sea_figures
 from moyai.report import curtain_sea_tables as sea_tables
 from moyai.report import curtain_tables as tables
 from moyai.report.curtain_drawing import drawings
+from moyai.report.curtain_dynamic import dynamic_blocks
 from moyai.report.curtain_reading import CurtainLevel, governing_component, water_levels
 from moyai.report.curtain_snap import snap_animation
 from moyai.report.curtain_summary import summary_blocks
@@ -70,6 +71,7 @@ def compose(result: Result) -> Document:
             (*at_each_level(lambda level: _impact(level, root)), *(block for block in record if block is not None)),
         ),
         Section("waves", "Waves: slack and taut", at_each_level(_waves)),
+        Section("dynamic", "The whole span through time", at_each_level(dynamic_blocks)),
         Section("anchors", "Anchor loads", at_each_level(_anchors)),
         Section("limits", "Operating limits", at_each_level(_limits)),
     ]

@@ -25,6 +25,7 @@ LEVEL_GROUPS = (
     "anchor_loads",
     "limits",
     "loads",
+    "dynamic",
 )
 GIVEN = "given"
 PARTS = ("steady", "wave", "impact", "governing")

@@ -48,6 +48,7 @@ def summary_blocks(result: Result, levels: tuple[CurtainLevel, ...]) -> tuple[Bl
         *_tension_figures(levels),
         *_impact_figures(levels),
         *_float_figures(levels),
+        *_dynamic_figures(levels),
     ]
     if items:
         blocks.append(KeyFigures(tuple(items[:MOST_KEY_FIGURES])))
@@ -205,6 +206,29 @@ def _depth_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
         text = format_quantity(gap, "m") if gap > 0.0 else "none"
         items.append(KeyFigure("Toe gap", text, f"{under}: {level.name}"))
     return items
+
+
+def _dynamic_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
+    """Return the highest tensions of the whole span through time."""
+    found = []
+    for name, words_, unit in (
+        ("both_peak", "peak of both cables, whole span", "N"),
+        ("skirt_peak", "peak of the skirt", "N/m"),
+        ("anchor_peak", "peak of an anchor line", "N"),
+    ):
+        best = -math.inf
+        where = ""
+        for level in levels:
+            group = level.part("dynamic")
+            values = group.real(name, "run")
+            if values is None or not np.isfinite(values).any():
+                continue
+            row = int(np.nanargmax(values))
+            if values[row] > best:
+                best, where = float(values[row]), f"{group.labels('run')[row]}, {level.name}"
+        if math.isfinite(best):
+            found.append(KeyFigure(words_, format_quantity(best, unit), where))
+    return found
 
 
 def _tension_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
