@@ -60,6 +60,7 @@ def build_problem(
     """
     if math.isinf(model.site.water_depth):
         raise InputError("a flexible cage stands over a bed", path="site.water_depth", allowed="a finite depth")
+    assert isinstance(model.structure, parts.FlexibleCageStructure)
     water = Water(model.site.water_depth, model.site.density, model.site.gravity)
     levels, chosen = model.site.water_levels, model.settings.water_levels
     names = tuple(levels) if isinstance(chosen, str) else chosen

@@ -7,6 +7,7 @@ from pathlib import Path
 from moyai.case import schema_cage as schema
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
+from moyai.case.schema_cage_flexible import FlexibleCageStructure
 from moyai.core.errors import InputError
 
 #: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
@@ -20,6 +21,7 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     from moyai.morison.net_law import available_net_laws
 
     unit = model.structure
+    assert isinstance(unit, FlexibleCageStructure)
     law = unit.net.law
     if law not in available_net_laws():
         findings.fault(

@@ -501,16 +501,15 @@ def screen_forces(A: Any, screen: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def screen_work(A: Any, screen: Any, step: float) -> float:
-    """Return the work of the panels over the last step, with the mean of its velocities [J]."""
+def screen_work(A: Any, screen: Any, time: float) -> float:
+    """Return the work of the panels over the last kick of ``time``, at the mean of the velocities around it [J]."""
     work = 0.0
     for i in range(screen.shape[1]):
-        u, v, w = A[U + i], A[V + i], A[W + i]
-        p, q, s = 0.5 * (u + screen[9, i]), 0.5 * (v + screen[10, i]), 0.5 * (w + screen[11, i])
-        work += u * (screen[6, i] - screen[0, i] * p - screen[1, i] * q - screen[2, i] * s)
-        work += v * (screen[7, i] - screen[1, i] * p - screen[3, i] * q - screen[4, i] * s)
-        work += w * (screen[8, i] - screen[2, i] * p - screen[4, i] * q - screen[5, i] * s)
-    return step * work
+        u, v, w = 0.5 * (A[U + i] + screen[9, i]), 0.5 * (A[V + i] + screen[10, i]), 0.5 * (A[W + i] + screen[11, i])
+        work += u * (screen[6, i] - screen[0, i] * u - screen[1, i] * v - screen[2, i] * w)
+        work += v * (screen[7, i] - screen[1, i] * u - screen[3, i] * v - screen[4, i] * w)
+        work += w * (screen[8, i] - screen[2, i] * u - screen[4, i] * v - screen[5, i] * w)
+    return time * work
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -710,7 +709,7 @@ def march(
                     for axis in range(3):
                         moved[d, axis] = A[X + axis * ROW + driven[d, 0]] - moved[d, axis]
                 if screened:
-                    ledger[0] += screen_work(A, screen, step)
+                    ledger[0] += screen_work(A, screen, push)
             ledger[0] += _load_work(A, count, 1.0)
         # the state at the time of the row: forces here, half a kick
         if loose:

@@ -123,7 +123,8 @@ def run_figures(level: Level, sea: str, run: Group) -> list[Figure]:
     period = float(run.attributes.get("period", math.nan))
     window = (float(time[-1]) - 6.0 * period, float(time[-1])) if time[-1] > 6.0 * period else None
     x = {"time": time}
-    panels, series = [], []
+    panels: list[Panel] = []
+    series: list[Series] = []
     if surface is not None:
         factor, unit = common_scale("m", surface)
         series.append(Series("surface", x, factor * surface, len(panels), 0))

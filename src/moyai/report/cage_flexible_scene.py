@@ -14,12 +14,14 @@ from moyai.report.reading import Group
 from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
 
 Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Parts = tuple[IntArray, NDArray[np.bool_], tuple[Faces, ...], tuple[Marker, ...], tuple[str, ...]]
 
 #: Periods of the window that an animation opens with.
 _WINDOW_PERIODS = 4.0
 
 
-def _parts(level: Level) -> tuple[Array, Array, tuple[Faces, ...], tuple[Marker, ...], tuple[str, ...]] | None:
+def _parts(level: Level) -> Parts | None:
     """Return bars, which of them are thin, faces, markers and names of the bars."""
     cage = level.part("cage")
     start, end, kind = (cage.array(name, "bar") for name in ("bar_start", "bar_end", "bar_kind"))
@@ -59,6 +61,28 @@ def _bed(level: Level) -> float:
     return float(level.part("cage").attributes.get("bed", -level.depth))
 
 
+def _without_anchor_lines(level: Level, count: int) -> tuple[IntArray, IntArray]:
+    """Return the bars of all but the anchor lines, and the nodes that they join."""
+    cage = level.part("cage")
+    line, start, end = (cage.array(name, "bar") for name in ("bar_line", "bar_start", "bar_end"))
+    assert line is not None and start is not None and end is not None
+    far = np.array([name.startswith("anchor") for name in cage.labels("line")], dtype=bool)
+    keep = np.flatnonzero((line < 0) | ~far[np.maximum(line.astype(int), 0)]) if far.size else np.arange(line.size)
+    there = np.zeros(count, dtype=bool)
+    there[start[keep].astype(int)] = there[end[keep].astype(int)] = True
+    return keep, np.flatnonzero(there)
+
+
+def _near(parts: Parts, keep: IntArray, kept: IntArray) -> Parts:
+    """Return the parts of a view that are left with some bars and nodes, renumbered."""
+    bars, thin, faces, markers, names = parts
+    number = np.full(int(max(bars.max(), kept.max())) + 1, -1)
+    number[kept] = np.arange(kept.size)
+    left = tuple(Faces(number[np.asarray(face.nodes)], face.name, face.kind) for face in faces)
+    shown = tuple(Marker(int(number[mark.node]), mark.name, mark.kind) for mark in markers if number[mark.node] >= 0)
+    return number[bars[keep]], thin[keep], left, shown, tuple(names[int(k)] for k in keep)
+
+
 def rest_views(level: Level) -> Block | None:
     """Return the cage at rest in each current to choose from, ``None`` where there is none."""
     parts, statics = _parts(level), level.part("statics")
@@ -66,12 +90,14 @@ def rest_views(level: Level) -> Block | None:
     speed = statics.real("current_speed", "current")
     if parts is None or position is None or tension is None or speed is None:
         return None
-    bars, thin, faces, markers, names = parts
+    keep, kept = _without_anchor_lines(level, position.shape[1])
+    bars, thin, faces, markers, names = _near(parts, keep, kept)
     options = []
     for number, value in enumerate(speed):
+        place, pull = position[number][kept], tension[number][keep]
         scene = Scene3D(
-            np.array([0.0, 1.0]), np.stack([position[number]] * 2), bars, np.stack([tension[number]] * 2), thin, faces,
-            markers, bed=_bed(level), current=_current(level, float(value)), maximum=0.0, names=names, is_still=True,
+            np.array([0.0, 1.0]), np.stack([place] * 2), bars, np.stack([pull] * 2), thin, faces, markers,
+            current=_current(level, float(value)), maximum=0.0, names=names, is_still=True,
         )  # fmt: skip
         said = format_quantity(float(value), "m/s") if value > 0.0 else "still water"
         options.append(
@@ -80,7 +106,7 @@ def rest_views(level: Level) -> Block | None:
                 (
                     animation_3d(
                         key(level, "rest-view", str(number + 1)), f"The cage at rest, {said}", scene,
-                        "To scale; colour and breadth grow with the tension, dashed grey is slack.",
+                        "To scale, without anchor lines; colour and breadth grow with the tension, dashed is slack.",
                     ),
                 ),
             )

@@ -124,7 +124,7 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
         Column("smallest", list(got["tension_minimum"]), "N"),
         Column("highest", list(got["tension_maximum"]), "N"),
         Column("of its breaking load", list(100.0 * got["utilisation"]), "%"),
-        Column("slack", list(100.0 * got["slack_share"]), "% of the time"),
+        Column("slack, of the time", list(100.0 * got["slack_share"]), "%"),
         Column("snaps", [int(value) for value in got["snaps"]]),
     )
     return Table(
