@@ -18,12 +18,12 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a flexible cage case in ``findings``."""
     from moyai.cage.flexible_checks import problem_notices
     from moyai.case.build_cage_flexible import build_problem
-    from moyai.morison.net_law import available_net_laws
+    from moyai.morison.net_law import available_net_laws, known_net_law
 
     unit = model.structure
     assert isinstance(unit, FlexibleCageStructure)
     law = unit.net.law
-    if law not in available_net_laws():
+    if not known_net_law(law):
         findings.fault(
             ("structure", "net", "law"),
             f"there is no net law '{law}'",

@@ -25,11 +25,11 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a rigid cage case in ``findings``."""
     from moyai.cage.rigid_statics import require_floating
     from moyai.case.build_cage_rigid import build_problem
-    from moyai.morison.net_law import available_net_laws
+    from moyai.morison.net_law import available_net_laws, known_net_law
 
     unit = model.structure
     law = unit.net.drag.law
-    if law not in available_net_laws():
+    if not known_net_law(law):
         findings.fault(
             ("structure", "net", "drag", "law"),
             f"there is no net law '{law}'",

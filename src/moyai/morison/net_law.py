@@ -15,6 +15,7 @@ from moyai.morison.net_laws.kristiansen_faltinsen import KristiansenFaltinsen
 from moyai.morison.net_laws.loland import Loland
 from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.morison.net_laws.milne import Milne
+from moyai.morison.net_laws.power import PowerLawNet, read_power_law
 from moyai.morison.net_laws.takagi import Takagi
 from moyai.morison.net_laws.wan import Wan
 from moyai.morison.nets import Net
@@ -38,8 +39,13 @@ _LAWS: dict[str, type[NetLaw]] = {
 
 
 def available_net_laws() -> tuple[str, ...]:
-    """Return the names of all laws."""
+    """Return the names of all laws; a power law of one's own is written out, ``11.4 Re^-0.40``."""
     return tuple(_LAWS)
+
+
+def known_net_law(name: str) -> bool:
+    """Whether :func:`net_law` knows a name, or reads it as a power law."""
+    return name in _LAWS or read_power_law(name) is not None
 
 
 def net_law(name: str, **options: object) -> NetLaw:
@@ -48,7 +54,8 @@ def net_law(name: str, **options: object) -> NetLaw:
     Parameters
     ----------
     name : str
-        One of :func:`available_net_laws`.
+        One of :func:`available_net_laws`, or a power law as a fit gives it: ``11.4 Re^-0.40``, with the range that it
+        was found in ``11.4 Re^-0.40 from 120 to 1100``.
     **options
         Fields of that law, such as ``cap`` of ``matsubara``.
 
@@ -57,22 +64,23 @@ def net_law(name: str, **options: object) -> NetLaw:
     InputError
         For an unknown name or option.
     """
-    if name not in _LAWS:
+    numbers = read_power_law(name)
+    if numbers is None and name not in _LAWS:
         near = difflib.get_close_matches(name, available_net_laws(), 1, 0.3)
         raise InputError(
             f"unknown net law '{name}'",
             path="law",
             allowed=", ".join(available_net_laws()),
-            remedy=f"did you mean '{near[0]}'?" if near else "",
+            remedy=f"did you mean '{near[0]}'?" if near else "or a power law such as '11.4 Re^-0.40'",
         )
-    law = _LAWS[name]
+    law: type[NetLaw] = PowerLawNet if numbers is not None else _LAWS[name]
     known = tuple(law.__dataclass_fields__)
     unknown = [key for key in options if key not in known]
     if unknown:
         raise InputError(
             f"the net law '{name}' has no option '{unknown[0]}'", path=unknown[0], allowed=", ".join(known) or "none"
         )
-    return law(**options)
+    return law(**{**(numbers or {}), **options})
 
 
-__all__ = ["Net", "NetLaw", "available_net_laws", "net_law", "panel_force"]
+__all__ = ["Net", "NetLaw", "PowerLawNet", "available_net_laws", "known_net_law", "net_law", "panel_force"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.morison.net_law import Net, NetLaw, available_net_laws, net_law, panel_force
+from moyai.morison.net_law import Net, NetLaw, available_net_laws, known_net_law, net_law, panel_force
 from moyai.morison.net_laws.kristiansen_faltinsen import KristiansenFaltinsen, cylinder_drag
 from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.morison.net_laws.twines import TwineLaw
@@ -325,3 +325,28 @@ def test_solidity_formulas():
         assert net.solidity == pytest.approx(1.0 - (net.aperture / pitch) ** 2)
         assert Net.from_solidity(net.twine_diameter, net.solidity).mesh_pitch == pytest.approx(pitch)
         assert net.solidity_doubled - net.solidity == pytest.approx(ratio**2)
+
+
+def test_power_law_of_ones_own():
+    """The law that an identification gives goes into a case as it is printed."""
+    net = Net.from_aperture(1.4e-3, 11.3e-3, solidity_listed=0.22)
+    written = net_law("9.84 Re^-0.36 from 84 to 1800")
+    angles, speeds = np.linspace(0.0, math.pi, 9)[:, None], np.array([0.0, 0.01, 0.3, 2.0])
+    for got, want in zip(
+        written.coefficients(angles, speeds, net, VISCOSITY),
+        net_law("matsubara").coefficients(angles, speeds, net, VISCOSITY),
+    ):
+        assert got == pytest.approx(want, rel=1e-12)
+    low, high = written.check(net, (0.01, 5.0), VISCOSITY)
+    assert (low.limit, high.limit) == (84.0, 1800.0)
+    plain = net_law("11.4Re^-0.40", cap=9.0, solidity="geometric", tangential_share=0.0)
+    assert plain.check(net, (1e-3, 5.0), VISCOSITY) == ()
+    assert ahead(plain, net, 0.5) == pytest.approx(11.4 * (0.5 * 1.4e-3 / VISCOSITY) ** -0.40 * net.solidity)
+    assert ahead(net_law("1.2 Re^-0"), net) == pytest.approx(1.2 * 0.22)
+    assert known_net_law("11.4 Re^-0.4")
+    assert not known_net_law("11.4 Re^0.4")
+    for text, words in (("0 Re^-0.4", "factor"), ("5 Re^-1.4", "exponent"), ("5 Re^-0.4 from 90 to 20", "rises")):
+        with pytest.raises(InputError, match=words):
+            net_law(text)
+    with pytest.raises(InputError, match="such as"):
+        net_law("11.4 Re-0.4")
