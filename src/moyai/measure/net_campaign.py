@@ -91,6 +91,10 @@ class NetCampaign:
                 )
         if not self.runs and not self.cages:
             raise InputError("there are no runs", path="runs")
+        if not self.cages and not any(run.net for run in self.runs):
+            raise InputError(
+                "all runs are of the bare frame", path="runs", remedy="name the net of the runs that towed one"
+            )
         if not 0.5 <= self.confidence < 1.0:
             raise InputError(f"confidence is {self.confidence:g}", path="confidence", allowed="0.5 to below 1")
         if not 0.0 <= self.calibration < 0.5:
@@ -208,12 +212,23 @@ def _vibration(
         return None, None
     steady = [measure_tow(run, None, campaign.confidence) for run in still]
     lowest, highest = campaign.search
-    search = find_vibration(
-        [tow.run.step for tow in steady],
-        [tow.clean[tow.run.part(tow.window)] for tow in steady],
-        lowest=lowest,
-        highest=highest,
-    )
+    try:
+        search = find_vibration(
+            [tow.run.step for tow in steady],
+            [tow.clean[tow.run.part(tow.window)] for tow in steady],
+            lowest=lowest,
+            highest=highest,
+        )
+    except InputError as error:
+        notices.append(
+            Notice(
+                "net-vibration-unknown",
+                f"the vibration of the carriage cannot be searched for, none was taken out: {error.fault.message}",
+                severity="warning",
+                remedy="give 'vibration: {band: [2.8 Hz, 3.3 Hz]}', or longer runs sampled faster",
+            )
+        )
+        return None, None
     if search.found is None:
         notices.append(
             Notice(

@@ -443,3 +443,63 @@ def test_records_made_by_hand(following, distance):
     assert found.inertia == pytest.approx(1.8, rel=2e-2)
     assert found.velocity_amplitude == pytest.approx(amplitude, rel=1e-4)
     assert not [item for item in notices if item.code == "net-encounter-period"]
+
+
+@pytest.mark.parametrize("meter", [True, False])
+def test_irregular_waves(meter):
+    """A sum of commensurate waves, by meter or by gauge, with noise and a carriage that shakes among them."""
+    rng = np.random.default_rng(71)
+    net, duration, depth, z = specimen(), 60.0, 0.45, -0.2
+    time = np.arange(0.0, duration, 0.02)
+    orders = np.arange(36, 66)
+    omega = 2.0 * math.pi * orders / duration
+    k = omega**2 / 9.81
+    for _ in range(400):
+        k = 0.5 * (k + omega**2 / (9.81 * np.tanh(k * depth)))
+    amplitude = 0.035 * np.exp(-(((orders - 48) / 8.0) ** 2)) * np.sqrt(0.12)
+    phase = rng.uniform(0.0, 2.0 * math.pi, orders.size)
+    turn = np.cos(omega * time[:, None] - phase) * amplitude
+    transfer = omega * np.cosh(k * (z + depth)) / np.sinh(k * depth)
+    u = turn @ transfer * 3.0
+    rate = -(np.sin(omega * time[:, None] - phase) * amplitude) @ (transfer * omega) * 3.0
+    records = []
+    for name, area, volume in (("n", 1.5 * net.projected_area + 3e-3, 1.9 * net.volume + 1e-5), ("f", 3e-3, 1e-5)):
+        force = 500.0 * area * u * np.abs(u) + 1000.0 * volume * rate
+        force = force + Rig(vibration_force=0.1).shaking(time.size, rng) + 0.005 * rng.normal(size=time.size)
+        records.append(
+            NetRun(name, "A" if name == "n" else "", "waves", time, force, regular=False,
+                   velocity=u if meter else None, elevation=None if meter else 3.0 * turn.sum(axis=1))
+        )  # fmt: skip
+    found, _ = coefficients(*records, net, LINE)
+    assert found.drag == pytest.approx(1.5, abs=found.drag_half_width)
+    assert found.drag_half_width < 0.1
+    assert found.inertia == pytest.approx(1.9, abs=found.inertia_half_width)
+    # without taking the vibration out the interval is several times as wide
+    assert coefficients(*records, net, None)[0].drag_half_width > 1.5 * found.drag_half_width
+
+
+def test_noise_of_the_meter_does_not_bias():
+    rng = np.random.default_rng(73)
+    net = specimen()
+    values = []
+    for _ in range(6):
+        pair = [
+            wave_run(QUIET, TANK, item, 1.4, 2.0, name="w", height=0.08, period=1.25, rng=rng, meter_noise=0.03)
+            for item in (net, None)
+        ]
+        values.append(coefficients(*pair, net)[0].drag)
+    assert np.mean(values) == pytest.approx(1.4, rel=0.01)
+
+
+def test_vibration_that_cannot_be_searched_is_told():
+    rng = np.random.default_rng(75)
+    net, slow = specimen(), dataclasses.replace(QUIET, rate=2.0)
+    runs = tuple(
+        towed_run(slow, TANK, item, 1.3, 0.4, name=name, rng=rng, duration=60.0, ramp=4.0)
+        for name, item in (("f", None), ("n", net))
+    )
+    found = measure_nets(NetCampaign("t", TANK, (net,), runs))
+    assert "net-vibration-unknown" in [notice.code for notice in found.notices]
+    assert found.towing[0].drag == pytest.approx(1.3, rel=2e-2)
+    with pytest.raises(InputError, match="all runs are of the bare frame"):
+        NetCampaign("t", TANK, (net,), runs[:1])
