@@ -30,6 +30,9 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     _check_settings(model, findings, folder)
     if not findings.sound("site", "waves", "structure", "current", "settings"):
         return
+    lines = model.structure.lines.values()
+    if not all(line.parts is not None or None not in (line.length, line.segments) for line in lines):
+        return  # what is missing was told already
     from moyai.case.build_network import build_problem
     from moyai.network.assembly import assemble
 
@@ -140,7 +143,8 @@ def _check_lines(model: NetworkCase, findings: Findings) -> None:
                 )  # fmt: skip
         if line.type is not None:
             for key in ("length", "segments"):
-                if getattr(line, key) is None:
+                # one that is there and out of range was told already
+                if getattr(line, key) is None and ("structure", "lines", name, key) not in findings.document.values:
                     findings.fault(
                         ("structure", "lines", name), f"'{key}' is missing",
                         remedy="a line of one type has a length and a number of segments",

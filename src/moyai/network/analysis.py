@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.errors import ConvergenceError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
@@ -29,6 +29,7 @@ from moyai.network.rest import (
     rest_dataset,
     stiffness_at_driven,
 )
+from moyai.network.resume import earlier_run, read_earlier
 from moyai.network.runs import run_plans, steady_flow
 from moyai.network.variables import labelled
 
@@ -272,8 +273,17 @@ def _dynamic(
     begin = State.at_rest(assembly.network) if start == "as_built" else rests[condition].state
     _, nodes = named_points(assembly)
     runs: list[Run] = []
+    earlier = None if problem.settings.resume is None else read_earlier(problem.settings.resume)
     for plan in run_plans(problem, water):
-        item = run_through_time(problem, assembly, plan, begin, progress)
+        before = None if earlier is None else earlier_run(earlier, root[1:], plan.name, len(assembly.network.nodes))
+        start_of_run = begin if before is None else before.state
+        if before is not None and before.state.time >= plan.duration * (1.0 - 1e-9):
+            raise InputError(
+                f"the run '{plan.name}' of the earlier result is complete: it reached {before.state.time:g} s",
+                path="settings.resume",
+                remedy="lengthen settings.duration, or remove 'resume'",
+            )
+        item = run_through_time(problem, assembly, plan, start_of_run, progress, before)
         runs.append(item)
         collected.groups[f"{root}/time/{plan.name}"] = item.series
         collected.groups[f"{root}/time/{plan.name}/frames"] = item.frames

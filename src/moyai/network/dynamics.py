@@ -20,6 +20,7 @@ from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.network.assembly import Assembly
 from moyai.network.model import NetworkProblem
 from moyai.network.rest import AXES, line_numbers, named_points, pulls
+from moyai.network.resume import Earlier, joined, last_good_state
 from moyai.network.runs import RunPlan, motions_of
 from moyai.network.variables import labelled
 
@@ -95,7 +96,14 @@ def kept_nodes(assembly: Assembly, rows: int) -> NDArray[np.int64]:
     return np.union1d(must, rest[::step]) if room else must
 
 
-def run(problem: NetworkProblem, assembly: Assembly, plan: RunPlan, begin: State, progress: Progress = silent) -> Run:
+def run(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    plan: RunPlan,
+    begin: State,
+    progress: Progress = silent,
+    earlier: Earlier | None = None,
+) -> Run:
     """Run a network through time and gather what is told of it.
 
     Parameters
@@ -106,6 +114,8 @@ def run(problem: NetworkProblem, assembly: Assembly, plan: RunPlan, begin: State
     begin : State
         Where it starts.
     progress : Progress
+    earlier : Earlier, optional
+        Rows of the same run up to ``begin``.
 
     Raises
     ------
@@ -119,13 +129,17 @@ def run(problem: NetworkProblem, assembly: Assembly, plan: RunPlan, begin: State
     def told(what: str, done: float, total: float) -> None:
         progress(plan.name, done, total)
 
-    history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options_of(problem, plan))
+    options = {**options_of(problem, plan), "duration": plan.duration - begin.time}
+    history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options)
     progress(plan.name, 1.0, 1.0)
-    series = _series(assembly, plan, history)
+    series, frames = _series(assembly, plan, history), _frames(plan, history)
+    series.attrs["skip"] = problem.settings.skip
+    if earlier is not None:
+        series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
     snaps = _snaps(problem, series)
     governing, worst = _governing(assembly, history, problem.settings.skip)
     sensitivity, notices = None, [*history.notices, *_run_notices(problem, history, plan)]
-    if problem.settings.sensitivity and history.status == "converged" and worst >= 0:
+    if problem.settings.sensitivity and history.status == "converged" and worst >= 0 and earlier is None:
         try:
             sensitivity = _sensitivity(problem, assembly, plan, begin, worst, progress)
             notices += list(sensitivity.notices())
@@ -135,7 +149,7 @@ def run(problem: NetworkProblem, assembly: Assembly, plan: RunPlan, begin: State
             )
     prefix = f"{plan.name}: "
     return Run(
-        plan, history, series, _frames(plan, history), snaps, sensitivity, governing,
+        plan, history, series, frames, snaps, sensitivity, governing,
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
         tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks),
     )  # fmt: skip
@@ -244,14 +258,17 @@ def _frames(plan: RunPlan, history: History) -> xr.Dataset:
     if history.tension.size:
         highest = np.nan_to_num(history.tension_peak).max(axis=1)
         chosen = np.union1d(chosen, [int(np.argmax(highest)), rows - 1])
+    last = last_good_state(history)
     # the highest since the row before: a snap between two rows must show
     shown = np.maximum(history.tension, np.nan_to_num(history.tension_peak))
+    with np.errstate(over="ignore"):  # of a run that blew up
+        places, pulled = history.position[chosen].astype(np.float32), shown[chosen].astype(np.float32)
     data: dict[str, Any] = {
-        "position": (("frame", "node", "axis"), history.position[chosen].astype(np.float32)),
-        "tension": (("frame", "bar"), shown[chosen].astype(np.float32)),
-        "final_position": (("every_node", "axis"), history.final.position, {"units": "m", "long_name": "last state"}),
+        "position": (("frame", "node", "axis"), places),
+        "tension": (("frame", "bar"), pulled),
+        "final_position": (("every_node", "axis"), last.position, {"units": "m", "long_name": "last state"}),
         "final_velocity": (
-            ("every_node", "axis"), history.final.velocity, {"units": "m/s", "long_name": "velocity of the last state"},
+            ("every_node", "axis"), last.velocity, {"units": "m/s", "long_name": "velocity of the last state"},
         ),
     }  # fmt: skip
     coords: dict[str, Any] = {"frame": history.time[chosen], "axis": AXES, "node": history.nodes, "bar": history.bars}
@@ -263,7 +280,7 @@ def _frames(plan: RunPlan, history: History) -> xr.Dataset:
         ):  # fmt: skip
             data[name] = ("wave", np.asarray(values))
     out = labelled(xr.Dataset(data, coords=coords))
-    out.attrs |= {"final_time": history.final.time, "ramp": plan.flow.ramp or plan.flow.wave_ramp}
+    out.attrs |= {"final_time": last.time, "ramp": plan.flow.ramp or plan.flow.wave_ramp}
     return out
 
 
@@ -349,7 +366,7 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
 
 
 def _counted(problem: NetworkProblem, item: Run) -> NDArray[np.bool_]:
-    time = item.history.time
+    time = item.series["time"].values
     return np.asarray(time >= time[0] + problem.settings.skip)
 
 
@@ -361,7 +378,7 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
         "snap_threshold", "largest_snap", "shortest_rise",
     )  # fmt: skip
     out: dict[str, list[float]] = {key: [] for key in keys}
-    time = item.history.time[chosen]
+    time = item.series["time"].values[chosen]
     for name in lines:
         record = item.series["line_tension"].sel(line=name).values[chosen] if chosen.any() else np.zeros(0)
         snaps = item.snaps.get(name)

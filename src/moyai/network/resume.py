@@ -1,0 +1,122 @@
+"""Go on with runs that were interrupted, from the last state that their results keep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.results import Result, read_result
+from moyai.flexible.result import History, State
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+#: Sizes of the network that a node may be away from where it was built, in a state that is worth keeping.
+FAR = 20.0
+
+
+@dataclass(frozen=True, eq=False)
+class Earlier:
+    """What an earlier result holds of a run.
+
+    Parameters
+    ----------
+    state : State
+        Its last good state.
+    series, frames : xarray.Dataset
+        Its rows.
+    """
+
+    state: State
+    series: xr.Dataset
+    frames: xr.Dataset
+
+
+def last_good_state(history: History) -> State:
+    """Return the state at the end of a run, or, where that is no longer finite, the last row that is.
+
+    Rows hold places only; velocities are then the difference of the last two good rows.
+    """
+    final, built = history.final, history.network.nodes.position
+    # what has flown far away is no state to go on from, finite or not
+    reach = FAR * max(float(np.max(np.ptp(built, axis=0))), 1e-9)
+    if np.isfinite(final.velocity).all() and float(np.max(np.abs(final.position - built))) <= reach:
+        return final
+    count = len(history.network.nodes)
+    away = np.abs(history.position - built[history.nodes]).max(axis=(1, 2))
+    good = np.flatnonzero(away <= reach)
+    if history.nodes.size != count or good.size == 0:
+        return State.at_rest(history.network, float(history.time[0]))
+    last = int(good[-1])
+    velocity = np.zeros((count, 3))
+    if last > 0:
+        velocity = (history.position[last] - history.position[last - 1]) / (history.time[last] - history.time[last - 1])
+    return State(float(history.time[last]), np.array(history.position[last]), np.asarray(velocity))
+
+
+def read_earlier(path: Path) -> Result:
+    """Return an earlier result of a network.
+
+    Raises
+    ------
+    InputError
+        When the file is absent or holds no network.
+    """
+    try:
+        result = read_result(path)
+    except InputError as error:
+        raise InputError(
+            error.fault.message, path="settings.resume", remedy="name results.nc of an earlier run"
+        ) from None
+    if result.tree.attrs.get("structure") != "network":
+        raise InputError(f"{path} holds no network", path="settings.resume", allowed="results.nc of a network")
+    return result
+
+
+def earlier_run(result: Result, level: str, run: str, nodes: int) -> Earlier | None:
+    """Return what an earlier result holds of a run, ``None`` where it was not begun.
+
+    Raises
+    ------
+    InputError
+        When it belongs to another network.
+    """
+    path = f"/{level}/time/{run}"
+    if path not in result.tree.groups or f"{path}/frames" not in result.tree.groups:
+        return None
+    tree: Any = result.tree
+    series, frames = tree[path].to_dataset(inherit=False), tree[f"{path}/frames"].to_dataset(inherit=False)
+    position, velocity = frames["final_position"].values, frames["final_velocity"].values
+    if position.shape != (nodes, 3):
+        raise InputError(
+            f"the run '{run}' of the earlier result has {position.shape[0]} nodes, this network {nodes}",
+            path="settings.resume",
+            allowed="a result of the same network",
+        )
+    if not (np.isfinite(position).all() and np.isfinite(velocity).all()):
+        raise InputError(
+            f"the last state of the run '{run}' is not finite", path="settings.resume", remedy="run it from its start"
+        )
+    return Earlier(State(float(frames.attrs["final_time"]), position, velocity), series, frames)
+
+
+def joined(before: xr.Dataset, after: xr.Dataset, dim: str) -> xr.Dataset:
+    """Return the rows of both along ``dim``; rows of the earlier one beyond the start of the later are dropped."""
+    import xarray as xr
+
+    begin = float(after[dim].values[0])
+    kept = before.isel({dim: np.flatnonzero(before[dim].values < begin - 1e-9)})
+    along = [name for name in after.data_vars if dim in after[name].dims]
+    once = after.drop_dims(dim)
+    both = xr.concat([kept[along], after[along]], dim=dim, combine_attrs="override")
+    out = xr.merge([both, once], combine_attrs="override")
+    for name in out.variables:
+        if name in after.variables:
+            out[name].attrs = dict(after[name].attrs)
+    out.attrs = dict(after.attrs)
+    return out

@@ -1,0 +1,273 @@
+"""Networks as structures: assembly from parts, gathered twines, runs, interruption and going on, failures."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from moyai.case.builder import build
+from moyai.case.reader import load_case
+from moyai.core.errors import InputError
+from moyai.core.results import read_result
+from moyai.flexible.network import BarType
+from moyai.flexible.statics import solve_equilibrium
+from moyai.network.analysis import run
+from moyai.network.assembly import assemble, mesh_bars
+from moyai.network.resume import last_good_state
+from moyai.network.runs import run_plans
+
+SITE = "moyai: 1\ntitle: Test\nsite: {water_depth: 30 m, density: 1025 kg/m3, gravity: 9.81 m/s2}\n"
+ROPE = (
+    "{diameter: 40 mm, mass: 9 kg/m, axial_stiffness: 20 MN, viscosity: 20 kN s, drag_normal: 1.2, "
+    "drag_tangential: 0.06, added_mass_normal: 1}"
+)
+
+
+def problem_of(text, folder):
+    path = folder / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    return build(load_case(path))
+
+
+def line_case(**changes):
+    values = {"length": "46 m", "segments": 12, "analyses": "[statics]", "settings": "{}", "more": "", "position": ""}
+    values |= changes
+    return (
+        SITE
+        + f"""{values["more"]}
+structure:
+  kind: network
+  line_types: {{rope: {ROPE}}}
+  motions: {{surge: {{kind: harmonic, amplitude: [1 m, 0, 0], period: 4 s, ramp: 4 s}}}}
+  points:
+    anchor: {{kind: fixed, position: [0, 0, -12 m]}}
+    fairlead: {{kind: driven, position: [43.9425 m, 0, -2 m], motion: surge{values["position"]}}}
+  lines:
+    rope: {{start: anchor, end: fairlead, type: rope, length: {values["length"]}, segments: {values["segments"]}}}
+analyses: {values["analyses"]}
+settings: {values["settings"]}
+"""
+    )
+
+
+def test_gathered_twines_keep_what_a_strip_of_netting_has():
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        diameter, pitch, spacing = rng.uniform(1e-3, 5e-3), rng.uniform(0.01, 0.05), rng.uniform(0.2, 1.5)
+        twine = BarType("twine", rng.uniform(1e-3, 0.05), rng.uniform(1e2, 1e4), diameter, viscosity=rng.uniform(0, 5))
+        bar, edge = mesh_bars(twine, pitch, spacing, "net")
+        count = spacing / pitch
+        for key in ("mass_per_length", "axial_stiffness", "diameter", "volume_per_length", "viscosity"):
+            assert getattr(bar, key) == pytest.approx(count * getattr(twine, key), rel=1e-12)
+            assert getattr(edge, key) == pytest.approx(0.5 * getattr(bar, key), rel=1e-12)
+        assert bar.wave_speed == pytest.approx(twine.wave_speed, rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.8])
+def test_a_net_keeps_the_area_and_mass_of_its_netting(tmp_path, ratio):
+    text = (
+        SITE
+        + f"""
+structure:
+  kind: network
+  nets:
+    net:
+      corners: [[0, 0, -1], [0, 6, -1], [0, 6, -5], [0, 0, -5]]
+      rows: 9
+      columns: 13
+      hanging_ratio: {ratio}
+      twine: {{diameter: 3 mm, mesh_pitch: 40 mm, density: 1140 kg/m3, modulus: 1 GPa, damping_ratio: 0.1,
+               drag_normal: 1.2, drag_tangential: 0.02}}
+      first_row: fixed
+analyses: [statics]
+"""
+    )
+    network = assemble(problem_of(text, tmp_path), 0.0).network
+    area = float(np.sum(network.bars.length * network.bars.of_type("diameter")))
+    # twine length per stretched area: two families at the pitch
+    wide, high = 6.0 / ratio, 4.0 / ratio
+    assert area == pytest.approx(2.0 * wide * high / 0.04 * 0.003, rel=1e-9)
+    mass = 2.0 * wide * high / 0.04 * 1140.0 * math.pi / 4.0 * 0.003**2
+    assert float(network.node_mass.sum()) == pytest.approx(mass, rel=1e-9)
+
+
+def test_a_line_of_parts_starts_where_it_comes_to_rest(tmp_path):
+    text = (
+        SITE
+        + f"""
+structure:
+  kind: network
+  bed: {{stiffness: 3e5, damping: 3e4, friction: 0}}
+  line_types: {{rope: {ROPE}, heavy: {{diameter: 60 mm, mass: 60 kg/m, axial_stiffness: 100 MN, damping_ratio: 0.5,
+               drag_normal: 1.2, drag_tangential: 0.1, added_mass_normal: 1}}}}
+  points:
+    anchor: {{kind: fixed, position: [0, 0, bed]}}
+    top: {{kind: driven, position: [60 m, 10 m, 0]}}
+  lines:
+    line:
+      start: anchor
+      end: top
+      parts:
+        - {{type: heavy, length: 35 m, segments: 14}}
+        - clump: {{mass: 400 kg, volume: 0.05 m3}}
+        - {{type: rope, length: 38 m, segments: 16}}
+analyses: [statics]
+"""
+    )
+    assembly = assemble(problem_of(text, tmp_path), 0.0)
+    network = assembly.network
+    rest = solve_equilibrium(network)
+    moved = np.linalg.norm(rest.state.position - network.nodes.position, axis=1).max()
+    assert moved < 0.25  # bars instead of a smooth curve, and a soft bed
+    assert assembly.lines["line"].bars.size == 30
+    joint = network.points["line joint 1"]
+    assert network.nodes.mass[joint] == 400.0
+
+
+def test_rows_of_floats_keep_their_sum_and_stand_evenly(tmp_path):
+    more = line_case().replace("segments: 12}", "segments: 23, along: [{count: 5, mass: 3 kg, volume: 0.02 m3}]}")
+    network = assemble(problem_of(more, tmp_path), 0.0).network
+    carrying = np.flatnonzero(network.nodes.mass > 0.0)
+    assert network.nodes.mass.sum() == pytest.approx(15.0)
+    assert carrying.size == 5
+    assert np.ptp(np.diff(carrying)) <= 1
+
+
+def test_water_levels_move_what_floats_and_leave_what_stands(tmp_path):
+    text = line_case(position=", z_from: still_water").replace(
+        "gravity: 9.81 m/s2}", "gravity: 9.81 m/s2, water_levels: {high: 2 m, low: -1 m}}"
+    )
+    problem = problem_of(text, tmp_path)
+    for level in (2.0, -1.0):
+        network = assemble(problem, level).network
+        assert network.nodes.position[network.points["anchor"], 2] == pytest.approx(-12.0 - level)
+        assert network.nodes.position[network.points["fairlead"], 2] == pytest.approx(-2.0)
+        assert network.water.depth == pytest.approx(30.0 + level)
+
+
+def test_stiffness_at_a_driven_point_is_the_slope_of_its_pull(tmp_path):
+    result = run(problem_of(line_case(), tmp_path))
+    assert result.status == "converged"
+    stiffness = result.tree["SWL/statics"]["stiffness"].values[0]
+    assert np.allclose(stiffness, stiffness.T, rtol=1e-3, atol=1e-3 * np.abs(stiffness).max())
+    pull = {}
+    for shift in (-0.02, 0.02):
+        text = line_case().replace("43.9425 m", f"{43.9425 + shift} m")
+        load = run(problem_of(text, tmp_path)).tree["SWL/statics"]["load"]
+        pull[shift] = load.sel(point="fairlead").values[0]
+    slope = -(pull[0.02] - pull[-0.02]) / 0.04
+    assert np.allclose(slope, stiffness[:, 0], rtol=0.02, atol=0.01 * abs(stiffness[0, 0]))
+
+
+def test_modes_of_a_taut_weightless_line_are_those_of_a_string(tmp_path):
+    string = (
+        "{diameter: 1 mm, mass: 2 kg/m, volume: 0, axial_stiffness: 1 MN, viscosity: 0, drag_normal: 0, "
+        "drag_tangential: 0, added_mass_normal: 0}"
+    )
+    text = line_case(length="45 m", segments=40, analyses="[statics, modes]").replace(ROPE, string)
+    text = text.replace("gravity: 9.81 m/s2", "gravity: 1e-6 m/s2")
+    text = text.replace("[43.9425 m, 0, -2 m]", "[45.9 m, 0, -12 m]")
+    result = run(problem_of(text, tmp_path))
+    tension = 1e6 * (45.9 / 45.0 - 1.0)
+    # the mass of the stretched metre
+    first = 2.0 * 45.9 / math.sqrt(tension / (2.0 * 45.0 / 45.9))
+    assert result.tree["SWL/modes"]["mode_period"].values[0] == pytest.approx(first, rel=1e-3)
+
+
+DYNAMIC = {"analyses": "[dynamic]", "settings": "{duration: 12 s, output_step: 20 ms, skip: 4 s}"}
+
+
+def test_an_interrupted_run_goes_on_from_its_last_state(tmp_path):
+    problem = problem_of(line_case(**DYNAMIC), tmp_path)
+    whole = run(problem)
+
+    def stop(what, done, total):
+        if what == "still water" and done > 6.0:
+            raise KeyboardInterrupt
+
+    part = run(problem, stop)
+    assert part.status == "interrupted"
+    assert "settings.resume" in part.message
+    reached = part.tree["SWL/time/still water"]["time"].values[-1]
+    assert 5.0 < reached < 12.0
+    part.write(tmp_path / "results.nc")
+    rest = run(replace(problem, settings=replace(problem.settings, resume=tmp_path / "results.nc")))
+    assert rest.status == "converged"
+    one, two = (r.tree["SWL/time/still water"].to_dataset() for r in (whole, rest))
+    assert np.allclose(one["time"], two["time"], atol=1e-9)
+    peak = float(one["end_tension"].max())
+    assert np.allclose(one["end_tension"], two["end_tension"], atol=5e-3 * peak)
+    with pytest.raises(InputError, match="complete"):
+        rest.write(tmp_path / "done.nc")
+        run(replace(problem, settings=replace(problem.settings, resume=tmp_path / "done.nc")))
+    with pytest.raises(InputError, match="no such file"):
+        run(replace(problem, settings=replace(problem.settings, resume=tmp_path / "absent.nc")))
+
+
+def test_a_run_that_blows_up_says_so_and_keeps_its_last_good_state(tmp_path):
+    settings = "{duration: 12 s, output_step: 20 ms, step: 20 ms}"
+    problem = problem_of(line_case(analyses="[dynamic]", settings=settings), tmp_path)
+    result = run(problem)
+    assert result.status == "not_converged"
+    assert "t = " in result.message
+    assert "node" in result.message
+    result.write(tmp_path / "results.nc")
+    frames = read_result(tmp_path / "results.nc").tree["SWL/time/still water/frames"]
+    assert np.isfinite(frames["final_position"].values).all()
+
+
+def test_nothing_to_rest_on_is_told_and_nothing_is_run(tmp_path):
+    text = (
+        SITE
+        + f"""
+structure:
+  kind: network
+  line_types: {{rope: {ROPE}}}
+  points:
+    a: {{kind: free, position: [0, 0, -5], mass: 10 kg}}
+    b: {{kind: free, position: [10, 0, -5], mass: 10 kg}}
+  lines: {{rope: {{start: a, end: b, type: rope, length: 12 m, segments: 4}}}}
+analyses: [statics, dynamic]
+settings: {{duration: 5 s}}
+"""
+    )
+    result = run(problem_of(text, tmp_path))
+    assert result.status == "not_converged"
+    assert "at rest in still water" in result.message
+    assert "settings.start: as_built" in result.message
+
+
+def test_runs_follow_seas_periods_and_currents(tmp_path):
+    more = (
+        "waves:\n  - {kind: regular, name: swell, height: 1 m, periods: [6, 9], heading_deg: 30}\n"
+        "  - {kind: jonswap, name: storm, significant_height: 1 m, peak_period: 5 s, peak_enhancement: 3.3, "
+        "heading_deg: 0, duration: 60 s, seed: 2}\ncurrent: {speed: 0.5 m/s, heading_deg: 30}\n"
+    )
+    problem = problem_of(line_case(more=more, analyses="[dynamic]"), tmp_path)
+    plans = run_plans(problem, problem.environment.water_at(0.0))
+    assert [plan.name for plan in plans] == ["swell 6 s", "swell 9 s", "storm"]
+    assert [plan.duration for plan in plans] == [120.0, 180.0, 60.0]
+    for plan, period in zip(plans[:2], (6.0, 9.0), strict=True):
+        omega, number = 2.0 * math.pi / period, plan.waves.wave_number[0]
+        intrinsic = omega - number * 0.5
+        assert plan.waves.intrinsic_omega[0] == pytest.approx(intrinsic)
+        assert intrinsic**2 == pytest.approx(9.81 * number * math.tanh(30.0 * number), rel=1e-9)
+        velocity = plan.flow.at(1e4, np.array([[0.0], [0.0], [-31.0]]))[:3, 0]
+        assert np.isfinite(velocity).all()  # a node that sank into the bed still knows its current
+
+
+def test_the_last_good_state_of_a_sound_run_is_its_end(tmp_path):
+    problem = problem_of(line_case(analyses="[dynamic]", settings="{duration: 2 s, output_step: 50 ms}"), tmp_path)
+    from moyai.network import dynamics
+
+    assembly = assemble(problem, 0.0)
+    plan = run_plans(problem, problem.environment.water_at(0.0))[0]
+    item = dynamics.run(problem, assembly, plan, solve_equilibrium(assembly.network).state)
+    assert last_good_state(item.history) is item.history.final
+    bad = replace(
+        item.history, final=replace(item.history.final, position=np.full_like(item.history.final.position, np.nan))
+    )
+    kept = last_good_state(bad)
+    assert np.allclose(kept.position, item.history.position[-1])
+    assert kept.time == pytest.approx(2.0)
