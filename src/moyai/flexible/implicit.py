@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.errors import InputError
 from moyai.flexible import implicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.explicit import driving_tables
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
+from moyai.flexible.parts import network_parts
 from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system
 from moyai.flexible.result import State
 from moyai.flexible.tableaus import TABLEAUS
@@ -39,6 +41,12 @@ class ImplicitRun:
         tolerance: float,
     ) -> None:
         self.network, self.flow, self.name = network, flow, method
+        if network_parts(network) or network.blocks is not None:
+            raise InputError(
+                f"{method!r} does not march sheets, net panels, rings or sections of added mass",
+                path="method",
+                allowed="'explicit' for this network",
+            )
         self.arrays = kernel_arrays(network)
         self.system = kernel_system(self.arrays)
         self.plan = kernel_plan(network, self.arrays)
@@ -98,6 +106,11 @@ class ImplicitRun:
     def limit(self) -> tuple[float, int]:
         """Return the largest step allowed and the node of the largest force at the last failure."""
         return float(self.control[2]), self.worst
+
+    @property
+    def force_left(self) -> float:
+        """Largest force that Newton's method left at the last failure [N]."""
+        return float(self.control[7])
 
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""

@@ -455,7 +455,7 @@ def add_elements(element: Any, members: Any, pairs: Any, free: Any, scale: float
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
 def factor_fronts(numbers: Any, fronts: Any, target: Any, strict: bool) -> bool:
-    """Factor all fronts in place, L U without exchanging rows; False at a pivot that is zero or, if ``strict``, negative.
+    """Factor all fronts in place, L U without exchanging rows; False at a pivot of zero or, if ``strict``, below it.
 
     A matrix whose symmetric part is positive has positive pivots only; one of drag may lack it and still be that of a
     stable rest.
@@ -663,8 +663,8 @@ def _stage(
 ) -> int:  # fmt: skip
     """Solve one stage for its acceleration ``guess`` by Newton's method; 0 when solved, 1 when not.
 
-    ``limits`` is allowed error of place, allowed error of tension. The factors in ``plan`` are kept as long as they
-    serve.
+    ``limits`` is allowed error of place and of tension, force left at the last look and its node. The factors in
+    ``plan`` are kept as long as they serve.
     """
     nodes, start, end = system[0], system[2], system[3]
     spring = system[1][1]
@@ -679,6 +679,7 @@ def _stage(
         forces(place, speed, water, system, fluid, bed, force, tension, mass)
         counts[0] += 1
         _mass_times(mass, guess, nodes, force, -1.0)
+        limits[2], limits[3] = _masked_norm(force, nodes)
         if fresh:
             counts[1] += 1
             if not step_matrix(place, speed, water, system, fluid, bed, mass, 1.0, gain, gain * gain, plan):
@@ -778,11 +779,9 @@ def implicit_march(
     """Advance by rows of the result with an error-controlled implicit Runge-Kutta method [eq:flexible-dirk].
 
     ``water`` is (now, at the start, rate, moving); ``method`` is (stages, embedded, exponent); ``control`` is 0 step, 1
-    smallest step, 2 largest step, 3 tolerance, 4 length for the error of place, 5 largest tension so far, 6 fixed
-    step (1) or
-    not (0), 7 whether ``a`` is known; ``counts`` is force evaluations, factorisations, steps, rejected steps. Returns
-    status,
-    good rows, time reached, node of the largest acceleration.
+    smallest step, 2 largest step, 3 tolerance, 4 length for the error of place, 5 largest tension so far, 6 fixed step
+    (1) or not (0), 7 force left at a failure [N]; ``counts`` is force evaluations, factorisations, steps, rejected
+    steps. Returns status, good rows, time reached, node of the largest force left.
     """
     nodes, start, end = system[0], system[2], system[3]
     spring = system[1][1]
@@ -797,7 +796,7 @@ def implicit_march(
     force, change, own = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
     mass, old_mass = np.empty((count, 6)), np.empty((count, 6))
     tension, peak = np.zeros(start.size), np.full(start.size, -1e300)
-    limits, powers, before = np.empty(2), np.zeros(2), np.zeros(2)
+    limits, powers, before = np.zeros(4), np.zeros(2), np.zeros(2)
     begin = time
     _water_at(now_water, base, rate, 0.0, moving)
     acceleration(x, v, now_water, system, fluid, bed, tension, mass, a)
@@ -853,13 +852,14 @@ def implicit_march(
                 error = _measure(change, place, start, end, spring, limits[0], limits[1])
             if control[6] > 0.0:
                 if bad > 0:
-                    return STUCK, row, time, 0
+                    control[7] = limits[2]
+                    return STUCK, row, time, int(limits[3])
             elif not error <= 1.0:
                 counts[3] += 1
                 control[0] = h * (0.25 if bad > 0 or not error < 1e6 else max(0.2, 0.9 * error**-exponent))
                 if control[0] < control[1]:
-                    _, worst = _masked_norm(force, nodes)
-                    return STUCK, row, time, worst
+                    control[7] = limits[2]
+                    return STUCK, row, time, int(limits[3])
                 continue
             x[:], v[:], a[:] = place, speed, accelerations[many - 1]
             time += h

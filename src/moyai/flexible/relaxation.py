@@ -294,7 +294,10 @@ class Relaxation:
         big: float,
         most: float,
     ) -> tuple[Array, Array, Array, Array, float]:
-        """Take a part of the step that does not overshoot: the forces at its end must not drive it back."""
+        """Take a part of the step that does not overshoot.
+
+        The forces at its end must not drive it back or, where ``most`` is finite, must stay below it.
+        """
         for _ in range(6):
             new, new_pulls, new_pushes = np.empty_like(x), np.empty_like(pulls), pushes.copy()
             force = self._loads_at(x + part * step, radius)

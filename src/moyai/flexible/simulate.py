@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from os import PathLike
 from typing import Literal
 
 import numpy as np
@@ -12,12 +13,14 @@ from numpy.typing import ArrayLike
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
+from moyai.flexible.checks import name_of_node
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
 from moyai.flexible.fronts import front_notices
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
+from moyai.flexible.recovery import write_state
 from moyai.flexible.result import History, RunStatus, State
 from moyai.flexible.tableaus import TABLEAUS
 
@@ -83,6 +86,7 @@ def simulate(
     tolerance: float = TOLERANCE,
     keep_nodes: ArrayLike | None = None,
     keep_bars: ArrayLike | None = None,
+    state_file: str | PathLike[str] | None = None,
     progress: Progress = silent,
 ) -> History:
     """Run a network through time.
@@ -117,6 +121,9 @@ def simulate(
         Error of one implicit step: of tensions over the largest tension, of places over the mean bar length.
     keep_nodes, keep_bars : array_like of int, optional
         Which to keep in the result; all when left out.
+    state_file : path, optional
+        Where the last good state is kept when the run stops before its end; a run can start from it
+        (:func:`moyai.flexible.recovery.read_state`).
     progress : Progress
         Told the simulated time.
 
@@ -160,12 +167,15 @@ def simulate(
     per_chunk = max(1, rows // 20)
     if not flow.steady:
         per_chunk = max(1, min(per_chunk, int(flow.update_interval / interval + 1e-9)))
-    done, status, message, steps, smallest = 0, "converged", "", 0, math.inf
+    status: RunStatus = "converged"
+    done, message, steps, smallest = 0, "", 0, math.inf
+    sound = start
     # rounding must not count as energy: that of a strain of a millionth
     throughput = 1e-12 * float(np.sum(network.bars.of_type("axial_stiffness") * network.bars.length)) + 1e-12
     try:
         while done < rows:
             count = min(per_chunk, rows - done)
+            sound = run.state()
             good = run.advance(count, 1 + done, interval, step, saved)
             steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else steps + good * round(interval / run.step)
             smallest = min(smallest, run.step)
@@ -176,19 +186,48 @@ def simulate(
             done += good
             if good < count or not gain <= ENERGY_STOP * throughput:
                 status = "not_converged"
-                worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
-                message = (
-                    f"stopped at t = {start.time + done * interval:g} s: "
-                    + ("values are no longer finite" if good < count else f"energy of {gain:.3g} J came from nowhere")
-                    + f", fastest at node {worst}; step {run.step:.3g} s, stable below {_limit(run):.3g} s"
-                    + _advice(network)
-                )
+                message = _failure(network, run, start.time + done * interval, good < count, gain)
+                if isinstance(run, ImplicitRun) and good < count and np.isfinite(run.place).all():
+                    # the step that failed has changed nothing
+                    sound = run.state()
                 break
             progress("network", done * interval, duration)
     except KeyboardInterrupt:
         status, message = "interrupted", f"interrupted at t = {start.time + done * interval:g} s"
+    if status == "converged":
+        sound = run.state()
+    elif state_file is not None:
+        message += f"; state of t = {sound.time:g} s in {write_state(state_file, sound)}"
     last = done + 1
-    return _history(network, run, saved, last, start.time, interval, steps, smallest, status, message, throughput)  # type: ignore[arg-type]
+    return _history(
+        network,
+        run,
+        sound,
+        saved,
+        last,
+        start.time,
+        interval,
+        steps,
+        smallest,
+        status,
+        message,
+        throughput,
+    )  # type: ignore[arg-type]
+
+
+def _failure(network: Network, run: ExplicitRun | ImplicitRun, time: float, not_finite: bool, gain: float) -> str:
+    """Return when, where and why a run had to stop, and what helps."""
+    if isinstance(run, ImplicitRun) and not_finite:
+        return (
+            f"stopped at t = {run.time:g} s: no step of {run.step:.3g} s or less goes on, {run.force_left:.3g} N are "
+            f"left at {name_of_node(network, run.worst)}{_advice(network)}"
+        )
+    worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
+    why = "values are no longer finite" if not_finite else f"energy of {gain:.3g} J came from nowhere"
+    return (
+        f"stopped at t = {time:g} s: {why}, fastest at {name_of_node(network, worst)} (node {worst}); "
+        f"step {run.step:.3g} s, stable below {_limit(run):.3g} s{_advice(network)}"
+    )
 
 
 def _advice(network: Network) -> str:
@@ -210,6 +249,7 @@ def _limit(run: ExplicitRun | ImplicitRun) -> float:
 def _history(
     network: Network,
     run: ExplicitRun | ImplicitRun,
+    final: State,
     saved: tuple[np.ndarray, ...],
     last: int,
     begin: float,
@@ -240,7 +280,7 @@ def _history(
         energy[:, 0],
         energy[:, 1],
         energy[:, 2],
-        run.state(),
+        final,
         run.name,
         smallest,
         steps,

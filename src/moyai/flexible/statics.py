@@ -123,7 +123,8 @@ def solve_equilibrium(
 
 def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> tuple[Attempt, str, int]:
     """Try one way after another; return the nearest to rest, how it was found, and all solves."""
-    steps, best, found = 0, Attempt(place, math.inf, 0, 0, False), ""
+    best = last = Attempt(place, math.inf, 0, 0, False)
+    steps, found = 0, ""
 
     def go(name: str, x: Array, way: tuple[float, int], bold: bool, soft: float = 0.0) -> bool:
         nonlocal steps, best, found, last
@@ -137,7 +138,7 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
         return best.converged or steps >= most
 
     # in a current the matrix need not be positive about a stable rest
-    moving, last = bool(np.any(problem.water[:3] != 0.0)), best
+    moving = bool(np.any(problem.water[:3] != 0.0))
     if any(part.stiffness > 0.0 for part in problem.parts):
         x = place
         for share in _shares(problem, place):
@@ -170,7 +171,8 @@ def _shares(problem: Relaxation, place: Array) -> list[float]:
     """Return parts of the stiffness of sheets, from one that loads stretch by a tenth or so to the whole."""
     problem.share = 1e-12
     load = float(np.linalg.norm(problem._loads_at(place, 0.0) * problem.free, axis=1).sum())
-    stiffest = max(part.stiffness for part in problem.parts) * max(problem.typical, 1e-300)
+    extent = float(np.max(np.ptp(problem.network.nodes.position, axis=0)))
+    stiffest = max(part.stiffness for part in problem.parts) * max(extent, 1e-300)
     share, shares = min(1.0, 10.0 * load / stiffest), []
     while share < 0.2:
         shares.append(share)
