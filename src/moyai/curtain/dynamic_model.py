@@ -433,7 +433,9 @@ def _bars(
             strands.append(
                 Strand(f"anchor line, {name}", np.array([tops[number], anchors[number]]), np.array([first + number]))
             )
-    bars = Bars(*(np.concatenate(part) for part in (start, end, length, which)), tuple(types))
+    bars = Bars(
+        np.concatenate(start), np.concatenate(end), np.concatenate(length), np.concatenate(which), tuple(types)
+    )  # fmt: skip
     return bars, tuple(strands)
 
 

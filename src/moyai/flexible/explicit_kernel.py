@@ -417,14 +417,14 @@ def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
 
     Their own inverse blocks are zero, so that the kick of all nodes passes them by.
     """
-    nodes, _, frames, _, inverse, along, _, _ = blocks
+    nodes, _, frames, _, inverse, along, own, _ = blocks
     for g in range(nodes.shape[0]):
         for i in range(nodes.shape[1]):
             node = nodes[g, i]
             for axis in range(3):
                 row = axis * ROW + node
                 A[QX + row] = A[TX + row] + A[FX + row] - A[FX + row - 1]
-    kick_blocks(nodes, frames, inverse, along, A, U, QX, ROW, X, push, level, STIFF, DAMP, FREE_X)
+    kick_blocks(nodes, frames, inverse, along, own, A, U, QX, ROW, X, push, level, STIFF, DAMP, FREE_X)
 
 
 @njit(cache=True, error_model="numpy")

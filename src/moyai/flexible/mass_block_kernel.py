@@ -50,16 +50,17 @@ def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int
 
 @njit(cache=True, error_model="numpy")
 def kick_blocks(
-    nodes: Any, frames: Any, inverse: Any, light: Any, A: Any, vel: int, force: int, axis: int, place: int, push: float,
+    nodes: Any, frames: Any, inverse: Any, light: Any, own: Any, A: Any, vel: int, force: int, axis: int, place: int, push: float,
     level: float, stiff: int, damp: int, free: int,
 ) -> None:  # fmt: skip
     """Advance the velocities of the nodes of blocks by ``push`` times their force, and hold them off a smooth bed.
 
     ``force`` names the rows that hold the whole force of each node, ``free`` those that hold 1 where it may move.
-    ``inverse`` is the inverse of the whole mass over the local unknowns, ``light`` that of each node along the cable.
+    ``inverse`` is the inverse of the whole mass over the local unknowns, ``light`` that of each node along the cable,
+    ``own`` the mass of each node without water.
     """
     count = nodes.shape[1]
-    f, kick = np.empty(2 * count), np.empty(2 * count)
+    f, kick, rest = np.empty(2 * count), np.empty(2 * count), np.empty(2 * count)
     for g in range(nodes.shape[0]):
         for i in range(count):
             at = force + nodes[g, i]
@@ -70,6 +71,17 @@ def kick_blocks(
             for j in range(2 * count):
                 row += inverse[g, i, j] * f[j]
             kick[i] = push * row
+        # the own mass does not stretch with the section: one step of an iteration takes it out again
+        for i in range(count):
+            more = own[g, i] * (1.0 / (frames[g, i, ROOT] * frames[g, i, ROOT]) - 1.0)
+            rest[i], rest[count + i] = more * kick[i], more * kick[count + i]
+        for i in range(2 * count):
+            row = 0.0
+            for j in range(2 * count):
+                row += inverse[g, i, j] * rest[j]
+            f[i] = row
+        for i in range(2 * count):
+            kick[i] -= f[i]
         for i in range(count):
             at, to = force + nodes[g, i], vel + nodes[g, i]
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]

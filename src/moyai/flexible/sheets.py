@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -118,10 +119,10 @@ class Sheets:
         self._check_areas()
         self._check_law()
 
-    def _keep(self, name: str, array: NDArray[np.float64] | IntArray) -> None:
-        array = np.ascontiguousarray(array)
-        array.setflags(write=False)
-        object.__setattr__(self, name, array)
+    def _keep(self, name: str, array: NDArray[Any]) -> None:
+        kept = np.ascontiguousarray(array)
+        kept.setflags(write=False)
+        object.__setattr__(self, name, kept)
 
     def _check_areas(self) -> None:
         longest = np.max(np.linalg.norm(self.rest - np.roll(self.rest, 1, axis=1), axis=2), axis=1)
@@ -249,7 +250,8 @@ def sheet_stress(sheets: Sheets, position: ArrayLike) -> SheetStress:
     out = np.empty((len(sheets), 6))
     place = np.ascontiguousarray(position, dtype=np.float64)
     kernel.stress_field(sheets.constants(Water(np.inf, 1.0, 1.0)), sheets.triangles, place, out)
-    return SheetStress(*(out[:, k].copy() for k in range(5)), out[:, 5].astype(np.int64))
+    warp, weft, shear, first, second, state = (np.array(column) for column in out.T)
+    return SheetStress(warp, weft, shear, first, second, state.astype(np.int64))
 
 
 def sheet_grid(nodes: ArrayLike, warp: ArrayLike, weft: ArrayLike) -> tuple[IntArray, Array]:

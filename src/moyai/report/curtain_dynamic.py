@@ -93,8 +93,8 @@ def worth_table(level: CurtainLevel) -> Table | None:
         key(level, "dynamic-worth"),
         "What the peak of both cables is worth",
         (Column("Run", list(names)), *columns),
-        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread of a "
-        "row is what the number is worth.",
+        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread of "
+        "a row is what the number is worth.",
     )
 
 
@@ -120,8 +120,8 @@ def snap_table(level: CurtainLevel, run: Group) -> Table | None:
         key(level, run.name, "dynamic-snaps"),
         "Slack and snaps",
         (Column("Line", list(names)), *columns),
-        f"Counted from t = {attribute(run, 'counted_from'):.3g} s, cables at their support; a snap exceeds the threshold, "
-        "its rise goes from a tenth to nine tenths.",
+        f"Counted from t = {attribute(run, 'counted_from'):.3g} s, cables at their support; a snap exceeds the "
+        "threshold, its rise goes from a tenth to nine tenths.",
     )
 
 
@@ -133,7 +133,8 @@ def tension_figure(level: CurtainLevel, run: Group) -> Figure | None:
     lines = {name: run.real("tension_peak", "time", line=name) for name in run.labels("line")}
     known = {name: values for name, values in lines.items() if values is not None}
     factor, unit = common_scale("N", both, *known.values())
-    peak = int(np.nanargmax(both))
+    late = np.nan_to_num(both) * (time >= attribute(run, "counted_from") - 1e-9)
+    peak = int(np.argmax(late if late.any() else np.nan_to_num(both)))
     first, last = window_around(time, float(time[peak]), _length(time, attribute(run, "period")))
     place = run.real("mid_span_x", "time")
     toe = run.real("mid_toe_x", "time")
@@ -231,8 +232,8 @@ def span_animation(level: CurtainLevel, run: Group) -> Animation | None:
         key(level, run.name, "dynamic-view"),
         f"The span in motion: {run.name}",
         scene,
-        "To scale, axes of the span: x downstream, y along it. The skirt is coloured by its higher principal tension, the "
-        f"cables by theirs; opened at the highest tension, t = {moment:.3g} s.",
+        "To scale, axes of the span: x downstream, y along it. The skirt is coloured by its higher principal tension, "
+        f"the cables by theirs; opened at the highest tension, t = {moment:.3g} s.",
     )
 
 
