@@ -105,6 +105,7 @@ def _record(found: NetFindings, result: Any, files: list[Path], seconds: float) 
                 "factor_interval": list(item.factor_interval),
                 "exponent": item.exponent,
                 "exponent_interval": list(item.exponent_interval),
+                "law": item.text,
             }
             for item in found.laws
         ],
@@ -177,8 +178,8 @@ def _print(found: NetFindings, result: Any, files: list[Path]) -> None:
         ],
     )
     show(
-        ("net", "A", "B", "runs"),
-        [(item.net, f"{item.factor:.3g}", f"{item.exponent:.3f}", str(item.count)) for item in found.laws],
+        ("net", "A", "B", "runs", "as a law of a case"),
+        [(item.net, f"{item.factor:.3g}", f"{item.exponent:.3f}", str(item.count), item.text) for item in found.laws],
     )
     show(
         ("run", "line", "end", "mean [N]", "least", "peak", "first harmonic"),

@@ -55,6 +55,12 @@ class PowerLaw:
     reynolds_range: tuple[float, float]
     count: int
 
+    @property
+    def text(self) -> str:
+        """The law as a case file takes it, ``11.4 Re^-0.401 from 123 to 1105``."""
+        low, high = self.reynolds_range
+        return f"{self.factor:.4g} Re^-{self.exponent:.3f} from {math.floor(low)} to {math.ceil(high)}"
+
     def at(self, reynolds: ArrayLike) -> Array:
         """Return C_D."""
         return np.asarray(self.factor * np.asarray(reynolds, dtype=float) ** -self.exponent)

@@ -178,7 +178,12 @@ def _finish_axes(canvas: Any, axes: Any, figure: Figure) -> None:
     else:
         last.set_xlabel(_labelled(abscissa.label, abscissa.unit))
         if abscissa.log:
+            from matplotlib.ticker import FuncFormatter, NullFormatter
+
             last.set_xscale("log")
+            # the usual labels of powers are markup, which titles in plain words forbid
+            last.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            last.xaxis.set_minor_formatter(NullFormatter())
         if figure.window is not None:
             last.set_xlim(figure.window)
     _place(canvas, axes)

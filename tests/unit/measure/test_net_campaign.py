@@ -16,6 +16,7 @@ from moyai.case.templates import template
 from moyai.cli.main import app
 from moyai.core.errors import CaseError
 from moyai.core.results import read_result
+from moyai.morison.net_law import net_law
 from moyai.report.writer import compose_document
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples" / "nets"
@@ -71,6 +72,7 @@ def test_example_gives_back_what_was_planted(run):
     for item in record["laws"]:
         share = module.specimen(item["net"]).net.solidity
         low, high = item["exponent_interval"]
+        assert net_law(item["law"]).exponent == pytest.approx(item["exponent"], abs=1e-3)
         assert low - 0.02 < 0.36 - 0.1 * (share - 0.3) < high + 0.02
     assert record["joint_law"]["left_out_error"] < record["joint_law"]["pooled_error"]
 
