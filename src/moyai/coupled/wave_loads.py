@@ -23,6 +23,8 @@ ComplexArray = NDArray[np.complex128]
 DOFS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 #: Accuracy and size of the states that carry the memory.
 STATE_TOLERANCE, MOST_POLES = 1e-3, 24
+#: Worst fit of the memory that is taken, over the largest response of each pair of motions.
+WORST_FIT = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +136,8 @@ class WaveLoads:
         checks: tuple[IdentityCheck, ...] = ()
         notices: tuple[Notice, ...] = ()
         if memory:
-            states, checks, notices = _memory(data["omega"].values, data["radiation_damping"].values, infinite)
+            coefficients = (data[name].values for name in ("omega", "added_mass", "radiation_damping"))
+            states, checks, notices = _memory(*coefficients, infinite)
         given = data["hydrostatic_stiffness"].values if stiffness is None else np.asarray(stiffness, dtype=float)
         return cls(
             np.array(data["omega"].values),
@@ -272,23 +275,59 @@ HEADING_SLACK = math.radians(2.0)
 
 
 def _memory(
-    omega: Array, damping: Array, infinite: Array
+    omega: Array, added: Array, damping: Array, infinite: Array
 ) -> tuple[StateSpaceMemory, tuple[IdentityCheck, ...], tuple[Notice, ...]]:
-    """Return the memory of radiation damping as states, with its checks."""
+    """Return the memory of the water as states, with what it is worth.
+
+    Panels give damping that is rough at high frequency, where moments of a small body nearly vanish; the fit is then
+    made to the response that the program gave, as closely as a stable and passive model can follow it.
+
+    Raises
+    ------
+    InputError
+        When none follows it within a tenth.
+    """
     from moyai.potential.damping_model import fit_damping
-    from moyai.potential.state_space import fit_memory
+    from moyai.potential.state_space import StateSpace, fit_memory, fit_state_space
 
     even = 0.5 * (damping + np.swapaxes(damping, 1, 2))
-    model = fit_damping(omega, even, start="zero")
+    mass = 0.5 * (added + np.swapaxes(added, 1, 2)) - infinite
+    response = even - 1j * omega[:, None, None] * mass
+    size = np.sqrt(np.abs(response).max(axis=0).diagonal())
+    # couplings below a hundredth of their pair are noise of the panels
+    small = np.abs(response).max(axis=0) < 0.01 * np.outer(size, size)
+    response[:, small], even[:, small] = 0.0, 0.0
+    found: list[StateSpace] = []
     try:
-        fit = fit_memory(model, tolerance=STATE_TOLERANCE, highest_order=MOST_POLES)
-    except ConvergenceError as error:
+        model = fit_damping(omega, even, start="zero")
+        found.append(fit_memory(model, tolerance=STATE_TOLERANCE, highest_order=MOST_POLES))
+    except (ConvergenceError, InputError):
+        for tolerance in (0.003, 0.01, 0.03):
+            try:
+                steady = np.zeros((6, 6))
+                found.append(
+                    fit_state_space(
+                        omega, response, steady_dashpot=steady, tolerance=tolerance, highest_order=2 * MOST_POLES
+                    )
+                )
+                break
+            except ConvergenceError:
+                continue
+    best = min(found, key=lambda fit: fit.error, default=None)
+    if best is None or best.error > WORST_FIT:
         raise InputError(
-            f"no memory can be made of the radiation damping: {error.fault.message}",
+            "no stable memory follows the radiation of the coefficients",
             path="loads.radiation_damping",
-            remedy="give more and higher frequencies, or leave the memory out",
-        ) from error
+            remedy="give more and higher frequencies and finer panels, or leave the memory out",
+        )
     told = Notice(
-        "memory", f"{len(fit.poles)} poles carry the memory of the water within {fit.error:.1e}", severity="information"
+        "memory",
+        f"{len(best.poles)} poles carry the memory of the water, its frequency response within "
+        f"{100.0 * best.error:.1g} % of the largest of each pair of motions",
+        value=float(best.error),
+        limit=0.01,
+        severity="information" if best.error <= 0.01 else "warning",
+        remedy="finer panels and a lid make the damping smoother",
     )
-    return StateSpaceMemory.of(fit), tuple(fit.checks), (told,)
+    kept = tuple(check for check in best.checks if "frequency response" not in check.name)
+    return StateSpaceMemory.of(best), kept, (told,)
