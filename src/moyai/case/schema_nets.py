@@ -78,7 +78,7 @@ class RunColumns(Block):
     time: Heading = Field(default="time", description="Column of the time. Default: time.")
     force: Heading | None = Field(default="force", description="Force along the water's motion. Default: force.")
     lift: Heading | None = Field(default=None, description="Force across it.")
-    speed: Heading | None = Field(default=None, description="Measured speed of the carriage.")
+    speed: Heading | None = Field(default=None, description="Measured speed of the carriage, or of the water past it.")
     velocity: Heading | None = Field(default=None, description="Water past the panel, by a meter on the carriage.")
     elevation: Heading | None = Field(default=None, description="Surface at a gauge that moves with the carriage.")
     acceleration: Heading | None = Field(default=None, description="Acceleration of the carriage.")

@@ -12,6 +12,7 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
+from moyai.measure.net_quality import record_notices
 from moyai.measure.net_regression import JointLaw, PowerLaw, fit_joint_law, fit_power_law
 from moyai.measure.net_runs import NetRun, Specimen, Tank
 from moyai.measure.net_tensions import CageRecord, EndTension, measure_tensions
@@ -159,6 +160,8 @@ def measure_nets(campaign: NetCampaign, progress: Progress = silent) -> NetFindi
     still = [run for run in campaign.runs if run.kind == "still_water"]
     moving = [run for run in campaign.runs if run.kind != "still_water"]
     notices: list[Notice] = []
+    for run in campaign.runs:
+        notices.extend(record_notices(run))
     search, vibration = _vibration(campaign, still, notices)
     total = len(still) + len(moving)
     tows = []

@@ -15,7 +15,7 @@ from moyai.measure.force_identification import Fit, ForceRecord, Identification,
 from moyai.measure.force_identification_record import period_of
 from moyai.measure.force_identification_waves import orbital_motion
 from moyai.measure.net_runs import NetRun, Specimen, Tank
-from moyai.measure.net_steady import correlated_covariance, quantile
+from moyai.measure.net_steady import correlated_covariance, quantile, steady_window
 from moyai.measure.net_vibration import Vibration, remove_band, shaken_mass
 
 Array = NDArray[np.float64]
@@ -166,7 +166,7 @@ def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[Flow, t
     notices: list[Notice] = []
     slower = 1.0
     if towed and run.period is not None:
-        expected = encounter_period(run.period, _speed(run, part), tank, run.following)
+        expected = encounter_period(run.period, _speed(run), tank, run.following)
         if abs(met / expected - 1.0) > _PERIOD_GAP:
             notices.append(
                 Notice(
@@ -186,13 +186,11 @@ def wave_flow(run: NetRun, tank: Tank, part: NDArray[np.bool_]) -> tuple[Flow, t
         return Flow(time, velocity, slower * rate, met), tuple(notices)
     wave, rate = _orbital(run, tank, time, signal, met)
     sense = -1.0 if run.following and towed else 1.0
-    return Flow(time, _speed(run, part) + sense * wave, sense * rate, met), tuple(notices)
+    return Flow(time, _speed(run) + sense * wave, sense * rate, met), tuple(notices)
 
 
-def _speed(run: NetRun, part: NDArray[np.bool_]) -> float:
-    if run.kind != "towing_waves":
-        return 0.0
-    return run.speed if run.speed_record is None else float(run.speed_record[part].mean())
+def _speed(run: NetRun) -> float:
+    return run.speed if run.kind == "towing_waves" else 0.0
 
 
 def encounter_period(period: float, speed: float, tank: Tank, following: bool) -> float:
@@ -205,6 +203,16 @@ def encounter_period(period: float, speed: float, tank: Tank, following: bool) -
     if met < 1e-3 * omega:
         raise InputError("the carriage runs as fast as the waves", path="speed", remedy="they are never met")
     return 2.0 * math.pi / met
+
+
+def _settled(run: NetRun) -> NetRun:
+    """Return a run under way with its steady window and its mean speed there, where the carriage's speed is known."""
+    if run.kind != "towing_waves" or run.speed_record is None:
+        return run
+    window = run.window
+    if window is None:
+        window = steady_window(run.time, run.speed_record, is_speed=True)
+    return dataclasses.replace(run, window=window, speed=float(run.speed_record[run.part(window)].mean()))
 
 
 def _harmonic(time: Array, values: Array, period: float, orders: int = 3) -> tuple[Array, Array]:
@@ -292,6 +300,7 @@ def fit_waves(
     bootstrap, seed : int
         Of the intervals.
     """
+    run = _settled(run)
     part = run.part(run.window)
     flow, notices = wave_flow(run, tank, part)
     raw = run.zeroed()[part]

@@ -503,3 +503,37 @@ def test_vibration_that_cannot_be_searched_is_told():
     assert found.towing[0].drag == pytest.approx(1.3, rel=2e-2)
     with pytest.raises(InputError, match="all runs are of the bare frame"):
         NetCampaign("t", TANK, (net,), runs[:1])
+
+
+def test_ramps_of_a_run_through_waves_are_left_out():
+    """The carriage starts and stops within the record; its speed, not a key, says when it is steady and how fast."""
+    rng = np.random.default_rng(81)
+    net = specimen()
+    records = []
+    for name, item in (("n", net), ("f", None)):
+        run = wave_run(QUIET, TANK, item, 1.4, 2.0, name=name, height=0.08, period=1.25, rng=rng, speed=0.4)
+        course = 0.4 * np.clip(np.minimum(run.time / 4.0, (30.0 - run.time) / 3.0), 0.0, 1.0)
+        ramp = course < 0.399
+        spoilt = np.where(ramp, 0.3 * run.force, run.force)
+        slower = np.where(ramp, run.velocity - 0.4 + course, run.velocity)
+        records.append(dataclasses.replace(run, force=spoilt, velocity=slower, speed_record=course, speed=0.0))
+    found, notices = coefficients(*records, net)
+    assert found.drag == pytest.approx(1.4, rel=1e-6)
+    assert found.mean_velocity == pytest.approx(0.4, rel=0.02)
+    assert not [item for item in notices if item.code == "net-encounter-period"]
+
+
+def test_clipped_and_spiky_records_are_told():
+    rng = np.random.default_rng(83)
+    net = specimen()
+    run = wave_run(Rig(vibration_force=0.0), TANK, net, 1.4, 2.0, name="n", height=0.08, period=1.25, rng=rng)
+    force = run.force.copy()
+    force[400] += 5.0
+    meter = np.clip(run.velocity, -9.0, 0.7 * run.velocity.max())
+    spoilt = dataclasses.replace(run, force=force, velocity=meter)
+    codes = [item.code for item in measure_nets(NetCampaign("t", TANK, (net,), (run,), vibration="none")).notices]
+    assert not [code for code in codes if code.startswith("net-record")]
+    found = measure_nets(NetCampaign("t", TANK, (net,), (spoilt,), vibration="none"))
+    told = {item.code: item for item in found.notices}
+    assert "1 of 1500 samples of the force are spikes" in told["net-record-spikes"].message
+    assert "velocity" in told["net-record-clipped"].message
