@@ -31,6 +31,10 @@ class Packed(NamedTuple):
     normal_table: Array
     tangential_table: Array
     table_axis: Array
+    node_x: Array
+    node_z: Array
+    travel: Array
+    depth_parts: Array
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -89,6 +93,89 @@ def _water_at(p: Packed, t: float, x: float, z: float, out: Array) -> None:
         out[2] += sigma * upward * imaginary
         out[3] += sense * sigma * sigma * across * imaginary
         out[4] -= sigma * sigma * upward * real
+
+
+@njit(cache=True, error_model="numpy")
+def _fill_nodes(p: Packed, t: float, x: float, nodes: Array) -> None:
+    """Sum the waves at nodes around x: elevation, velocities, accelerations, shape (5, node_x, node_z).
+
+    The travel from x to the nodes and the depth functions are known beforehand, so that a component costs one sine
+    and cosine for all of them [eq:cage-nodes].
+    """
+    ramp = p.water[3]
+    grown = 1.0
+    if ramp > 0.0 and t < ramp:
+        grown = 0.5 * (1.0 - math.cos(math.pi * max(t, 0.0) / ramp))
+    c = p.components
+    across, upward = p.node_x.shape[1], p.node_z.shape[1]
+    nodes[:] = 0.0
+    for i in range(c.shape[1]):
+        angle = c[6, i] * c[4, i] * x - c[0, i] * t + c[3, i]
+        amplitude = grown * c[2, i]
+        first, second = amplitude * math.cos(angle), amplitude * math.sin(angle)
+        sigma, sense = c[1, i], c[6, i]
+        for m in range(across):
+            real = first * p.travel[0, m, i] - second * p.travel[1, m, i]
+            imaginary = first * p.travel[1, m, i] + second * p.travel[0, m, i]
+            nodes[0, m, 0] += real
+            along, rising = sense * sigma * real, sigma * imaginary
+            pushed, lifted = sense * sigma * sigma * imaginary, sigma * sigma * real
+            for n in range(upward):
+                nodes[1, m, n] += p.depth_parts[0, n, i] * along
+                nodes[2, m, n] += p.depth_parts[1, n, i] * rising
+                nodes[3, m, n] += p.depth_parts[0, n, i] * pushed
+                nodes[4, m, n] -= p.depth_parts[1, n, i] * lifted
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def _shares(nodes: Array, at: float, out: Array) -> None:
+    """Fill the values of the Lagrange polynomials of nodes (row 0, barycentric weights in row 1)."""
+    total = 0.0
+    for m in range(nodes.shape[1]):
+        gap = at - nodes[0, m]
+        if abs(gap) < 1e-13:
+            out[:] = 0.0
+            out[m] = 1.0
+            return
+        out[m] = nodes[1, m] / gap
+        total += out[m]
+    for m in range(nodes.shape[1]):
+        out[m] /= total
+
+
+@njit(cache=True, error_model="numpy")
+def _from_nodes(p: Packed, x: float, z: float, nodes: Array, share: Array, out: Array) -> None:
+    """Interpolate the waves between their nodes; ``x`` counts from the middle of the nodes."""
+    across, upward = p.node_x.shape[1], p.node_z.shape[1]
+    beside, below = share[0, :across], share[1, :upward]
+    _shares(p.node_x, x, beside)
+    eta = 0.0
+    for m in range(across):
+        eta += beside[m] * nodes[0, m, 0]
+    level = z
+    if p.water[4] == 2.0:
+        depth = p.water[2]
+        level = z - eta if math.isinf(depth) else (z - eta) * depth / (depth + eta)
+    level = min(max(level, p.node_z[0, 0]), 0.0)
+    _shares(p.node_z, level, below)
+    out[0] = eta
+    for q in range(1, 5):
+        total = 0.0
+        for m in range(across):
+            column = 0.0
+            for n in range(upward):
+                column += below[n] * nodes[q, m, n]
+            total += beside[m] * column
+        out[q] = total
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def _water(p: Packed, t: float, middle: float, x: float, z: float, nodes: Array, share: Array, out: Array) -> None:
+    """Fill elevation, velocity and acceleration at a point, directly or between nodes."""
+    if nodes.shape[0] > 0:
+        _from_nodes(p, x - middle, z, nodes, share, out)
+    else:
+        _water_at(p, t, x, z, out)
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -182,6 +269,12 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
     vertical, constant_buoyancy = p.body[4], p.body[5]
     cosine, sine = math.cos(y[2]), math.sin(y[2])
     turn = y[5] * y[5]
+    # many components are summed at nodes around the cage, few at every part
+    across, upward = p.node_x.shape[1], p.node_z.shape[1]
+    nodes = np.empty((5 if across > 0 else 0, across, upward))
+    share_of = np.empty((2, max(across, upward)))
+    if across > 0:
+        _fill_nodes(p, t, y[0], nodes)
     force[:] = 0.0
     mass[:] = 0.0
     mass[0, 0] = mass[1, 1] = p.body[0]
@@ -194,7 +287,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         e = p.spheres[i]
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
         x, z = y[0] + rx, y[1] + rz
-        _water_at(p, t, x, z, work)
+        _water(p, t, y[0], x, z, nodes, share_of, work)
         radius = e[2]
         high = work[0] - z + radius
         if high <= 0.0 and not weightless:
@@ -227,7 +320,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
         nx, nz = cosine * e[2] + sine * e[3], -sine * e[2] + cosine * e[3]
         x, z = y[0] + rx, y[1] + rz
-        _water_at(p, t, x, z, work)
+        _water(p, t, y[0], x, z, nodes, share_of, work)
         share = 1.0 if weightless else _wet(work[0], z, e[6] * math.sqrt(max(0.0, 1.0 - nz * nz)))
         if share <= 0.0:
             continue
@@ -256,6 +349,12 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         through = ax * nx + az * nz
         fx += second * ax + (first - second) * through * nx
         fz += second * az + (first - second) * through * nz
+        # the added mass turns with the panel: rate of its impulse, and the couple of its axes [eq:cage-turning]
+        turning = first - second
+        swept = y[5] * (wx * nz - wz * nx)
+        fx += turning * (swept * nx + across * y[5] * nz)
+        fz += turning * (swept * nz - across * y[5] * nx)
+        force[2] += turning * across * (wx * nz - wz * nx)
         if not weightless:
             fz += density * gravity * volume
         _add(force, vertical, rx, rz, fx, fz)
@@ -266,7 +365,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
         ex, ez = cosine * e[2] + sine * e[3], -sine * e[2] + cosine * e[3]
         x, z = y[0] + rx, y[1] + rz
-        _water_at(p, t, x, z, work)
+        _water(p, t, y[0], x, z, nodes, share_of, work)
         share = 1.0 if weightless else _wet(work[0], z, 0.5 * (abs(ez) * e[4] / e[11] + e[5]))
         if share <= 0.0:
             continue
@@ -282,6 +381,10 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         through = ax * ex + az * ez
         fx = drag * px + density * volume * e[10] * work[3] + added * (ax - through * ex)
         fz = drag * pz + density * volume * e[10] * work[4] + added * (az - through * ez)
+        swept = y[5] * (wx * ez - wz * ex)
+        fx -= added * (swept * ex + along * y[5] * ez)
+        fz -= added * (swept * ez - along * y[5] * ex)
+        force[2] -= added * along * (wx * ez - wz * ex)
         if not weightless:
             fz += density * gravity * volume
         _add(force, vertical, rx, rz, fx, fz)
@@ -289,7 +392,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
     for i in range(p.blocks.shape[0]):
         e = p.blocks[i]
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
-        _water_at(p, t, y[0] + rx, y[1] + rz, work)
+        _water(p, t, y[0], y[0] + rx, y[1] + rz, nodes, share_of, work)
         added = density * e[2] * e[4]
         fx = density * e[2] * e[3] * work[3] + added * turn * rx
         fz = density * e[2] * e[3] * work[4] + added * turn * rz
@@ -463,6 +566,7 @@ def march(
     y: Array,
     first_step: float,
     longest: float,
+    longest_taut: float,
     tolerance: float,
     scale: Array,
     begin: float,
@@ -480,8 +584,8 @@ def march(
         [s].
     y : array, shape (6,)
         State, changed in place.
-    first_step, longest : float
-        First and longest step [s].
+    first_step, longest, longest_taut : float
+        First step, longest steps with slack lines and with taut ones [s].
     tolerance : float
         Local error allowed, of ``scale`` plus the size of the state.
     scale : array, shape (6,)
@@ -496,7 +600,7 @@ def march(
     Returns
     -------
     float, float
-        Time reached (smaller than ``end`` when the step shrank to nothing) and next step [s].
+        Time reached (smaller than ``end`` when the step shrank to nothing or the motion left all bounds), next step [s].
     """
     size = y.size
     lines = p.lines.shape[0]
@@ -517,8 +621,13 @@ def march(
     row = math.ceil((t - begin) / spacing - 1e-9)
     checks = 6
     while t < end * (1.0 - 1e-15):
-        h = min(h, end - t, longest)
-        if h < 1e-13 * max(abs(end), 1.0):
+        most = longest
+        for i in range(lines):
+            if taut[i] > 0.0:
+                most = longest_taut
+        h = min(h, end - t, most)
+        if h < 1e-13 * max(abs(end), 1.0) or abs(y[3]) + abs(y[4]) > 1e2 * scale[3]:
+            # a hundred times the speed of free fall through the cage: it has left all bounds
             return t, h
         _step(p, t, y, h, taut, k, new, stage, work)
         counts[3] += 6

@@ -13,7 +13,7 @@ from moyai.cage.rigid_parts import RigidCage
 from moyai.morison.net_law import Net, NetLaw
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
-from moyai.sea.kinematics import stretching_code
+from moyai.sea.kinematics import depth_functions, stretching_code
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
@@ -53,6 +53,12 @@ LINE_COLUMNS = ("attachment_x", "attachment_z", "anchor_x", "anchor_z", "length"
 TABLE_ANGLES = 65
 TABLE_PER_DECADE = 40
 TABLE_DECADES = (-4, 1.5)
+
+#: Up to this number waves are summed at every part of the cage, beyond it at nodes around it
+FEW_WAVES = 4
+#: Nodes along x and over the depth
+NODES_ALONG = 8
+NODES_DOWN = 9
 
 #: Pieces that a rod is cut into along the plane of motion
 ROD_PIECES = 5
@@ -102,7 +108,8 @@ def sphere_rows(cage: RigidCage) -> Array:
     for weight in cage.weights:
         if weight.volume > 0.0:
             radius = (0.75 * weight.volume / math.pi) ** (1.0 / 3.0)
-            rows.append((weight.point[0] - x, weight.point[2] - z, radius, 1.0, 0.6, 1.5, 0.5))
+            added = weight.added_mass
+            rows.append((weight.point[0] - x, weight.point[2] - z, radius, 1.0, weight.drag, 1.0 + added, added))
     array = np.array(rows, dtype=float).reshape(-1, len(SPHERE_COLUMNS))
     return _merged(array, (0, 1, 2, 4, 5, 6), (3,))
 
@@ -196,6 +203,42 @@ def component_rows(waves: WaveComponents | None, depth: float) -> Array:
     )
 
 
+def node_rows(waves: WaveComponents | None, reach: float, depth: float) -> tuple[Array, Array, Array, Array]:
+    """Return nodes around the cage for the sum of many waves, with their travel and depth functions [eq:cage-nodes].
+
+    Chebyshev nodes along x over ``reach`` [m] to both sides, and over the depth that the cage may come to; none for
+    few waves.
+    """
+    if waves is None or len(waves) <= FEW_WAVES:
+        none = np.zeros((2, 0))
+        return none, none, np.zeros((2, 0, 0)), np.zeros((2, 0, 0))
+    along = reach * _lobatto(NODES_ALONG)
+    lowest = -min(depth, 4.0 * reach)
+    heights = 0.5 * lowest * (1.0 - _lobatto(NODES_DOWN))
+    sense = np.where(np.cos(waves.heading) >= 0.0, 1.0, -1.0)
+    turn = np.exp(1j * along[:, None] * (sense * waves.wave_number))
+    horizontal, vertical, _ = depth_functions(waves.wave_number[None, :], depth, heights[:, None])
+    rows = [np.stack([nodes, _barycentric(len(nodes))]) for nodes in (along, heights)]
+    return (
+        rows[0],
+        rows[1],
+        np.ascontiguousarray(np.stack([turn.real, turn.imag])),
+        np.ascontiguousarray(np.stack([horizontal, vertical])),
+    )
+
+
+def _lobatto(count: int) -> Array:
+    """Return Chebyshev nodes of the second kind on -1..1, rising."""
+    return np.asarray(-np.cos(math.pi * np.arange(count) / (count - 1)), dtype=np.float64)
+
+
+def _barycentric(count: int) -> Array:
+    """Return the barycentric weights of Chebyshev nodes of the second kind."""
+    weight = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+    weight[[0, -1]] *= 0.5
+    return np.asarray(weight, dtype=np.float64)
+
+
 def current_rows(current: CurrentProfile | None, depth: float) -> Array:
     """Return heights and current along x [m], [m/s]."""
     if current is None:
@@ -242,6 +285,8 @@ def pack(
         Linear damping of sway, heave and rotation, only for the search of rest.
     """
     tables = law_tables(cage.law, cage.net, kinematic_viscosity)
+    arm = max(math.hypot(*cage.extent), 2.0 * float(np.abs(cage.floats.points).max())) / 2.0
+    nodes = node_rows(waves, arm + 0.5 * cage.floats.diameter + math.hypot(*cage.centre), water.depth)
     body = np.array([cage.mass, cage.inertia, cage.mass * water.gravity, 0.0, 1.0, -1.0, *damping])
     return Packed(
         spheres=sphere_rows(cage),
@@ -256,4 +301,8 @@ def pack(
         normal_table=tables[0],
         tangential_table=tables[1],
         table_axis=tables[2],
+        node_x=nodes[0],
+        node_z=nodes[1],
+        travel=nodes[2],
+        depth_parts=nodes[3],
     )

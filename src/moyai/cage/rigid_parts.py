@@ -197,12 +197,25 @@ class Rod:
 
 @dataclass(frozen=True)
 class PointWeight:
-    """A weight (or buoy, where it displaces more) at a point: place from the middle [m], mass [kg], volume [m3]."""
+    """A weight (or buoy, where it displaces more) at a point.
+
+    Parameters
+    ----------
+    name : str
+    point : tuple of three float
+        From the middle of the cage [m].
+    mass, volume : float
+        [kg], [m3].
+    drag, added_mass : float
+        C_d and C_a of a sphere of that volume [-].
+    """
 
     name: str
     point: tuple[float, float, float]
     mass: float
     volume: float
+    drag: float
+    added_mass: float
 
 
 @dataclass(frozen=True, eq=False)

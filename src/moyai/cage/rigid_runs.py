@@ -119,8 +119,9 @@ def run_wave(
     places = attachments(lines, found.state, cage.centre)
     ends = end_tensions(lines, places[:, :, 1], found.tension)
     peaks = end_tensions(lines, places[:, :, 1], found.tension_peak)
-    skip = (settings.periods - settings.settled_periods) * wave.period if wave.regular else 0.0
-    if not wave.regular:
+    if wave.regular:
+        skip = max(0.0, wave.duration - settings.settled_periods * wave.period)
+    else:
         skip = min(settings.ramp_periods * wave.period, 0.5 * wave.duration)
     skip = min(skip, float(found.time[-1]) * 0.5) if found.status != "converged" else skip
     numbers = numbers_of(found, rest.place, ends, peaks, wave.period, skip)

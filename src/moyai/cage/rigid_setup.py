@@ -142,28 +142,34 @@ def _balance(
         place, tension = unpack(unknown)
         return (force_at(still, place) + pull_of(place, tension)) / np.array([weight, weight, weight * size])
 
+    if depth is None:
+        _require_carried(cage, drafts, water, free, given)
     found, error = _root(residual, np.array([0.0, 0.1 if depth is not None else 0.0, 0.0]))
     place, tension = unpack(found)
     if error > 1e-8 or (tension < -1e-9 * weight).any():
-        raise InputError(*_overloaded(cage, drafts, water, free, given, depth))
+        raise InputError(
+            "the tensions of the lines do not balance: the cage finds no rest with them",
+            path="structure.mooring",
+            remedy="give lines on both sides, or their lengths",
+        )
     return place, tension
 
 
-def _overloaded(
-    cage: RigidCage, drafts: tuple[CageLine, ...], water: Water, free: Rest, given: Array, depth: float | None
-) -> tuple[str]:
-    """Say what the floats carry and what the lines ask for."""
+def _require_carried(cage: RigidCage, drafts: tuple[CageLine, ...], water: Water, free: Rest, given: Array) -> None:
+    """Refuse tensions that pull more than the floats carry, with the directions of the floating cage."""
     carried = reserve_buoyancy(cage, water)
-    asked = 0.0
-    for line, value in zip(drafts, given):
+    steep = []
+    for line in drafts:
         px, pz = line.place(free.place, cage.centre)
-        asked += value * (pz - line.anchor[1]) / math.hypot(px - line.anchor[0], pz - line.anchor[1])
-    if depth is None and asked > carried:
-        return (
-            f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond "
-            "its weight",
+        steep.append((pz - line.anchor[1]) / math.hypot(px - line.anchor[0], pz - line.anchor[1]))
+    asked = float(given @ np.array(steep))
+    if asked > carried:
+        equal = carried / max(sum(steep), 1e-12)
+        raise InputError(
+            f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond its weight",
+            path="structure.mooring.pretension",
+            allowed=f"less than about {equal:.4g} N in each line",
         )
-    return ("the pretension of the lines does not balance: the cage finds no rest with these tensions",)
 
 
 def _root(residual: Callable[[Array], Array], start: Array) -> tuple[Array, float]:

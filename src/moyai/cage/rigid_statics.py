@@ -68,13 +68,34 @@ def force_at(packed: Packed, place: Array) -> Array:
 
 
 def stiffness_at(packed: Packed, place: Array, size: float) -> Array:
-    """Return -d(force)/d(place) by central differences."""
+    """Return -d(force)/d(place): lines by their formulas, which bend where they go slack, the rest by differences."""
+    bare = packed._replace(lines=packed.lines[:0].copy())
     out = np.empty((3, 3))
     for column, step in enumerate((1e-6 * size, 1e-6 * size, 1e-6)):
         shift = np.zeros(3)
         shift[column] = step
-        out[:, column] = -(force_at(packed, place + shift) - force_at(packed, place - shift)) / (2.0 * step)
+        out[:, column] = -(force_at(bare, place + shift) - force_at(bare, place - shift)) / (2.0 * step)
+    for line in packed.lines:
+        out += line_stiffness_at(line, place)
     return out
+
+
+def line_stiffness_at(line: Array, place: Array) -> Array:
+    """Return the elastic and geometric stiffness of a taut line, zero of a slack one [eq:cage-line-stiffness]."""
+    cosine, sine = math.cos(place[2]), math.sin(place[2])
+    arm = np.array([cosine * line[0] + sine * line[1], -sine * line[0] + cosine * line[1]])
+    away = place[:2] + arm - line[2:4]
+    span = float(np.hypot(*away))
+    stretch = span - line[4]
+    if stretch <= 0.0:
+        return np.zeros((3, 3))
+    # rows x, z of the attachment by (x, z, rotation)
+    turn = np.array([[1.0, 0.0, arm[1]], [0.0, 1.0, -arm[0]]])
+    unit = away / span
+    growth = unit @ turn
+    across = turn.T @ (np.eye(2) - np.outer(unit, unit)) @ turn / span
+    across[2, 2] -= float(unit @ arm)
+    return np.asarray(line[5] * (np.outer(growth, growth) + stretch * across))
 
 
 def immersion(cage: RigidCage, place: Array) -> float:
@@ -229,7 +250,7 @@ def _settle(packed: Packed, place: Array, size: float, held: tuple[int, ...], we
     for turn in range(60):
         span = 20.0 / rate
         _, step = kernel.march(
-            damped, turn * span, (turn + 1) * span, state, step, 1.0 / rate, 1e-7, scale, 0.0, 1e12, rows, tension,
+            damped, turn * span, (turn + 1) * span, state, step, 1.0 / rate, 1.0 / rate, 1e-7, scale, 0.0, 1e12, rows, tension,
             peak, counts,
         )  # fmt: skip
         found, error = _newton(packed, state[:3].copy(), size, held, weight)

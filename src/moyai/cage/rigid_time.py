@@ -56,17 +56,28 @@ def scales(packed: Packed, size: float) -> Array:
     return np.array([size, size, 1.0, size * rate, size * rate, rate])
 
 
-def longest_step(packed: Packed, period: float) -> float:
-    """Return the longest step [s]: a twentieth of the period, half of the fastest bounce on taut lines.
+def longest_steps(packed: Packed, state: Array, period: float) -> tuple[float, float]:
+    """Return the longest step with slack and with taut lines [s] [eq:cage-longest].
 
-    Six places within every step are looked at, so that no bounce goes unseen; how long a step may be when a line is
-    taut is the business of the error control.
+    A twentieth of the period; with taut lines no longer than explicit steps bear without feeding an oscillation on
+    the lines, one radian of it. Six places within every step are looked at, so that no bounce goes unseen.
     """
     longest = period / 20.0
-    if len(packed.lines):
-        fastest = math.sqrt(float(packed.lines[:, 5].sum()) / float(packed.body[0]))
-        longest = min(longest, math.pi / fastest)
-    return longest
+    if not len(packed.lines):
+        return longest, longest
+    force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
+    kernel.loads(packed, 0.0, state, np.full(len(packed.lines), -1.0), force, mass, work)
+    elastic = np.zeros((3, 3))
+    cosine, sine = math.cos(state[2]), math.sin(state[2])
+    for line in packed.lines:
+        arm = np.array([cosine * line[0] + sine * line[1], -sine * line[0] + cosine * line[1]])
+        away = state[:2] + arm - line[2:4]
+        unit = away / float(np.hypot(*away))
+        growth = np.array([unit[0], unit[1], unit[0] * arm[1] - unit[1] * arm[0]])
+        elastic += line[5] * np.outer(growth, growth)
+    factor = np.linalg.inv(np.linalg.cholesky(mass))
+    fastest = math.sqrt(float(np.linalg.eigvalsh(factor @ elastic @ factor.T)[-1]))
+    return min(longest, 2.0 / fastest), min(longest, 0.9 / fastest)
 
 
 def march(
@@ -116,8 +127,8 @@ def march(
     peak = np.zeros((count, lines))
     counts = np.zeros(4, dtype=np.int64)
     state = np.array(start, dtype=float)
-    most = longest_step(packed, period) if longest is None else longest
-    step, now, status = 0.1 * most, 0.0, "converged"
+    slack, taut = longest_steps(packed, state, period) if longest is None else (longest, longest)
+    step, now, status = 0.1 * taut, 0.0, "converged"
     scale = scales(packed, size)
     rows[0] = state
     try:
@@ -127,7 +138,7 @@ def march(
             if end <= now:
                 break
             now, step = kernel.march(
-                packed, now, end, state, step, most, tolerance, scale, 0.0, spacing, rows, tension, peak, counts
+                packed, now, end, state, step, slack, taut, tolerance, scale, 0.0, spacing, rows, tension, peak, counts
             )
             if now < end * (1.0 - 1e-12) or not np.isfinite(state).all():
                 status = "not_converged"

@@ -163,7 +163,14 @@ def cage_of(unit: schema.RigidCageStructure, patches: int) -> RigidCage:
         rod_added_mass=unit.frame.added_mass,
         extent=extent,
         weights=tuple(
-            PointWeight(entry.name or f"sinker {n + 1}", (entry.x, 0.0, entry.z), entry.mass, entry.volume)
+            PointWeight(
+                entry.name or f"sinker {n + 1}",
+                (entry.x, 0.0, entry.z),
+                entry.mass,
+                entry.volume,
+                entry.drag,
+                entry.added_mass,
+            )
             for n, entry in enumerate(unit.sinkers)
         ),
         outline=shape.kind,

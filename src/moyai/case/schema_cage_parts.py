@@ -136,6 +136,8 @@ class Sinker(Block):
     z: Length = Field(description="Height above the middle of the cage, negative under it.")
     mass: Mass = Field(description="Mass in air.")
     volume: Volume = Field(description="Displaced volume.")
+    drag: NonNegativeNumber = Field(default=0.6, description="C_d of a sphere of that volume. Default: 0.6.")
+    added_mass: NonNegativeNumber = Field(default=0.5, description="C_a of a sphere of that volume. Default: 0.5.")
 
 
 class RigidWeight(Block):
