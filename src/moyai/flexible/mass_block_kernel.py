@@ -50,8 +50,8 @@ def block_energy(nodes: Any, frames: Any, added: Any, V: Any, v0: int, axis: int
 
 @njit(cache=True, error_model="numpy")
 def kick_blocks(
-    nodes: Any, frames: Any, inverse: Any, light: Any, own: Any, A: Any, vel: int, force: int, axis: int, place: int, push: float,
-    level: float, stiff: int, damp: int, free: int,
+    nodes: Any, frames: Any, inverse: Any, light: Any, own: Any, A: Any, vel: int, force: int, axis: int, place: int,
+    push: float, level: float, stiff: int, damp: int, free: int,
 ) -> None:  # fmt: skip
     """Advance the velocities of the nodes of blocks by ``push`` times their force, and hold them off a smooth bed.
 

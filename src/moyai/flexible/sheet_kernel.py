@@ -228,8 +228,8 @@ def sheet_loads(
 
     The drag of each corner takes its own relative velocity, across and along the triangle [eq:flexible-sheet-drag].
     ``W`` holds velocity, acceleration and elevation of the water in the same layout; ``light`` (4, n) is one over the
-    own mass of each node and over its mass along a horizontal axis [1/kg], and that axis. Returns the fastest rate at which
-    drag damps a node [1/s].
+    own mass of each node and over its mass along a horizontal axis [1/kg], and that axis. Returns the fastest rate at
+    which drag damps a node [1/s].
     """
     p, n, u = np.empty(6), np.empty(3), np.empty(3)
     fastest = 0.0

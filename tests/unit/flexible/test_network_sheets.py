@@ -26,7 +26,7 @@ NO_BARS = Bars([], [], [], [], ())
 def random_sheet(rng: np.random.Generator, *, tension_field: bool = True, **more: float) -> tuple[Sheets, np.ndarray]:
     """Return an irregular sheet of 3 x 3 cells and its unstretched places."""
     x, y = np.linspace(0.0, 2.0, 4), np.linspace(0.0, 1.5, 4)
-    triangles, rest = sheet_grid(np.arange(16).reshape(4, 4), x, y)
+    triangles, _ = sheet_grid(np.arange(16).reshape(4, 4), x, y)
     flat = np.stack(np.meshgrid(x, y, indexing="ij"), -1).reshape(16, 2)
     flat[[5, 6, 9, 10]] += rng.uniform(-0.12, 0.12, (4, 2))
     warp, weft, shear = 10.0 ** rng.uniform(2.0, 4.0, 3)
@@ -180,7 +180,7 @@ def test_pressurised_cylinder(length: float, stiffness: float, pressure: float) 
 
 @pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0, 2.0])
 def test_skirt_in_a_current(ratio: float) -> None:
-    """Fixed top, toe weight W, load q cos^2: the tension is W, reach a asinh(L/a), flare sqrt(a^2 + L^2) - a, a = W/q."""
+    """Toe weight W, load q cos^2: tension W, reach a asinh(L/a), flare sqrt(a^2 + L^2) - a with a = W/q."""
     cells, length, drag, speed = 60, 2.0, 1.4, 0.5
     load = 500.0 * drag * speed**2
     weight = load * length / ratio

@@ -1,0 +1,258 @@
+"""The whole span through time: section masses, meshes, energy, waves, case files and their faults."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import moyai
+from moyai.core.errors import CaseError, InputError
+from moyai.curtain.dynamic import DynamicRun, run_span, span_sensitivity
+from moyai.curtain.dynamic_model import AnchoredSupport, CurtainSpan, Mesh, build_span
+from moyai.curtain.dynamic_section import section_mesh
+from moyai.curtain.impact import Impact, peak_by_energy
+from moyai.flexible.flow import Flow
+from moyai.sea.regular import RegularWave
+from moyai.sea.water import Water
+
+FLUME = Water(0.40, 1000.0, 9.81)
+BASE = {
+    "span": 0.7, "length": 0.8, "skirt_length": 0.15, "chord": 0.135, "upper_stiffness": 75.0, "lower_stiffness": 75.0,
+    "upper_mass": 0.0625, "lower_mass": 0.0625, "sheet_stiffness": 2e4, "sheet_mass": 0.1,
+}  # fmt: skip
+
+
+def snap(span: CurtainSpan, mesh: Mesh, rises: float = 1.4, **more: object) -> DynamicRun:
+    stiffness = span.upper_stiffness, max(span.lower_stiffness, 1e-6)
+    rise = peak_by_energy(Impact(span.span, span.length, span.skirt_length, *stiffness, 0.3, FLUME)).time
+    given = {"speed": 0.3, "weight": False, "deep": True, **more}
+    return run_span(span, mesh, FLUME, duration=rises * rise, output_step=rise / 50.0, **given)  # type: ignore[arg-type]
+
+
+def test_flat_section_has_the_plate_masses() -> None:
+    """Linear shapes between the edges are exact on any mesh: pi/16, 1/3 - pi/16, 2/pi - 2/3 + pi/16 of rho d^2."""
+    mesh = section_mesh(2.0, 2.0, 6, math.inf, 1000.0)
+    mass, down = mesh.added_mass[:7, :7] / 4000.0, np.linspace(0.0, 1.0, 7)
+    up = 1.0 - down
+    assert down @ mass @ down == pytest.approx(math.pi / 16.0, rel=1e-5)
+    assert up @ mass @ down == pytest.approx(1.0 / 3.0 - math.pi / 16.0, rel=1e-5)
+    assert up @ mass @ up == pytest.approx(2.0 / math.pi - 2.0 / 3.0 + math.pi / 16.0, rel=1e-5)
+    assert np.max(np.abs(mesh.added_mass[7:])) < 1e-9
+
+
+def test_curved_section_pushes_downstream_and_down() -> None:
+    """The published mass of an arc that moves as a whole; vertical motion of all nodes and the coupling are there."""
+    # s/d = 0.5: M_xx over that of the flat chord is 1.080
+    chord = 1.0
+    length = 2.0 * math.sqrt(0.5) * math.atan(1.0)
+    mesh = section_mesh(length, chord, 12, math.inf, 1000.0)
+    assert mesh.rigid_mass / (2000.0 / math.pi) == pytest.approx(1.080, abs=0.002)
+    assert np.allclose(mesh.added_mass, mesh.added_mass.T)
+    assert np.linalg.eigvalsh(mesh.added_mass)[0] > -1e-9
+
+
+def test_peak_lies_between_the_models_and_the_bound() -> None:
+    span = CurtainSpan(**{**BASE, "chord": 0.15, "edges": "held"})  # type: ignore[arg-type]
+    model = Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)
+    run = snap(span, Mesh(16, 4), profile="sag")
+    assert run.history.status == "converged"
+    peak = run.peak("both")[0]
+    assert 0.85 < peak / peak_by_energy(model).tension < 1.0
+    total = run.history.kinetic_energy + run.history.elastic_energy
+    assert np.max(run.history.energy_balance) < 1e-3 * total[0]
+    assert np.min(run.history.energy_balance) > -0.01 * total[0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_energy_of_random_spans(seed: int) -> None:
+    """No energy from nowhere, whatever the span: random sizes, stiffness and speed, risen or held toe."""
+    rng = np.random.default_rng(seed)
+    scale = 10.0 ** rng.uniform(-0.5, 1.5)
+    span = CurtainSpan(
+        span=scale, length=scale * rng.uniform(1.03, 1.4),
+        skirt_length=0.3 * scale, chord=0.3 * scale * rng.uniform(0.9, 1.0),
+        upper_stiffness=1e4 * scale**2 * 10.0 ** rng.uniform(-1.0, 1.0), lower_stiffness=1e4 * scale**2,
+        upper_mass=1.0 * scale**2, lower_mass=2.0 * scale**2, sheet_stiffness=1e5 * scale, sheet_mass=0.5 * scale,
+        edges=("held", "risen")[seed % 2],
+    )  # fmt: skip
+    water = Water(0.6 * scale, 1025.0, 9.81)
+    speed = 0.5 * math.sqrt(scale) * rng.uniform(0.3, 1.0)
+    rise = peak_by_energy(
+        Impact(span.span, span.length, span.skirt_length, span.upper_stiffness, span.lower_stiffness, speed, water)
+    ).time
+    run = run_span(span, Mesh(12, 4), water, duration=2.0 * rise, output_step=rise / 40, speed=speed, weight=False)
+    assert run.history.status == "converged"
+    total = run.history.kinetic_energy + run.history.elastic_energy
+    assert np.max(run.history.energy_balance) < 0.01 * total[0]
+
+
+def test_froude_scale_carries_the_peak() -> None:
+    """Lengths times 10, EA times 1000: the peak grows by 1000 exactly, viscosity of the mesh included."""
+    small = snap(CurtainSpan(**BASE), Mesh(12, 4))  # type: ignore[arg-type]
+    ten = CurtainSpan(
+        span=7.0, length=8.0, skirt_length=1.5, chord=1.35, upper_stiffness=75e3, lower_stiffness=75e3,
+        upper_mass=6.25, lower_mass=6.25, sheet_stiffness=2e6, sheet_mass=1.0,
+    )  # fmt: skip
+    water = Water(4.0, 1000.0, 9.81)
+    speed = 0.3 * math.sqrt(10.0)
+    rise = peak_by_energy(Impact(7.0, 8.0, 1.5, 75e3, 75e3, speed, water)).time
+    large = run_span(
+        ten, Mesh(12, 4), water, duration=1.4 * rise, output_step=rise / 50, speed=speed, weight=False, deep=True
+    )
+    assert large.peak("both")[0] / small.peak("both")[0] == pytest.approx(1000.0, rel=1e-6)
+
+
+def test_slack_curtain_in_still_water_stays() -> None:
+    """Floats and ballast are in balance at the start: nothing moves but the slack cables under their own weight."""
+    span = CurtainSpan(
+        span=15.0, length=16.0, skirt_length=4.0, chord=4.0, upper_stiffness=5e5, lower_stiffness=5e5, upper_mass=15.0,
+        lower_mass=15.0, lower_volume=0.002, sheet_stiffness=3e5, sheet_mass=0.8, sheet_volume=0.0006,
+        drag_coefficient=1.5, float_volume=0.1, float_height=0.35, edges="free",
+    )  # fmt: skip
+    run = run_span(span, Mesh(8, 4), Water(10.0, 1025.0, 9.81), duration=1.0, output_step=0.05)
+    grid = run.built.grid[2:-2]
+    moved = run.history.position[-1][grid] - run.history.position[0][grid]
+    assert np.max(np.abs(moved)) < 0.02
+
+
+def test_anchored_span_in_a_current_ends_at_its_drag() -> None:
+    """Anchor lines carry the drag of the whole span in the end: all four together, both halves of the neighbours."""
+    water = Water(10.0, 1025.0, 9.81)
+    span = CurtainSpan(
+        span=15.0, length=16.5, skirt_length=3.0, chord=3.0, upper_stiffness=2e5, lower_stiffness=2e5, upper_mass=15.0,
+        lower_mass=60.0, lower_volume=0.008, sheet_stiffness=3e5, sheet_mass=1.6, sheet_volume=0.0012,
+        drag_coefficient=1.5, float_volume=0.2, float_height=0.5, edges="free",
+        support=AnchoredSupport(30.0, math.asin(1.0 / 3.0), 1e6, 200.0, 500.0),
+    )  # fmt: skip
+    run = run_span(
+        span, Mesh(12, 4), water, flow=Flow((0.3, 0.0, 0.0)), duration=90.0, output_step=0.25, from_time=80.0
+    )
+    assert run.history.status == "converged"
+    late = run.history.time > 75.0
+    up = sum(np.mean(run.tension(name)[late]) for name in run.built.lines if "upstream" in name)
+    down = sum(np.mean(run.tension(name)[late]) for name in run.built.lines if "downstream" in name)
+    slope = math.cos(math.asin(1.0 / 3.0))
+    place = run.history.position[-1]
+    one, two = (place[run.built.grid[1:, 1:]] - place[run.built.grid[:-1, :-1]],
+                place[run.built.grid[1:, :-1]] - place[run.built.grid[:-1, 1:]])  # fmt: skip
+    area = 0.5 * np.cross(one, two)
+    across = 0.3 * area[..., 0] / np.linalg.norm(area, axis=-1)
+    drag = 0.5 * 1025.0 * 1.5 * float(np.sum(across * np.abs(across) * area[..., 0]))
+    assert 0.5 * (up - down) * slope == pytest.approx(abs(drag), rel=0.02)
+
+
+def test_sensitivity_names_what_the_peak_is_worth() -> None:
+    span, mesh = CurtainSpan(**BASE), Mesh(16, 8)  # type: ignore[arg-type]
+    rise = peak_by_energy(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)).time
+    given = {
+        "water": FLUME, "duration": 1.2 * rise, "output_step": rise / 50.0, "speed": 0.3, "weight": False, "deep": True,
+        "profile": "sag",
+    }  # fmt: skip
+    run = run_span(span, mesh, **given)  # type: ignore[arg-type]
+    worth = span_sensitivity(run, **given)
+    assert worth.half_step == pytest.approx(worth.peak, rel=0.02)
+    assert worth.half_mesh == pytest.approx(worth.peak, rel=0.06)
+    assert worth.double_viscosity < worth.peak
+    assert bool(worth.notices("here", 1e-4)) and not worth.notices("here", 0.5)
+
+
+def test_waves_pull_the_span_taut_only_beyond_its_slack() -> None:
+    """Without current, waves whose water goes less than the sag either way leave the cables slack; larger ones snap."""
+    water = Water(0.40, 1000.0, 9.81)
+    peaks = []
+    for height in (0.01, 0.12):
+        wave = RegularWave(height, 2.0, 0.0, water).components()
+        span = CurtainSpan(
+            **{**BASE, "chord": 0.15, "upper_mass": 0.1, "lower_mass": 0.5, "lower_volume": 6e-5, "edges": "free",
+               "drag_coefficient": 1.2, "float_volume": 1.2e-3, "float_height": 0.04, "sheet_volume": 1e-4}
+        )  # fmt: skip
+        run = run_span(
+            span, Mesh(8, 4), water, flow=Flow(waves=wave, ramp=2.0), duration=6.0, output_step=0.01, from_time=2.0
+        )
+        assert run.history.status == "converged"
+        peaks.append(run.peak("both")[0])
+    assert peaks[1] > 10.0 * peaks[0]
+
+
+def test_faults_of_spans() -> None:
+    for change, words in (
+        ({"length": 0.6}, "not longer"),
+        ({"chord": 0.2}, "chord"),
+        ({"sheet_mass": 0.0}, "sheet_mass"),
+        ({"upper_stiffness": math.inf}, "upper_stiffness"),
+        ({"float_volume": 1.0}, "height"),
+        ({"shear_stiffness": 1.0}, "span stiffness"),
+    ):
+        with pytest.raises(InputError, match=words):
+            CurtainSpan(**{**BASE, **change})  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="cells"):
+        Mesh(2, 2)
+    with pytest.raises(InputError, match="water 0.1 m"):
+        build_span(CurtainSpan(**BASE), Mesh(8, 4), Water(0.1, 1000.0, 9.81))  # type: ignore[arg-type]
+    floating = {**BASE, "chord": 0.15, "float_volume": 1e-6, "float_height": 0.01, "lower_volume": 1e-6}
+    with pytest.raises(InputError, match="lift"):
+        build_span(CurtainSpan(**floating), Mesh(8, 4), FLUME)  # type: ignore[arg-type]
+
+
+CASE = """
+moyai: 1
+title: Dynamic
+site: {water_depth: 10 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+current: {speed: 0.3 m/s, heading_deg: 20}
+structure:
+  kind: curtain
+  span: 15 m
+  length: 16.5 m
+  skirt: {length: 3 m, mass_per_area: 0.8 kg/m2, sheet_density: 1380 kg/m3, stiffness: 300 kN/m}
+  toe: {kind: held, chain_mass: 15 kg/m}
+  cables: {upper: {axial_stiffness: 400 kN}, lower: {axial_stiffness: 400 kN}}
+  floats: {buoyancy: 980 N/m, weight: 150 N/m}
+  drag: {law: constant, coefficient: 1.5}
+analyses: [dynamic]
+settings: {dynamic: {cells_along: 8, cells_down: 4}}
+"""
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "case.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_case_of_a_snap_in_the_current(tmp_path: Path) -> None:
+    result = moyai.run(moyai.load_case(write(tmp_path, CASE)))
+    assert result.status == "converged", result.message
+    table = result.tree["/SWL/dynamic"].to_dataset()
+    run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
+    assert float(table["both_peak"][0]) > 1e3
+    assert table["both_peak"].attrs["units"] == "N"
+    assert float(table["both_peak"][0]) == pytest.approx(float(run["both_tension"].max()))
+    assert {"upper cable", "lower cable"} == set(run["line"].values)
+    frames = result.tree["/SWL/dynamic/snap in the current/frames"].to_dataset()
+    assert frames["node_position"].shape[1:] == (45, 3)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("length: 16.5 m", "length: 15 m", "starts from slack"),
+        ("stiffness: 300 kN/m", "stiffness: inextensible", "skirt that stretches"),
+        ("mass_per_area: 0.8 kg/m2, sheet_density: 1380 kg/m3", "submerged_weight: 2 N/m2", "mass of the sheet"),
+        ("cells_along: 8", "cells_along: 3", "cells_along"),
+        ("cells_down: 4", "cells_down: 4.5", "cells_down"),
+        ("cells_down: 4", "cells_down: 4, shear_stiffness: 3 kN/m", "span_stiffness"),
+        ("cells_down: 4", "cells_down: 4, ballast_density: 900 kg/m3", "floats"),
+        ("cells_down: 4", "cells_down: 4, startt: drifting", "startt"),
+        ("length: 3 m", "length: 12 m", "deep"),
+        ("weight: 150 N/m", "weight: 0 N/m", "mass"),
+        ("floats: {", "anchors: {line_length: 30 m, axial_stiffness: 1 MN}\n  floats: {", "support_mass"),
+        ("current: {speed: 0.3 m/s, heading_deg: 20}", "", "needs"),
+    ],
+)
+def test_case_faults(tmp_path: Path, old: str, new: str, words: str) -> None:
+    assert old in CASE
+    with pytest.raises((CaseError, InputError), match=words):
+        moyai.run(moyai.load_case(write(tmp_path, CASE.replace(old, new))))
