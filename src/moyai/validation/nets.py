@@ -35,6 +35,12 @@ def _screen_on_twines(solidity: float, reynolds: float) -> float:
     return float(drag) / solidity
 
 
+def _patursson(name: str) -> float:
+    """Panel of 2.8 mm twine, 29 mm bars, solidity 0.20, in 0.5 m/s."""
+    net = Net(2.8e-3, 29e-3, solidity_measured=0.20)
+    return float(net_law(name).coefficients(0.0, 0.5, net, _NU)[0])
+
+
 def _planted(quiet: bool) -> float:
     """C_D from noisy waves at rest, mean of four records, or C_M from quiet waves met under way."""
     from moyai.measure.net_runs import Specimen, Tank
@@ -114,6 +120,17 @@ CASES: tuple[ValidationCase, ...] = (
             (0.323, 1000.0, 1.75),
             (0.5, 1000.0, 2.84),
         )
+    ),
+    *(
+        ValidationCase(
+            f"nets: panel of Patursson by {name}",
+            "C_D = 0.258 that is set for the panel of 1 m2, solidity 0.20, in studies of it",
+            partial(_patursson, name),
+            0.258,
+            tolerance,
+            note="spread of the laws, not an error of the code",
+        )
+        for name, tolerance in (("aarsnes", 0.02), ("kristiansen_faltinsen", 0.08), ("loland", 0.13))
     ),
     ValidationCase(
         "nets: drag of a cylinder at Re 100",

@@ -20,7 +20,7 @@ class Bi(NetLaw):
     kind: ClassVar[str] = "screen"
     source: ClassVar[str] = "Bi, Zhao, Dong and others (2014), Journal of Fluids and Structures 45, 87"
     reynolds_range: ClassVar[tuple[float, float]] = (0.0, math.inf)
-    # the law holds no solidity: it was fitted to one net of a solidity of about a quarter
+    # the law holds no solidity: it was fitted to one net, of about a quarter by twine and mesh as reported elsewhere
     solidity_range: ClassVar[tuple[float, float]] = (0.2, 0.3)
     skin: ClassVar[str] = "the law knows no solidity: its force does not vanish with it; 0.04 along the panel"
 
