@@ -18,6 +18,7 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, RopeCurve
 from moyai.network import model
 from moyai.network.assembly import mesh_bars, sphere
+from moyai.network.bodies import BodyPlan
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type
@@ -63,6 +64,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
             current=current_of(case.current, water, bearing),
         ),
         settings=_settings(case, folder),
+        bodies=tuple(_body(name, body) for name, body in unit.bodies.items()),
         case_text=case_text,
         case_hash=case_hash,
     )
@@ -293,6 +295,20 @@ def _net(name: str, entry: parts.NetworkNet, types: Any, folder: Path) -> model.
     return model.NetPlan(
         name, corners, entry.rows, entry.columns, along, across, entry.hanging_ratio, entry.first_row,  # type: ignore[arg-type]
         entry.motion or "", entry.ballast or 0.0, entry.flow_factor, entry.z_from == "still_water",
+    )  # fmt: skip
+
+
+def _body(name: str, entry: parts.BoxBody | parts.CylinderBody) -> BodyPlan:
+    size = entry.size if isinstance(entry, parts.BoxBody) else (entry.diameter, entry.diameter, entry.height)
+    if entry.inertia is not None:
+        inertia = entry.inertia
+    else:
+        inertia = _three([entry.mass * radius**2 for radius in entry.gyration_radii or ()])
+    names = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+    return BodyPlan(
+        name, entry.shape, size, entry.mass, inertia, entry.centre_of_gravity, entry.position,
+        _three([math.radians(angle) for angle in entry.rotation_deg]), dict(entry.points), entry.drag,
+        entry.added_mass, free=tuple(motion not in entry.held for motion in names),
     )  # fmt: skip
 
 

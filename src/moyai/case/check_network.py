@@ -52,7 +52,7 @@ def _raised(error: InputError, findings: Findings) -> None:
     """Record an error of the room that builds networks, at the point or line that it names."""
     fault = error.fault
     known: Any = findings.document.values
-    for kind in ("points", "lines", "nets"):
+    for kind in ("points", "lines", "nets", "bodies"):
         for path in list(known):
             if len(path) == 3 and path[:2] == ("structure", kind) and f"'{path[2]}'" in fault.message:
                 findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
@@ -73,7 +73,7 @@ def _longest(text: str, findings: Findings) -> tuple[str | int, ...]:
 
 def _check_names(model: NetworkCase, findings: Findings) -> None:
     unit = model.structure
-    for group in ("points", "lines", "nets"):
+    for group in ("points", "lines", "nets", "bodies"):
         for name in getattr(unit, group):
             if any(letter in name for letter in "[],"):
                 findings.fault(
@@ -101,6 +101,13 @@ def _check_names(model: NetworkCase, findings: Findings) -> None:
                 ("structure", "nets", name, "motion"), f"the first row is {net.first_row} and follows no motion",
                 remedy="set first_row: driven",
             )  # fmt: skip
+    carried = [(body, point) for body, entry in unit.bodies.items() for point in entry.points]
+    for number, (body, point) in enumerate(carried):
+        if point in unit.points or point in unit.motions or point in [other for _, other in carried[:number]]:
+            findings.fault(
+                ("structure", "bodies", body, "points", point), f"another point or motion is called '{point}'",
+                remedy="rename one",
+            )  # fmt: skip
     used = {motion for _, motion in moved}
     for name in unit.motions:
         if name not in used:
@@ -117,14 +124,15 @@ def _check_names(model: NetworkCase, findings: Findings) -> None:
 def _check_lines(model: NetworkCase, findings: Findings) -> None:
     unit = model.structure
     knots = {f"{name}[{i},{j}]" for name, net in unit.nets.items() for i in range(net.rows) for j in range(net.columns)}
+    known = [*unit.points, *(point for body in unit.bodies.values() for point in body.points)]
     for name, line in unit.lines.items():
         for key in ("start", "end"):
             point = getattr(line, key)
-            if point not in unit.points and point not in knots:
+            if point not in known and point not in knots:
                 findings.fault(
                     ("structure", "lines", name, key), f"there is no point '{point}'",
-                    allowed=", ".join(list(unit.points)[:12]) or "a name in 'points'",
-                    remedy=did_you_mean(point, unit.points),
+                    allowed=", ".join(known[:12]) or "a name in 'points'",
+                    remedy=did_you_mean(point, known),
                 )  # fmt: skip
         if line.start == line.end:
             findings.fault(("structure", "lines", name, "end"), f"the line starts and ends at '{line.end}'")
@@ -209,6 +217,10 @@ def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> Non
         findings.fault(("settings", "start"), "there is no current to rest in", remedy="give 'current', or start: rest")
     if model.structure.bed is not None and math.isinf(model.site.water_depth):
         findings.fault(("structure", "bed"), "a bed needs a finite water depth", remedy="remove 'bed'")
+    if model.structure.bodies and settings.method not in ("auto", "explicit"):
+        findings.fault(("settings", "method"), "networks with bodies run by explicit steps", allowed="auto, explicit")
+    if model.structure.bodies and settings.resume is not None:
+        findings.fault(("settings", "resume"), "runs with bodies do not go on from an earlier one", remedy="remove it")
     dynamic = "dynamic" in model.analyses
     if model.waves and not dynamic:
         findings.warn(("analyses",), "the waves are not used: they need the analysis 'dynamic'")

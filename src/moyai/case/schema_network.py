@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
 from moyai.case.schema_network_parts import (
     NetworkBed,
+    NetworkBody,
     NetworkLine,
     NetworkLineType,
     NetworkNet,
@@ -52,6 +53,11 @@ class NetworkStructure(Block):
     nets: dict[Name, NetworkNet] = Field(
         default={},
         description="Nets, by name; their knots are points called 'name[row,column]', counted from 0.",
+        max_length=50,
+    )
+    bodies: dict[Name, NetworkBody] = Field(
+        default={},
+        description="Rigid bodies in six degrees of freedom, by name; lines meet their points.",
         max_length=50,
     )
     bed: NetworkBed | None = Field(default=None, description="Contact with the bed; none when left out.")

@@ -13,8 +13,10 @@ from moyai.case.schema_types import (
     Duration,
     FileName,
     Heading,
+    Inertia,
     KeyGroups,
     Length,
+    Mass,
     Name,
     NonNegativeNumber,
     PositiveForce,
@@ -386,6 +388,53 @@ class NetworkNet(Block):
     )
     flow_factor: NonNegativeNumber = Field(default=1.0, description="Factor on the water velocity. Default: 1.")
     z_from: ZFrom = Field(default="datum", description="datum, or still_water. Default: datum.")
+
+
+Moments = tuple[Inertia, Inertia, Inertia]
+Coefficients = tuple[NonNegativeNumber, NonNegativeNumber, NonNegativeNumber]
+BodyMotion = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
+
+
+class _Body(Block):
+    exactly_one: ClassVar[KeyGroups] = (("inertia", "gyration_radii"),)
+
+    mass: Mass = Field(description="Mass.")
+    inertia: Moments | None = Field(
+        default=None, description="Moments of inertia about the centre of gravity: roll, pitch, yaw."
+    )
+    gyration_radii: tuple[PositiveLength, PositiveLength, PositiveLength] | None = Field(
+        default=None, description="Radii of gyration about the centre of gravity: roll, pitch, yaw."
+    )
+    centre_of_gravity: Shift = Field(default=(0.0, 0.0, 0.0), description="From the middle of the body. Default: 0.")
+    position: Shift = Field(description="Of its middle at the start: x, y, z above still water.")
+    rotation_deg: Angles = Field(default=(0.0, 0.0, 0.0), description="Roll, pitch, yaw at the start. Default: 0.")
+    points: Annotated[dict[Name, Shift], Field(min_length=1, max_length=1000)] = Field(
+        description="Points that lines meet, by name, from the middle of the body.",
+        examples=[{"bow": ["10 m", 0, "-1 m"]}],
+    )
+    drag: Coefficients = Field(description="Drag coefficients along its axes x, y, z, on its faces.")
+    added_mass: Coefficients = Field(description="Added-mass coefficients along its axes, on the displaced mass.")
+    held: Annotated[tuple[BodyMotion, ...], Field(max_length=5), AfterValidator(once_each)] = Field(
+        default=(), description="Motions that are held. Default: none."
+    )
+
+
+class BoxBody(_Body):
+    """A box."""
+
+    shape: Literal["box"] = Field(description="A box, partly immersed at the surface.")
+    size: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(description="Along x, y, z of the body.")
+
+
+class CylinderBody(_Body):
+    """An upright cylinder."""
+
+    shape: Literal["cylinder"] = Field(description="A cylinder about its z axis, partly immersed at the surface.")
+    diameter: PositiveLength = Field(description="Diameter.")
+    height: PositiveLength = Field(description="Height.")
+
+
+NetworkBody = Annotated[BoxBody | CylinderBody, Field(discriminator="shape")]
 
 
 class NetworkBed(Block):

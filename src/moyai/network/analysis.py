@@ -18,10 +18,12 @@ from moyai.flexible.network import DRIVEN, FIXED
 from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.network.assembly import Assembly, assemble
+from moyai.network.bodies import CoupledRest, rest_of
 from moyai.network.dynamics import Run, contacts_dataset, summary_dataset
 from moyai.network.dynamics import run as run_through_time
 from moyai.network.model import NetworkProblem
 from moyai.network.rest import (
+    bodies_at_rest,
     driven_names,
     modes_dataset,
     named_points,
@@ -89,16 +91,21 @@ def _steps(problem: NetworkProblem, collected: _Collected, progress: Progress) -
         collected.groups[root] = _header(level, water)
         collected.groups[f"{root}/network"] = network_dataset(problem, assembly, water)
         said = f"water level {name}: " if len(levels) > 1 else ""
-        rests = _at_rest(problem, assembly, water, root, said, collected)
+        rests, hung = _at_rest(problem, assembly, water, root, said, collected)
         yield
         if "modes" in problem.settings.analyses and rests:
             flow = steady_flow(problem, water) if "current" in rests else Flow()
             rest = rests.get("current", rests.get("still water"))
             assert rest is not None
+            if problem.bodies:
+                collected.notices.append(
+                    Notice("bodies-held", "natural modes are those with the bodies held where they rest",
+                           severity="information")
+                )  # fmt: skip
             collected.groups[f"{root}/modes"] = modes_dataset(assembly, rest, flow, problem.settings.modes)
             yield
         if "dynamic" in problem.settings.analyses:
-            yield from _dynamic(problem, assembly, water, rests, root, said, collected, progress)
+            yield from _dynamic(problem, assembly, water, (rests, hung), root, said, collected, progress)
     progress("water levels", len(levels), len(levels))
 
 
@@ -152,8 +159,20 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         "body_volume": ("body", network.nodes.volume[attached], {"units": "m3", "long_name": "its volume"}),
         "body_mass": ("body", network.nodes.mass[attached], {"units": "kg", "long_name": "its mass"}),
     }  # fmt: skip
-    kind_names = np.array([kinds.get(int(network.nodes.kind[node]), "free") for node in nodes], dtype=object)
+    carried = {name for body in problem.bodies for name in body.points}
+    kind_names = np.array(
+        ["on a body" if name in carried else kinds.get(int(network.nodes.kind[node]), "free")
+         for name, node in zip(names, nodes, strict=True)], dtype=object,
+    )  # fmt: skip
     data["point_kind"] = ("point", kind_names, {"units": "1", "long_name": "what moves the point"})
+    if problem.bodies:
+        data["solid_size"] = (
+            ("solid", "axis"),
+            np.array([body.size for body in problem.bodies]),
+            {"units": "m", "long_name": "size of the body along its axes"},
+        )
+        shapes = np.array([body.shape for body in problem.bodies], dtype=object)
+        data["solid_shape"] = ("solid", shapes, {"units": "1", "long_name": "shape of the body"})
     out = labelled(xr.Dataset(data, coords={"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}))
     bed = network.bed
     out.attrs |= {"bed": math.nan if bed is None else bed.level, "slack_level": problem.settings.slack_level}
@@ -165,19 +184,24 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
 
 def _at_rest(
     problem: NetworkProblem, assembly: Assembly, water: Water, root: str, said: str, collected: _Collected
-) -> dict[str, Equilibrium]:
+) -> tuple[dict[str, Equilibrium], dict[str, CoupledRest]]:
     """Find the networks at rest that the analyses need; tell where there is none."""
     wanted = set(problem.settings.analyses)
     if not ({"statics", "modes"} & wanted) and problem.settings.start == "as_built":
-        return {}
+        return {}, {}
     conditions: dict[str, Flow] = {"still water": Flow()}
     if problem.environment.current is not None:
         conditions["current"] = steady_flow(problem, water)
     found: dict[str, Equilibrium] = {}
+    hung: dict[str, CoupledRest] = {}
     for name, flow in conditions.items():
         begin = found["still water"].state if "still water" in found else None
         try:
-            found[name] = solve_equilibrium(assembly.network, flow=flow, start=begin)
+            if problem.bodies:
+                both = hung[name] = rest_of(problem, assembly.network, flow)
+                found[name] = Equilibrium(both.state, both.tension, both.residual, both.rounds)
+            else:
+                found[name] = solve_equilibrium(assembly.network, flow=flow, start=begin)
         except ConvergenceError as error:
             fault = error.fault
             collected.failures.append(f"{said}at rest in {name}: {fault.message}; {fault.remedy}".rstrip("; "))
@@ -191,9 +215,9 @@ def _at_rest(
         )  # fmt: skip
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
-        collected.groups[f"{root}/statics"] = rest_dataset(assembly, found, stiffness)
+        collected.groups[f"{root}/statics"] = bodies_at_rest(rest_dataset(assembly, found, stiffness), hung)
         _weight_check(assembly, found, said, collected)
-    return found
+    return found, hung
 
 
 def _stiffness(
@@ -204,7 +228,7 @@ def _stiffness(
     said: str,
     collected: _Collected,
 ) -> np.ndarray | None:
-    count = len(driven_names(assembly))
+    count = 0 if problem.bodies else len(driven_names(assembly))
     if count == 0:
         return None
     if count > MOST_STIFFNESSES:
@@ -231,7 +255,8 @@ def _stiffness(
 def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, collected: _Collected) -> None:
     """Hold the loads on all held points against the weight in water, where nothing lies on a bed or floats."""
     network = assembly.network
-    if network.bed is not None or np.any(network.nodes.height > 0.0) or network.nodes.held.any():
+    carried = any(name in network.points for name in network.motion_names)
+    if carried or network.bed is not None or np.any(network.nodes.height > 0.0) or network.nodes.held.any():
         return
     rest = found.get("still water")
     if rest is None or np.any(rest.state.position[:, 2] > -1e-6):
@@ -257,12 +282,13 @@ def _dynamic(
     problem: NetworkProblem,
     assembly: Assembly,
     water: Water,
-    rests: dict[str, Equilibrium],
+    at_rest: tuple[dict[str, Equilibrium], dict[str, CoupledRest]],
     root: str,
     said: str,
     collected: _Collected,
     progress: Progress,
 ) -> Iterator[None]:
+    rests, hung = at_rest
     start = problem.settings.start
     condition = "current" if start == "rest_in_current" and problem.environment.current is not None else "still water"
     if start != "as_built" and condition not in rests:
@@ -283,7 +309,15 @@ def _dynamic(
                 path="settings.resume",
                 remedy="lengthen settings.duration, or remove 'resume'",
             )
-        item = run_through_time(problem, assembly, plan, start_of_run, progress, before)
+        item = run_through_time(
+            problem,
+            assembly,
+            plan,
+            start_of_run,
+            progress,
+            before,
+            None if start == "as_built" else hung.get(condition),
+        )
         runs.append(item)
         collected.groups[f"{root}/time/{plan.name}"] = item.series
         collected.groups[f"{root}/time/{plan.name}/frames"] = item.frames

@@ -69,6 +69,9 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
         place = _place(point.position, point.floats, level, water, f"structure.points.{point.name}.position")
         places[point.name] = place
         _add_point(builder, point, place, water)
+    for plan in problem.bodies:
+        for name, where in plan.body(water).points_at_start.items():
+            builder.driven(name, where)
     for net in problem.nets:
         _add_net(builder, net, level, water)
     pieces: dict[str, list[str]] = {}
@@ -130,6 +133,14 @@ def _carried(attached: Attached, water: Water) -> dict[str, Any]:
 def _check_ends(problem: NetworkProblem) -> None:
     """Refuse points that no line meets: they would float about, or mean a slip of the pen."""
     used = {name for line in problem.lines for name in (line.start, line.end)}
+    for body in problem.bodies:
+        for name in body.points:
+            if name not in used:
+                raise InputError(
+                    f"no line meets the point '{name}' of the body '{body.name}'",
+                    path=f"structure.bodies.{body.name}.points.{name}",
+                    remedy="join a line to it, or remove it",
+                )
     for point in problem.points:
         if point.name not in used:
             raise InputError(

@@ -18,8 +18,9 @@ from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulate import simulate
 from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.network.assembly import Assembly
+from moyai.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
 from moyai.network.model import NetworkProblem
-from moyai.network.rest import AXES, line_numbers, named_points, pulls
+from moyai.network.rest import AXES, TURNS, line_numbers, named_points, pulls
 from moyai.network.resume import Earlier, joined, last_good_state
 from moyai.network.runs import RunPlan, motions_of
 from moyai.network.variables import labelled
@@ -103,6 +104,7 @@ def run(
     begin: State,
     progress: Progress = silent,
     earlier: Earlier | None = None,
+    hung: CoupledRest | None = None,
 ) -> Run:
     """Run a network through time and gather what is told of it.
 
@@ -116,6 +118,8 @@ def run(
     progress : Progress
     earlier : Earlier, optional
         Rows of the same run up to ``begin``.
+    hung : CoupledRest, optional
+        Bodies and network at rest, where a run with bodies starts; as built when left out.
 
     Raises
     ------
@@ -130,9 +134,17 @@ def run(
         progress(plan.name, done, total)
 
     options = {**options_of(problem, plan), "duration": plan.duration - begin.time}
-    history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options)
+    coupled: CoupledRun | None = None
+    if problem.bodies:
+        options = _of_bodies(options)
+        coupled = run_coupled(problem, network, hung, told, motions=motions, keep_nodes=nodes, **options)
+        history = coupled.history
+    else:
+        history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options)
     progress(plan.name, 1.0, 1.0)
     series, frames = _series(assembly, plan, history), _frames(plan, history)
+    if coupled is not None:
+        series, frames = _with_bodies(series, frames, coupled)
     series.attrs["skip"] = problem.settings.skip
     if earlier is not None:
         series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
@@ -141,7 +153,15 @@ def run(
     sensitivity, notices = None, [*history.notices, *_run_notices(problem, history, plan)]
     if problem.settings.sensitivity and history.status == "converged" and worst >= 0 and earlier is None:
         try:
-            sensitivity = _sensitivity(problem, assembly, plan, begin, worst, progress)
+            if coupled is not None:
+                counted = history.time >= history.time[0] + problem.settings.skip
+                peak = float(np.nanmax(history.peak_at(worst)[counted]))
+                sensitivity = coupled_sensitivity(
+                    problem, network, hung, worst, problem.settings.skip, peak, history.step, told, motions=motions,
+                    **options,
+                )  # fmt: skip
+            else:
+                sensitivity = _sensitivity(problem, assembly, plan, begin, worst, progress)
             notices += list(sensitivity.notices())
         except ConvergenceError as error:
             notices.append(
@@ -153,6 +173,28 @@ def run(
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
         tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks),
     )  # fmt: skip
+
+
+def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options that runs with bodies know: they have one method and a tolerance of their own."""
+    return {key: value for key, value in options.items() if key not in ("method", "tolerance")}
+
+
+def _with_bodies(series: xr.Dataset, frames: xr.Dataset, coupled: CoupledRun) -> tuple[xr.Dataset, xr.Dataset]:
+    """Add places and angles of the bodies to the rows, and their axes to the frames."""
+    names, found = list(coupled.bodies), list(coupled.bodies.values())
+    place = np.stack([body.position for body in found], axis=1)
+    angle = np.stack([body.angles for body in found], axis=1)
+    turn = np.stack([body.rotation for body in found], axis=1)
+    rows = np.searchsorted(series["time"].values, frames["frame"].values).clip(0, place.shape[0] - 1)
+    series = series.assign(
+        {"solid_position": (("time", "solid", "axis"), place), "solid_angle": (("time", "solid", "turn"), angle)}
+    ).assign_coords(solid=names, turn=TURNS)
+    frames = frames.assign(
+        {"solid_position": (("frame", "solid", "axis"), place[rows]),
+         "solid_rotation": (("frame", "solid", "axis", "body_axis"), turn[rows])}
+    ).assign_coords(solid=names, body_axis=AXES)  # fmt: skip
+    return labelled(series), labelled(frames)
 
 
 def _sensitivity(

@@ -11,6 +11,7 @@ from typing import Literal
 from moyai.core.errors import InputError
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BOX, BarType
+from moyai.network.bodies import BodyPlan
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
 
@@ -248,6 +249,7 @@ class NetworkProblem:
     environment : Environment
         Water, levels, seas, current.
     settings : Settings
+    bodies : tuple of BodyPlan
     case_text, case_hash : str
     """
 
@@ -259,6 +261,7 @@ class NetworkProblem:
     motions: Mapping[str, MotionPlan]
     environment: Environment
     settings: Settings = field(default_factory=Settings)
+    bodies: tuple[BodyPlan, ...] = ()
     case_text: str = ""
     case_hash: str = ""
 

@@ -19,8 +19,11 @@ from moyai.network.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
+    from moyai.network.bodies import CoupledRest
+
 Array = NDArray[np.float64]
 AXES = ["x", "y", "z"]
+TURNS = ["roll", "pitch", "yaw"]
 
 
 def named_points(assembly: Assembly) -> tuple[list[str], NDArray[np.int64]]:
@@ -99,6 +102,21 @@ def rest_dataset(assembly: Assembly, found: dict[str, Equilibrium], stiffness: A
     if stiffness is not None:
         coords |= {"direction": AXES, "driven": driven_names(assembly)}
     return labelled(xr.Dataset(data, coords=coords))
+
+
+def bodies_at_rest(dataset: xr.Dataset, found: dict[str, CoupledRest]) -> xr.Dataset:
+    """Return the dataset with the places and angles of the bodies at rest."""
+    if not found:
+        return dataset
+    names = list(next(iter(found.values())).bodies)
+    place = np.array([[rest.bodies[name].position for name in names] for rest in found.values()])
+    angle = np.array([[rest.bodies[name].rotation for name in names] for rest in found.values()])
+    return labelled(
+        dataset.assign(
+            {"solid_position": (("condition", "solid", "axis"), place),
+             "solid_angle": (("condition", "solid", "turn"), angle)}
+        ).assign_coords(solid=names, turn=TURNS)
+    )  # fmt: skip
 
 
 def driven_names(assembly: Assembly) -> list[str]:

@@ -134,3 +134,40 @@ def energy_figure(level: NetworkLevel, run: Group) -> Figure | None:
         "Work of weight, water and driven points. What is taken never falls where no energy comes from nowhere.",
         height=420,
     )
+
+
+def body_figures(level: NetworkLevel, run: Group) -> list[Figure]:
+    """Return how the rigid bodies move over time: places and angles."""
+    time = run.real("time", "time")
+    found = peak_of_run(level, run)
+    if time is None or time.size < 3 or not run.labels("solid"):
+        return []
+    span = _window(run, time, found.time if found is not None else float(time[0]))
+    shown = None if span == (0, time.size) else (float(time[span[0]]), float(time[span[1] - 1]))
+    figures = []
+    for body in run.labels("solid"):
+        place = run.array("solid_position", "time", "axis", solid=body)
+        angle = run.array("solid_angle", "time", "turn", solid=body)
+        if place is None or angle is None:
+            continue
+        series = []
+        for panel, (values, labels, factor) in enumerate(
+            ((place - place[0], ("surge", "sway", "heave"), 1.0), (angle, ("roll", "pitch", "yaw"), 180.0 / np.pi))
+        ):
+            for tone, label in enumerate(labels):
+                keep = focus_indices(values[:, tone], span, BINS)
+                series.append(Series(label, {"time": time[keep]}, factor * values[keep, tone], panel, tone + 3 * panel))
+        figures.append(
+            Figure(
+                slug(level.name, run.name, body, "motion"),
+                f"Motion of {body}: {run.name}",
+                (Abscissa("time", "time", "s"),),
+                (Panel("from its start", "m"), Panel("angle", "deg")),
+                tuple(series),
+                "Place of the middle of the body from where the run begins, along the axes of the site; roll, pitch, yaw.",
+                window=shown,
+                slider=shown is not None,
+                height=480,
+            )
+        )
+    return figures

@@ -184,6 +184,7 @@ def _of_runs(level: NetworkLevel, governing: Governing | None) -> Sequence[Block
     for run in level.runs():
         found = (
             figures.tension_figure(level, run),
+            *figures.body_figures(level, run),
             tables.peaks_table(level, run),
             tables.points_table(level, run),
             figures.exceedance_figure(level, run),

@@ -12,7 +12,7 @@ from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.network_reading import NetworkLevel, attribute, peak_of_run, texts
 from moyai.report.reading import Group
-from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
+from moyai.report.scene_3d import Body3D, Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -110,7 +110,7 @@ def run_animation(level: NetworkLevel, run: Group) -> Animation | None:
     built = level.network.real("node_position", "node", "axis")
     if bars is None or time is None or position is None or tension is None or kept is None or built is None:
         return None
-    good = np.isfinite(position).all(axis=(1, 2))
+    good: NDArray[np.bool_] = np.asarray(np.isfinite(position).all(axis=(1, 2)))
     if good.sum() < 2:
         return None
     time, position, tension = time[good], position[good], tension[good]
@@ -130,7 +130,7 @@ def run_animation(level: NetworkLevel, run: Group) -> Animation | None:
     depth = attribute(level.group, "water_depth")
     scene = Scene3D(
         time[rows], position[rows], pairs, pull[rows], thin, _faces(level, place), _markers(level, kept),
-        traces=_traces(level, run, pairs, names), waves=_waves(frames),
+        bodies=_solids(level, frames, good, rows), traces=_traces(level, run, pairs, names), waves=_waves(frames),
         bed=bed if math.isfinite(bed) else (-depth if math.isfinite(depth) else None),
         current=(current[0] if math.isfinite(current[0]) else 0.0, current[1] if math.isfinite(current[1]) else 0.0),
         slack_level=max(attribute(level.network, "slack_level"), 0.0), window=window, maximum=moment, names=names,
@@ -146,6 +146,21 @@ def run_animation(level: NetworkLevel, run: Group) -> Animation | None:
         scene,
         f"To scale, not enlarged; colour and breadth grow with the tension, dashed grey is slack.{said}",
     )
+
+
+def _solids(level: NetworkLevel, frames: Group, good: NDArray[np.bool_], rows: IntArray) -> tuple[Body3D, ...]:
+    """Return the rigid bodies of a run."""
+    place = frames.array("solid_position", "frame", "solid", "axis")
+    turn = frames.array("solid_rotation", "frame", "solid", "axis", "body_axis")
+    size, shapes = level.network.array("solid_size", "solid", "axis"), texts(level.network, "solid_shape")
+    if place is None or turn is None or size is None:
+        return ()
+    place, turn = place[good][rows], turn[good][rows]
+    found = []
+    for number, (name, shape) in enumerate(zip(frames.labels("solid"), shapes, strict=True)):
+        made = Body3D.box if shape == "box" else Body3D.cylinder
+        found.append(made(name, -0.5 * size[number], 0.5 * size[number], place[:, number], turn[:, number]))
+    return tuple(found)
 
 
 def _traces(level: NetworkLevel, run: Group, pairs: IntArray, names: tuple[str, ...]) -> tuple[Trace, ...]:

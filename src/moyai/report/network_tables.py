@@ -97,6 +97,7 @@ def rest_tables(level: NetworkLevel) -> list[Table | None]:
                 "Pull of the lines on the point; z above still water.",
             )
         )
+        found.append(_bodies_at_rest(level, rest, condition))
     stiffness = rest.array("stiffness", "driven", "axis", "direction")
     if stiffness is not None:
         names = [f"{name}, {axis}" for name in rest.labels("driven") for axis in "xyz"]
@@ -113,6 +114,23 @@ def rest_tables(level: NetworkLevel) -> list[Table | None]:
             )
         )
     return found
+
+
+def _bodies_at_rest(level: NetworkLevel, rest: Group, condition: str) -> Table | None:
+    place = rest.array("solid_position", "solid", "axis", condition=condition)
+    angle = rest.array("solid_angle", "solid", "turn", condition=condition)
+    if place is None or angle is None:
+        return None
+    return _table(
+        slug(level.name, condition, "rest-bodies"),
+        f"Bodies at rest in {condition}",
+        [
+            Column("Body", list(rest.labels("solid"))),
+            *(_column(axis, place[:, k], "m", digits=4) for k, axis in enumerate("xyz")),
+            *(_column(turn, angle[:, k], "rad") for k, turn in enumerate(("roll", "pitch", "yaw"))),
+        ],
+        "Place of the middle of the body, z above still water.",
+    )
 
 
 def peaks_table(level: NetworkLevel, run: Group) -> Table | None:

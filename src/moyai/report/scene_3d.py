@@ -104,6 +104,17 @@ class Body3D:
         faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
         return cls(name, corners, faces, origin, rotation)
 
+    @classmethod
+    def cylinder(cls, name: str, low: ArrayLike, high: ArrayLike, origin: Array, rotation: Array) -> Body3D:
+        """Return a cylinder about the z axis that fills a box between two corners."""
+        a, b, count = np.asarray(low, dtype=float), np.asarray(high, dtype=float), 24
+        angle = 2.0 * math.pi * np.arange(count) / count
+        middle, half = 0.5 * (a + b), 0.5 * (b - a)
+        ring = np.stack([middle[0] + half[0] * np.cos(angle), middle[1] + half[1] * np.sin(angle)], axis=1)
+        corners = np.concatenate([np.column_stack([ring, np.full(count, level)]) for level in (a[2], b[2])])
+        sides = [[k, (k + 1) % count, count + (k + 1) % count, count + k] for k in range(count)]
+        return cls(name, corners, [list(range(count))[::-1], list(range(count, 2 * count)), *sides], origin, rotation)
+
 
 @dataclass(frozen=True, eq=False)
 class Trace:

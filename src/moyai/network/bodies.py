@@ -1,0 +1,182 @@
+"""Rigid bodies hung in a network: their plans, their rest, their runs through time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import ConvergenceError
+from moyai.core.progress import Progress
+from moyai.coupled.bodies import BodyHistory
+from moyai.coupled.hulls import box_hull, cylinder_hull
+from moyai.coupled.rest import CoupledRest, find_rest
+from moyai.coupled.rigid import RigidBody
+from moyai.coupled.simulate import CoupledHistory, simulate_coupled
+from moyai.flexible.flow import Flow
+from moyai.flexible.network import Network
+from moyai.flexible.refine import refined, with_viscosity
+from moyai.flexible.result import History, State
+from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.sea.water import Water
+
+if TYPE_CHECKING:
+    from moyai.network.model import NetworkProblem
+
+Array = NDArray[np.float64]
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class BodyPlan:
+    """A box or an upright cylinder that floats or hangs; its axes start at its middle.
+
+    Parameters
+    ----------
+    name : str
+    shape : {"box", "cylinder"}
+    size : tuple of float
+        Along its axes; of a cylinder diameter, diameter, height [m].
+    mass : float
+        [kg].
+    inertia : tuple of float
+        About the centre of gravity, roll, pitch, yaw [kg m2].
+    centre_of_gravity : tuple of float
+        From the middle [m].
+    position : tuple of float
+        Of the middle at the start, z above still water [m].
+    rotation : tuple of float
+        Roll, pitch, yaw at the start [rad].
+    points : mapping of str to tuple
+        Points that lines meet, from the middle [m].
+    drag, added_mass : tuple of float
+        Coefficients along its axes [-].
+    linear_damping : tuple of float
+        Along and about its axes [N s/m, N m s].
+    free : tuple of bool
+        Surge, sway, heave, roll, pitch, yaw.
+    """
+
+    name: str
+    shape: Literal["box", "cylinder"]
+    size: Triple
+    mass: float
+    inertia: Triple
+    centre_of_gravity: Triple
+    position: Triple
+    rotation: Triple
+    points: Mapping[str, Triple]
+    drag: Triple
+    added_mass: Triple
+    linear_damping: tuple[float, ...] = (0.0,) * 6
+    free: tuple[bool, ...] = (True,) * 6
+
+    def body(self, water: Water) -> RigidBody:
+        """Return the body of :mod:`moyai.coupled`."""
+        bottom = -0.5 * self.size[2]
+        if self.shape == "box":
+            lumps = box_hull(
+                self.size, bottom=bottom, drag=self.drag, added_mass=self.added_mass, density=water.density
+            )
+        else:
+            lumps = cylinder_hull(
+                self.size[0], self.size[2], bottom=bottom, drag=(self.drag[0], self.drag[2]),
+                added_mass=(self.added_mass[0], self.added_mass[2]), density=water.density,
+            )  # fmt: skip
+        return RigidBody(
+            self.name, self.mass, np.array(self.inertia), np.array(self.centre_of_gravity), np.array(self.position),
+            np.array(self.rotation), dict(self.points), lumps, linear_damping=np.array(self.linear_damping),
+            free=self.free,
+        )  # fmt: skip
+
+
+def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRest:
+    """Return network and bodies at rest.
+
+    Raises
+    ------
+    ConvergenceError
+        When there is no rest.
+    """
+    bodies = {plan.name: plan.body(network.water) for plan in problem.bodies}
+    return find_rest(network, bodies, flow=flow)
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledRun:
+    """A run of bodies and network: the network's history as that of any network, and the bodies'."""
+
+    history: History
+    bodies: Mapping[str, BodyHistory]
+    notices: tuple[Any, ...]
+
+
+def _start(
+    problem: NetworkProblem, network: Network, rest: CoupledRest | None
+) -> tuple[dict[str, RigidBody], State, Network]:
+    if rest is None:
+        bodies = {plan.name: plan.body(network.water) for plan in problem.bodies}
+        return bodies, State.at_rest(network), network
+    return dict(rest.bodies), rest.state, rest.network
+
+
+def run_coupled(
+    problem: NetworkProblem, network: Network, rest: CoupledRest | None, progress: Progress, **options: Any
+) -> CoupledRun:
+    """Run bodies and network through time; ``options`` are those of :func:`moyai.coupled.simulate.simulate_coupled`."""
+    bodies, start, placed = _start(problem, network, rest)
+    found = simulate_coupled(placed, bodies, start=start, progress=progress, **options)
+    return CoupledRun(_as_history(placed, found), found.bodies, found.notices)
+
+
+def _as_history(network: Network, found: CoupledHistory) -> History:
+    record, rows = found.network, found.time.size
+    return History(
+        network, found.time, record.nodes, record.bars, record.position[:rows], record.tension[:rows],
+        record.tension_peak[:rows], record.kinetic_energy[:rows], record.elastic_energy[:rows], record.work[:rows],
+        found.final, "explicit, with bodies", found.network_step, round(float(found.time[-1]) / found.network_step),
+        found.status, found.message, found.checks, found.notices,
+    )  # fmt: skip
+
+
+def coupled_sensitivity(
+    problem: NetworkProblem,
+    network: Network,
+    rest: CoupledRest | None,
+    bar: int,
+    after: float,
+    peak: float,
+    step: float,
+    progress: Progress,
+    **options: Any,
+) -> PeakSensitivity:
+    """Run bodies and network with half the step, half the bars, half and twice the viscosity.
+
+    Raises
+    ------
+    ConvergenceError
+        When one of the runs had to stop.
+    """
+    bodies, start, placed = _start(problem, network, rest)
+    last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in placed.strands)
+    finer, state = refined(placed, 2, start)
+    cases: tuple[tuple[str, Network, State, int, dict[str, Any]], ...] = (
+        ("half the step", placed, start, bar, {"step": 0.5 * step}),
+        ("half the mesh", finer, state, 2 * bar + (1 if last else 0), {}),
+        ("half the viscosity", with_viscosity(placed, 0.5), start, bar, {}),
+        ("twice the viscosity", with_viscosity(placed, 2.0), start, bar, {}),
+    )
+    peaks = []
+    for number, (which, mesh, begin, chosen, more) in enumerate(cases):
+        progress("sensitivity", number + 1, 5)
+        found = simulate_coupled(mesh, bodies, start=begin, keep_nodes=[0], keep_bars=[chosen], **{**options, **more})
+        if found.status != "converged":
+            raise ConvergenceError(f"run with {which}: {found.message}", path="sensitivity")
+        late = found.time >= found.time[0] + after
+        peaks.append(float(np.max(found.network.tension_peak[: found.time.size][late, 0])))
+    progress("sensitivity", 5, 5)
+    half, mesh_peak, less, more_viscous = peaks
+    return PeakSensitivity(peak, half, mesh_peak, less, more_viscous, step)
