@@ -1,4 +1,4 @@
-"""MoorDyn (BSD-3-Clause) is driven with the motion of the box of Wu et al. and feels the same tensions at its fairleads.
+"""MoorDyn (BSD-3-Clause) is driven with the motion of the box of Wu et al. and feels the same tensions.
 
 Needs MoorDyn in this environment or in the interpreter named by MOYAI_PEER_PYTHON.
 """
@@ -32,7 +32,7 @@ system = moordyn.Create(sys.argv[1])
 moordyn.Init(system, place[0].tolist(), speed[0].tolist())
 out = np.zeros((len(place) - 1, 4))
 for row in range(len(place) - 1):
-    moordyn.Step(system, place[row + 1].tolist(), speed[row + 1].tolist(), step * row, step)
+    moordyn.Step(system, place[row].tolist(), speed[row].tolist(), step * row, step)
     for number in range(4):
         line = moordyn.GetLine(system, number + 1)
         out[row, number] = np.linalg.norm(moordyn.GetLineNodeTen(line, moordyn.GetLineN(line)))

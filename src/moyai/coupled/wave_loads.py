@@ -136,8 +136,9 @@ class WaveLoads:
         checks: tuple[IdentityCheck, ...] = ()
         notices: tuple[Notice, ...] = ()
         if memory:
-            coefficients = (data[name].values for name in ("omega", "added_mass", "radiation_damping"))
-            states, checks, notices = _memory(*coefficients, infinite)
+            states, checks, notices = _memory(
+                data["omega"].values, data["added_mass"].values, data["radiation_damping"].values, infinite
+            )
         given = data["hydrostatic_stiffness"].values if stiffness is None else np.asarray(stiffness, dtype=float)
         return cls(
             np.array(data["omega"].values),
