@@ -93,8 +93,8 @@ def worth_table(level: CurtainLevel) -> Table | None:
         key(level, "dynamic-worth"),
         "What the peak of both cables is worth",
         (Column("Run", list(names)), *columns),
-        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread of "
-        "a row is what the number is worth.",
+        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread "
+        "of a row is what the number is worth.",
     )
 
 
