@@ -164,7 +164,7 @@ def body_figures(level: NetworkLevel, run: Group) -> list[Figure]:
                 (Abscissa("time", "time", "s"),),
                 (Panel("from its start", "m"), Panel("angle", "deg")),
                 tuple(series),
-                "Place of the middle of the body from where the run begins, along the axes of the site; roll, pitch, yaw.",
+                "Place of the middle of the body from where the run begins, along axes of the site.",
                 window=shown,
                 slider=shown is not None,
                 height=480,
