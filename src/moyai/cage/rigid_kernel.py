@@ -600,7 +600,7 @@ def march(
     Returns
     -------
     float, float
-        Time reached (smaller than ``end`` when the step shrank to nothing or the motion left all bounds), next step [s].
+        Time reached (before ``end`` when the step shrank to nothing or the motion left all bounds), next step [s].
     """
     size = y.size
     lines = p.lines.shape[0]

@@ -166,7 +166,8 @@ def _require_carried(cage: RigidCage, drafts: tuple[CageLine, ...], water: Water
     if asked > carried:
         equal = carried / max(sum(steep), 1e-12)
         raise InputError(
-            f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond its weight",
+            f"the pretension pulls the cage down with {asked:.4g} N; its floats carry {carried:.4g} N beyond its "
+            "weight",
             path="structure.mooring.pretension",
             allowed=f"less than about {equal:.4g} N in each line",
         )

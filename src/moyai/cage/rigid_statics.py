@@ -250,8 +250,8 @@ def _settle(packed: Packed, place: Array, size: float, held: tuple[int, ...], we
     for turn in range(60):
         span = 20.0 / rate
         _, step = kernel.march(
-            damped, turn * span, (turn + 1) * span, state, step, 1.0 / rate, 1.0 / rate, 1e-7, scale, 0.0, 1e12, rows, tension,
-            peak, counts,
+            damped, turn * span, (turn + 1) * span, state, step, 1.0 / rate, 1.0 / rate, 1e-7, scale, 0.0, 1e12, rows,
+            tension, peak, counts,
         )  # fmt: skip
         found, error = _newton(packed, state[:3].copy(), size, held, weight)
         if error < least:

@@ -48,6 +48,7 @@ def build_problem(
     levels, chosen = model.site.water_levels, model.settings.water_levels
     names = tuple(levels) if isinstance(chosen, str) else chosen
     unit, rigid = model.structure, model.settings.rigid
+    assert isinstance(unit, schema.RigidCageStructure)
     return RigidCageProblem(
         title=model.title,
         cage=cage_of(unit, rigid.patches),

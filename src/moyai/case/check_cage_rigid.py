@@ -28,6 +28,7 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     from moyai.morison.net_law import available_net_laws, known_net_law
 
     unit = model.structure
+    assert isinstance(unit, schema.RigidCageStructure)
     law = unit.net.drag.law
     if not known_net_law(law):
         findings.fault(
@@ -87,6 +88,7 @@ def _check_analyses(model: schema.CageCase, findings: Findings) -> None:
 def _check_parts(model: schema.CageCase, problem: RigidCageProblem, findings: Findings) -> None:
     """Warn where the twine's solid volume and its mass disagree, and where the frame's density is odd."""
     cage, unit = problem.cage, model.structure
+    assert isinstance(unit, schema.RigidCageStructure)
     if unit.net.density is not None and cage.net_volume > 0.0:
         round_volume = cage.net.volume_per_area
         ratio = cage.net_volume / round_volume
