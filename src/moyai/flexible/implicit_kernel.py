@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+#: How much smaller the error of a step must be in which a bar turns slack or taut.
+AT_EVENTS = 10.0
 #: Outcomes of a march.
 GOOD, STUCK, NOT_FINITE = 0, 1, 2
 
@@ -795,7 +797,7 @@ def implicit_march(
     ahead, across, place, speed = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
     force, change, own = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
     mass, old_mass = np.empty((count, 6)), np.empty((count, 6))
-    tension, peak = np.zeros(start.size), np.full(start.size, -1e300)
+    tension, peak, pulled = np.zeros(start.size), np.full(start.size, -1e300), np.zeros(start.size)
     limits, powers, before = np.zeros(4), np.zeros(2), np.zeros(2)
     begin = time
     _water_at(now_water, base, rate, 0.0, moving)
@@ -803,6 +805,7 @@ def implicit_march(
     old_mass[:] = mass
     forces(x, v, now_water, system, fluid, bed, force, tension, mass)
     _powers(x, v, force, system, fluid, own, tension, before)
+    pulled[:] = tension
     for row in range(rows):
         target = begin + (row + 1) * interval
         while time < target - 1e-9 * interval:
@@ -850,6 +853,11 @@ def implicit_march(
                     for axis in range(3):
                         change[i, axis] = own[i, axis]
                 error = _measure(change, place, start, end, spring, limits[0], limits[1])
+                # across slack and taut the estimate is one of a smooth motion no more: it must be the smaller
+                for k in range(start.size):
+                    if (tension[k] > 0.0) != (pulled[k] > 0.0):
+                        error *= AT_EVENTS
+                        break
             if control[6] > 0.0:
                 if bad > 0:
                     control[7] = limits[2]
@@ -869,6 +877,7 @@ def implicit_march(
                 peak[k] = max(peak[k], tension[k])
                 control[5] = max(control[5], abs(tension[k]))
             _powers(x, v, force, system, fluid, own, tension, powers)
+            pulled[:] = tension
             ledger[0] += 0.5 * h * (powers[0] + before[0])
             ledger[1] += 0.5 * h * (powers[1] + before[1])
             before[:] = powers

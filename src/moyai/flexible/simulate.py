@@ -169,7 +169,7 @@ def simulate(
         per_chunk = max(1, min(per_chunk, int(flow.update_interval / interval + 1e-9)))
     status: RunStatus = "converged"
     done, message, steps, smallest = 0, "", 0, math.inf
-    sound = start
+    sound, fastest = start, _fastest(network, run)
     # rounding must not count as energy: that of a strain of a millionth
     throughput = 1e-12 * float(np.sum(network.bars.of_type("axial_stiffness") * network.bars.length)) + 1e-12
     try:
@@ -184,9 +184,10 @@ def simulate(
             throughput = max(throughput, float(np.max(total)), float(np.max(np.abs(energy[:, 2]))))
             gain = total[-1] - total[0] - energy[-1, 2]
             done += good
-            if good < count or not gain <= ENERGY_STOP * throughput:
+            wild = not float(np.max(np.abs(run.speed), initial=0.0)) < fastest
+            if good < count or wild or not gain <= ENERGY_STOP * throughput:
                 status = "not_converged"
-                message = _failure(network, run, start.time + done * interval, good < count, gain)
+                message = _failure(network, run, start.time + done * interval, good < count, wild, gain)
                 if isinstance(run, ImplicitRun) and good < count and np.isfinite(run.place).all():
                     # the step that failed has changed nothing
                     sound = run.state()
@@ -215,7 +216,23 @@ def simulate(
     )  # type: ignore[arg-type]
 
 
-def _failure(network: Network, run: ExplicitRun | ImplicitRun, time: float, not_finite: bool, gain: float) -> str:
+def _fastest(network: Network, run: ExplicitRun | ImplicitRun) -> float:
+    """Return a speed that no node reaches: some times that of elastic waves [m/s]."""
+    bars = network.bars
+    if not len(bars) or network.sheets is not None:
+        return math.inf
+    waves = np.sqrt(np.maximum(bars.of_type("axial_stiffness"), _steepest(network)) / bars.of_type("mass_per_length"))
+    return 5.0 * float(waves.max()) + 10.0 * float(np.max(np.abs(run.speed), initial=0.0)) + 1e3
+
+
+def _steepest(network: Network) -> np.ndarray:
+    slopes = [kind.axial_stiffness if kind.curve is None else kind.curve.stiffness.max() for kind in network.bars.types]
+    return np.array(slopes)[network.bars.kind]
+
+
+def _failure(
+    network: Network, run: ExplicitRun | ImplicitRun, time: float, not_finite: bool, wild: bool, gain: float
+) -> str:
     """Return when, where and why a run had to stop, and what helps."""
     if isinstance(run, ImplicitRun) and not_finite:
         return (
@@ -223,7 +240,9 @@ def _failure(network: Network, run: ExplicitRun | ImplicitRun, time: float, not_
             f"left at {name_of_node(network, run.worst)}{_advice(network)}"
         )
     worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
-    why = "values are no longer finite" if not_finite else f"energy of {gain:.3g} J came from nowhere"
+    why = f"energy of {gain:.3g} J came from nowhere"
+    if not_finite or wild:
+        why = "values are no longer finite" if not_finite else "a node outruns all elastic waves"
     return (
         f"stopped at t = {time:g} s: {why}, fastest at {name_of_node(network, worst)} (node {worst}); "
         f"step {run.step:.3g} s, stable below {_limit(run):.3g} s{_advice(network)}"

@@ -22,8 +22,14 @@ Array = NDArray[np.float64]
 
 #: Part of the largest force that may be left when the tolerance is out of reach.
 _GOOD_ENOUGH = 1e-5
-#: Turns of the bars in one step [rad] and solves of the attempts, quick first.
-_QUICK, _SAFE, _SLOW, _RISING = (1.0, 150), (0.25, 400), (0.08, 600), (0.25, 120)
+#: Attempts one after another: largest turn of a bar in a step [rad], solves, whether bold. In still water ...
+_CALM = ((1.0, 300, False), (0.25, 1000, False), (1.0, 700, True), (0.08, 1200, False))
+#: ... and in a current, where the matrix need not be positive about a stable rest.
+_MOVING = (
+    (1.0, 150, True), (1.0, 300, False), (0.25, 400, True), (0.25, 1000, False), (1.0, 700, True), (0.08, 600, True),
+)  # fmt: skip
+#: The same on the way of a rising stiffness or current, and after the true motion has led.
+_STAGE, _LAST = (0.25, 150), (0.25, 400)
 #: Parts of the current on the way to the whole.
 _CURRENTS = (0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0)
 #: How often and how long the true motion is asked for help.
@@ -62,7 +68,7 @@ def solve_equilibrium(
     start: State | None = None,
     time: float = math.inf,
     tolerance: float = 1e-9,
-    most_steps: int = 4000,
+    most_steps: int = 6000,
     state_file: str | PathLike[str] | None = None,
 ) -> Equilibrium:
     """Find the network at rest.
@@ -137,32 +143,29 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
             best, found = last, name
         return best.converged or steps >= most
 
-    # in a current the matrix need not be positive about a stable rest
     moving = bool(np.any(problem.water[:3] != 0.0))
     if any(part.stiffness > 0.0 for part in problem.parts):
         x = place
         for share in _shares(problem, place):
             problem.share = share
-            if go("rising stiffness", x, _SAFE, moving):
+            if go("rising stiffness", x, _STAGE, moving):
                 return best, found, steps
             x = last.place
-    for name, way in (("direct", _QUICK), ("small steps", _SAFE), ("small steps", _SLOW)):
-        for bold in (True, False) if moving else (False, True):
-            # slack parts that lean on each other want the careful way also in a current
-            if (moving or not bold or way == _SAFE) and go(name, place, way, bold):
-                return best, found, steps
+    for turn, limit, bold in _MOVING if moving else _CALM:
+        if go("direct" if turn == 1.0 else "small steps", place, (turn, limit), bold):
+            return best, found, steps
     if moving:
         x = place
         for factor in _CURRENTS:
             problem.raise_current(factor)
-            if go("rising current", x, _RISING, True):
+            if go("rising current", x, _STAGE, True):
                 return best, found, steps
             x = last.place if np.isfinite(last.place).all() else x
     x = place
-    for turn in range(_SHAKES):
-        x = _shake(problem.network, x, problem.flow, not moving or turn % 2 == 1)
+    for shake in range(_SHAKES):
+        x = _shake(problem.network, x, problem.flow, not moving or shake % 2 == 1)
         # near the rest nothing is rounded much
-        if go("true motion", x, _SAFE, moving and turn % 2 == 0, 1e-3):
+        if go("true motion", x, _LAST, moving and shake % 2 == 0, 1e-3):
             break
     return best, found, steps
 
