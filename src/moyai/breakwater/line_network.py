@@ -188,7 +188,10 @@ def _add_line(
         end = line.name if last else f"{line.name} joint {number + 1}"
         if not last:
             mass, volume = given.clump_bodies[clumps[number]] if number in clumps else (0.0, 0.0)
-            builder.free(end, at(np.array(gone + segment.length)), mass=mass, volume=volume)
+            # a clump sinks into the bed as far as the line does
+            load = max(mass - unit.water.density * volume, 0.0) * unit.water.gravity
+            area = 0.0 if builder.bed is None else load / (builder.bed.stiffness * SINKING * kind.diameter)
+            builder.free(end, at(np.array(gone + segment.length)), mass=mass, volume=volume, contact_area=area)
         inner = gone + segment.length * np.arange(1, count) / count
         material = with_damping(kind, segment.length / count, dynamics.damping_ratio)
         builder.line(

@@ -86,8 +86,11 @@ class TimeRun:
         assert other is not None
 
         def at(values: Array) -> Array:
-            columns = [np.interp(time, other.time, column, right=np.nan) for column in values.T]
-            return np.array(columns).T.reshape(len(time), -1)
+            columns = [np.interp(time, other.time, column) for column in values.T]
+            found = np.array(columns).T.reshape(len(time), -1)
+            # the two steps differ, and so may the last row; a run that ended early leaves the rest open
+            found[time > other.time[-1] + 2.0 * max(other.time_step, self.simulation.time_step)] = np.nan
+            return found
 
         return {
             "position_lines_at_rest": (("time", "dof"), at(other.position)),

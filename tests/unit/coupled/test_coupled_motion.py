@@ -116,6 +116,7 @@ def test_double_pendulum_of_a_line_and_a_body_has_both_exact_periods() -> None:
         assert np.max(np.abs(angle - shape[1] * np.sin(omega * history.time))) < 4e-3 * abs(shape).max()
 
 
+@pytest.mark.slow
 def test_large_swing_keeps_energy_over_many_periods() -> None:
     """A body swings by 60 degrees on a line without damping: energy within a thousandth over eleven periods."""
     body, _ = pendulum(None)
