@@ -311,7 +311,7 @@ def fit_waves(
         widths=(area,),
         period=flow.encounter,
         regular=run.regular,
-        methods=("least_squares", "fourier") if run.regular else ("least_squares",),
+        methods=("least_squares",),
         # under way the mean force is part of the drag; at rest it is the zero of the gauge
         mean=run.kind == "waves",
         phase_error=phase_error,
@@ -335,16 +335,33 @@ def fit_waves(
         clean = raw - mass * (shaken - shaken.mean())
     found = identified(clean)
     if vibration is not None and run.acceleration is None:
-        # what the model explains keeps its part of the band, its third harmonic above all; only the rest is filtered.
-        # At the fixed point this is the least-squares fit on all frequencies but those of the band
-        for _ in range(_ROUNDS):
-            modelled = found.fit("least_squares").force
-            size = modelled.size
-            clean = np.concatenate([modelled + remove_band(run.step, raw[:size] - modelled, vibration), raw[size:]])
-            found = identified(clean)
+        clean = _without_band(run.step, raw, found, vibration)
+        found = identified(clean)
     size = found.record.time.size
     cut = Flow(flow.time[:size], flow.velocity[:size], flow.acceleration[:size], flow.encounter)
     return WaveFit(run, cut, clean[:size], raw[:size], found, mass, tuple(notices))
+
+
+def _without_band(step: float, raw: Array, found: Identification, vibration: Vibration) -> Array:
+    """Return a force without a vibration, what drag and inertia explain left whole.
+
+    Model and filter take turns: the model keeps its part of the band, its third harmonic above all, and only the rest
+    is filtered. The fixed point is the least-squares fit on all frequencies but those of the band.
+    """
+    size, setup = found.record.time.size, found.setup
+    u, a = found.record.velocity[:, 0], found.acceleration[:, 0]
+    columns = [setup.density * setup.area * a, 0.5 * setup.density * setup.widths[0] * u * np.abs(u)]
+    if setup.mean:
+        columns.append(np.ones(size))
+    scale = np.array([float(np.linalg.norm(column)) or 1.0 for column in columns])
+    design = np.column_stack(columns) / scale
+    inverse = np.linalg.pinv(design)
+    modelled = found.fit("least_squares").force
+    clean = raw[:size]
+    for _ in range(_ROUNDS):
+        clean = modelled + remove_band(step, raw[:size] - modelled, vibration)
+        modelled = design @ (inverse @ clean)
+    return np.concatenate([clean, raw[size:]])
 
 
 def wave_coefficients(
