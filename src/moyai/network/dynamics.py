@@ -416,8 +416,8 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
     chosen = _counted(problem, item)
     breaking = {line.name: line.breaking_load for line in problem.lines}
     keys = (
-        "peak", "peak_time", "mean", "deviation", "utilisation", "slack_time", "slack_share", "contacts", "snaps",
-        "snap_threshold", "largest_snap", "shortest_rise",
+        "peak", "peak_time", "start_peak", "end_peak", "mean", "deviation", "utilisation", "slack_time", "slack_share",
+        "contacts", "snaps", "snap_threshold", "largest_snap", "shortest_rise",
     )  # fmt: skip
     out: dict[str, list[float]] = {key: [] for key in keys}
     time = item.series["time"].values[chosen]
@@ -432,7 +432,8 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
         ends = [item.series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
         pull = max(ends, key=lambda values: float(np.nanmean(values)))
         values = {
-            "peak": float(record[at]), "peak_time": float(time[at]), "mean": float(np.nanmean(pull)),
+            "peak": float(record[at]), "peak_time": float(time[at]), "start_peak": float(np.nanmax(ends[0])),
+            "end_peak": float(np.nanmax(ends[1])), "mean": float(np.nanmean(pull)),
             "deviation": float(np.nanstd(pull)), "utilisation": float(record[at]) / breaking[name],
         }  # fmt: skip
         if snaps is not None:

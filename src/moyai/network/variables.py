@@ -49,6 +49,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "mode_shape": ("1", "shape of the mode, largest component 1"),
     "peak": ("N", "highest tension of the run"),
     "peak_time": ("s", "time of the highest tension"),
+    "start_peak": ("N", "highest tension at the start of the line, at the rows"),
+    "end_peak": ("N", "highest tension at the end of the line, at the rows"),
     "mean": ("N", "mean tension at the line's most loaded end"),
     "deviation": ("N", "standard deviation of the tension at the line's most loaded end"),
     "utilisation": ("1", "highest tension over the breaking load"),

@@ -153,6 +153,8 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
             Column("Line", lines),
             _column("Highest", peak, "N"),
             _column("at", of("peak_time"), "s", digits=4),
+            _column("at its start", of("start_peak"), "N"),
+            _column("at its end", of("end_peak"), "N"),
             _column("Mean", of("mean"), "N"),
             _column("Standard deviation", of("deviation"), "N"),
             _column("of breaking load", None if use is None else 100.0 * use, "%"),
@@ -162,9 +164,9 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
             _column("Highest snap", of("largest_snap"), "N"),
             _column("Shortest rise", of("shortest_rise"), "s"),
         ],
-        "Highest: anywhere along the line, taken at every step. Mean and standard deviation: at its more loaded end. "
-        "A contact ends a slack phase; a snap is a contact whose peak exceeds the threshold "
-        "(settings.snap_threshold, or the mean of the taut tension).",
+        "Highest: anywhere along the line, taken at every step; at its start and end: at the rows. Mean and standard "
+        "deviation: at its more loaded end. A contact ends a slack phase; a snap is a contact whose peak exceeds the "
+        "threshold (settings.snap_threshold, or the mean of the taut tension).",
         emphasised=governs,
     )  # fmt: skip
 
