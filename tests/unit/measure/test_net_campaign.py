@@ -95,6 +95,21 @@ def test_example_files_are_whole(run):
     assert np.var(force - fitted) < 0.1 * np.var(force)
 
 
+def test_comparison_of_laws(tmp_path, capsys):
+    spec = importlib.util.spec_from_file_location("compare_net_laws", EXAMPLE / "compare_laws.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.main([str(tmp_path), "2.4", "22"])
+    text = capsys.readouterr().out
+    assert "solidity 0.206, fouled by half of the diameter 0.300" in text
+    rows = {line.split()[0]: line.split()[1:] for line in text.splitlines() if line.count(".") >= 4}
+    assert rows["loland"][0] == "0.304"
+    assert len(rows) == 11
+    assert (tmp_path / "net_laws.png").stat().st_size > 20_000
+
+
 def test_text_output(folder):
     place, _ = folder
     (place / "few.yaml").write_text(reduced(place))
