@@ -12,6 +12,7 @@ from moyai.cage.flexible_loads import PARTS, drag_on_holds, drag_split, pull_on_
 from moyai.cage.flexible_model import FlexibleCage
 from moyai.cage.flexible_parts import CageNetwork, CageParts
 from moyai.cage.flexible_wake import sheltered
+from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
 from moyai.flexible.dynamic_relaxation import relax_network
 from moyai.flexible.flow import Current, Flow
@@ -19,11 +20,14 @@ from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.rings import ring_moments
 from moyai.flexible.simulate import simulate
+from moyai.flexible.statics import Equilibrium, solve_equilibrium
 
 Array = NDArray[np.float64]
 
 #: Force left over the largest tension: what is asked for, and above what the true motion leads to rest.
 TOLERANCE, SETTLE_ABOVE = 1e-4, 1e-3
+#: The same before Newton's method is asked, and how far it may lead away from there, over the size of a cage.
+LEAD, ASTRAY = 1e-3, 0.05
 #: Time of that motion over the square root of size over gravity.
 SETTLE_TIME = 15.0
 
@@ -66,8 +70,8 @@ def solve_rest(
 ) -> CageRest:
     """Find a cage at rest in a current.
 
-    Dynamic relaxation; where slack net flutters and will not come to rest, the true motion, which the water damps,
-    goes on from there.
+    Dynamic relaxation leads, which ends in no unstable rest, then Newton's method. Where slack net flutters and will
+    not come to rest, the true motion, which the water damps, goes on from there.
 
     Parameters
     ----------
@@ -86,8 +90,17 @@ def solve_rest(
     """
     network, flow = sheltered(model, built, current), Flow(current=current)
     found = relax_network(
-        network, flow=flow, start=start, tolerance=TOLERANCE, good_enough=0.05, most_steps=50_000, progress=progress
+        network, flow=flow, start=start, tolerance=LEAD, good_enough=1.0, most_steps=30_000, progress=progress
     )
+    polished = _newton(model, network, flow, found.state)
+    if polished is None:
+        found = relax_network(
+            network, flow=flow, start=found.state, tolerance=TOLERANCE, good_enough=0.05, most_steps=50_000,
+            progress=progress,
+        )  # fmt: skip
+        polished = _newton(model, network, flow, found.state)
+    if polished is not None:
+        return CageRest(built, network, current, polished.state, polished.tension, polished.residual, found.steps)
     state, tension, residual = found.state, found.tension, found.residual
     if residual > SETTLE_ABOVE:
         duration = SETTLE_TIME * math.sqrt(model.design.size / model.water.gravity)
@@ -98,6 +111,16 @@ def solve_rest(
             again = relax_network(network, flow=flow, start=state, tolerance=1.0, good_enough=1.0)
             residual = again.residual
     return CageRest(built, network, current, state, tension, residual, found.steps)
+
+
+def _newton(model: FlexibleCage, network: Network, flow: Flow, start: State) -> Equilibrium | None:
+    """Return the rest near a state by Newton's method, ``None`` where it finds none or another one."""
+    try:
+        found = solve_equilibrium(network, flow=flow, start=start)
+    except ConvergenceError:
+        return None
+    away = np.linalg.norm(found.state.position - start.position, axis=1)
+    return found if float(away.max()) < ASTRAY * max(model.design.size, model.spacing) else None
 
 
 def stress_around(model: FlexibleCage, rest: CageRest, position: Array, tension: Array) -> list[list[Array]]:

@@ -21,7 +21,7 @@ from moyai.flexible.statics import Equilibrium
 #: Steps between two evaluations of the loads of the water, and between two looks at the current and the surface.
 EVERY, CHUNK = 5, 500
 #: Part of the pseudo velocity kept in a step, from how many steps on: slack net may flutter without any damping.
-KEEP = ((0, 1.0), (8_000, 0.999), (20_000, 0.998), (35_000, 0.996))
+KEEP = ((0, 1.0), (5_000, 0.999), (12_000, 0.998), (25_000, 0.996))
 
 
 def relax_network(
