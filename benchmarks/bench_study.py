@@ -1,24 +1,17 @@
-"""What a study costs besides its cases: overhead, two processes, a scheduler of a thousand workers.
+"""What a study costs besides its cases: overhead, two processes, a scheduler.
 
 Prints JSON lines. Everything is a ratio within this run: to the cases themselves, or to the rate that a thousand
 workers would ask for.
 
     OMP_NUM_THREADS=1 python benchmarks/bench_study.py
-    OMP_NUM_THREADS=1 python benchmarks/bench_study.py --workers 2 10 100 200
 
-With ``--workers`` only the scheduler is measured: so many worker objects, all in one other process, connect to it as
-workers on other machines would, and are given trivial cases. What they compute does not count; what scheduler and
-client need does. Every worker holds a dozen sockets: some hundreds fit into one process on an idle machine.
+What a thousand workers ask of a scheduler is measured by bench_study_scale.py.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
-import resource
 import shutil
-import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -80,86 +73,8 @@ def timed(study: Study, run: Any, workers: int, on: Any = None) -> tuple[float, 
     return out
 
 
-_CALM = {f"distributed.worker.memory.{word}": False for word in ("target", "spill", "pause", "terminate")} | {
-    "distributed.worker.profile.enabled": False,
-    "distributed.admin.system-monitor.interval": "60s",
-    "distributed.comm.timeouts.connect": "120s",
-    "distributed.scheduler.worker-ttl": None,
-}
-
-
-def serve(address: str, count: int) -> None:
-    """Be so many workers of a scheduler, until it is gone."""
-    import asyncio
-
-    import dask
-    from distributed import Worker
-
-    async def work() -> None:
-        crew = [Worker(address, nthreads=1, memory_limit=0, dashboard=False) for _ in range(count)]
-        for start in range(0, count, 50):
-            await asyncio.gather(*crew[start : start + 50])
-        await asyncio.gather(*(one.finished() for one in crew))
-
-    with dask.config.set(_CALM):
-        asyncio.run(work())
-
-
-def scale(counts: list[int]) -> None:
-    """Run trivial cases through a scheduler with growing numbers of workers and print what each costs centrally."""
-    import dask
-    from distributed import Client, LocalCluster
-
-    folder = Path(tempfile.mkdtemp())
-    for count in counts:
-        # Enough cases for every worker to be served twice or more
-        study = study_of(folder, 40, max(25, count // 20))
-        with (
-            dask.config.set(_CALM),
-            LocalCluster(n_workers=0, dashboard_address=None, processes=True) as cluster,
-            Client(cluster) as client,
-        ):
-            address = cluster.scheduler_address
-            started = time.perf_counter()
-            crew = subprocess.Popen([sys.executable, __file__, "--serve", address, str(count)])
-            try:
-                client.wait_for_workers(count, timeout=400)
-                ready = time.perf_counter() - started
-                cpu = time.process_time()
-                time.sleep(10.0)
-                idle = (time.process_time() - cpu) / 10.0
-                # Scheduler and client alone live in this process: what it uses is what every case costs centrally
-                wall, used = timed(study, trivial, 1, on=client)
-            finally:
-                crew.terminate()
-                crew.wait()
-        each = used / len(study.cases)
-        print(
-            json.dumps(
-                {
-                    "what": "trivial cases through a scheduler", "workers": count, "cases": len(study.cases),
-                    "wall_s": wall, "central_ms_a_case": 1e3 * each, "idle_share_of_a_core": idle,
-                    "least_seconds_a_case_that_keep_them_busy": count * each / (1.0 - min(idle, 0.99)),
-                    "start_of_the_workers_s": ready,
-                    "memory_of_scheduler_and_client_gb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6,
-                }
-            ),
-            flush=True,
-        )  # fmt: skip
-
-
 def main() -> None:
     """Run and print."""
-    parser = argparse.ArgumentParser(description="What a study costs besides its cases.")
-    parser.add_argument("--workers", type=int, nargs="+", help="Measure the scheduler with so many workers instead.")
-    parser.add_argument("--serve", nargs=2, metavar=("ADDRESS", "COUNT"), help=argparse.SUPPRESS)
-    chosen = parser.parse_args()
-    if chosen.serve:
-        serve(chosen.serve[0], int(chosen.serve[1]))
-        return
-    if chosen.workers:
-        scale(chosen.workers)
-        return
     folder = Path(tempfile.mkdtemp())
     study = study_of(folder, 40, 25)
     _, cpu = timed(study, trivial, 1)

@@ -54,7 +54,7 @@ def contour_seas(given: schema.Contour, folder: Path) -> tuple[Array, Array]:
 
 
 def _pairs(given: schema.PairsOfSeas, folder: Path) -> tuple[Array, Array]:
-    from moyai.study.variations import read_rows
+    from moyai.study.variations_of_files import read_rows
 
     file = folder / given.file
     rows = read_rows(file)

@@ -14,11 +14,11 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
+from moyai.study.axes import Combination
 from moyai.study.ledger import Ledger, Record
 from moyai.study.local import run_here, run_processes
 from moyai.study.plan import RunCase, Study, with_search
 from moyai.study.table import study_result
-from moyai.study.variations import Combination
 from moyai.study.work import Task
 
 Backend = Callable[[Task, tuple[Combination, ...]], Iterator[Record]]

@@ -22,10 +22,12 @@ from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result, make_provenance
 from moyai.measure.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
+from moyai.study.axes import Combination, varied
 from moyai.study.paths import resolve, value_of
-from moyai.study.plan import RunCase, varied
+from moyai.study.plan import RunCase
 from moyai.study.responses import read_response
-from moyai.study.variations import Combination, common_unit, read_rows
+from moyai.study.variations import common_unit
+from moyai.study.variations_of_files import read_rows
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
+from moyai.study.axes import Combination
 from moyai.study.ledger import Record
-from moyai.study.variations import Combination
 from moyai.study.work import Task, run_case
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")

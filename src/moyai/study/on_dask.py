@@ -9,9 +9,9 @@ from itertools import islice
 from typing import Any
 
 from moyai.core.errors import InputError
+from moyai.study.axes import Combination
 from moyai.study.ledger import Record
 from moyai.study.local import THREADS
-from moyai.study.variations import Combination
 from moyai.study.work import Task, run_case
 
 _FLIGHT = 4
@@ -59,18 +59,13 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
 
         futures = as_completed([submit(case) for case in islice(waiting, room)], loop=client.loop)
         try:
-            for future in futures:
-                combination = jobs.pop(future.key)
-                if future.status == "finished":
-                    record = future.result()
-                    if record is not None:
-                        yield record
-                else:
-                    yield Record(combination.index, "failed", f"the cluster gave it up: {future.exception()}", 0.0, {})
-                future.release()
-                following = next(waiting, None)
-                if following is not None:
-                    futures.add(submit(following))
+            for ready in futures.batches():
+                # No more than one a worker at once, so that little is lost when this process ends meanwhile
+                for start in range(0, len(ready), threads):
+                    batch = ready[start : start + threads]
+                    following = [submit(case) for case in islice(waiting, len(batch))]
+                    futures.update(following)
+                    yield from _records(client, [(future, jobs.pop(future.key)) for future in batch])
         finally:
             # Cancelling a future does not stop a task that runs: the tasks look at this flag
             if jobs:
@@ -80,6 +75,19 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
                 except Exception:
                     # The scheduler itself may be gone; there is nothing left to cancel then
                     pass
+
+
+def _records(client: Any, ended: list[tuple[Any, Combination]]) -> Iterator[Record]:
+    """Fetch the records of cases that ended in one go, since every question to the scheduler takes its way there."""
+    finished = {future.key: future for future, _ in ended if future.status == "finished"}
+    found = client.gather(finished, errors="skip") if finished else {}
+    for future, combination in ended:
+        record = found.get(future.key)
+        if record is not None:
+            yield record
+        elif future.status != "finished":
+            yield Record(combination.index, "failed", f"the cluster gave it up: {future.exception()}", 0.0, {})
+        future.release()
 
 
 def _run(task: Task, combination: Combination, flag: str, pause: float = _ASK) -> Record | None:

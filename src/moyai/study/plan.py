@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import hashlib
 import json
 import math
@@ -17,9 +16,11 @@ from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.study import schema
-from moyai.study.paths import assign, remove, resolve
+from moyai.study.axes import Axis, Combination, Ground, Point, combinations, varied, without
+from moyai.study.paths import resolve
+from moyai.study.plan_faults import check_names, check_search, place_of, unknown_keys
 from moyai.study.responses import Wanted
-from moyai.study.variations import Axis, Combination, Point, axes_of, combinations, common_unit
+from moyai.study.variations import axes_of, wrong_paths
 
 LARGEST = 1_000_000
 """Number of cases above which a study is refused as a slip."""
@@ -118,26 +119,33 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
         changed: KeyPath = ("study", "set", error.fault.path)
         faults.append(document.fault(changed, error.fault.message, remedy=error.fault.remedy, of_key=True))
     axes: list[Axis] = []
+    ground = Ground(base.data, folder, base_path.parent)
+    wrong: list[str] = []
     for number, variation in enumerate(block.variations):
         where: KeyPath = ("study", "variations", number)
         if isinstance(document.data["study"]["variations"], dict):
             where = ("study", "variations")
         try:
-            axes.extend(axes_of(variation, base.data, folder))
+            found = axes_of(variation, ground)
+            errors = wrong_paths(found, base.data)
         except InputError as error:
-            fault = error.fault
-            place = _place_of(document, where, fault.path)
+            found, errors = (), [error]
+        wrong += [error.fault.path for error in errors]
+        sound = without(found, wrong)
+        axes.extend(sound)
+        for fault in [*(error.fault for error in errors), *(unknown_keys(sound, base, base_path) if wrong else ())]:
+            place = place_of(document, where, fault.path)
             faults.append(document.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy, of_key=True))
     if faults:
         raise CaseError(faults)
     search = block.limit if block.limit is not None else block.optimise
-    _check_search(document, base.data, search)
+    check_search(document, base, base_path, search)
     if block.optimise is not None and block.optimise.trade_off is not None:
         trade = block.optimise.trade_off
         axes.append(Axis(trade.name, tuple(Point(f"{value:g}", (("@at_most", value),)) for value in trade.at_most)))
     if not axes and search is None:
         raise CaseError([document.fault(("study", "variations"), "the study varies nothing", remedy="give variations")])
-    _check_names(document, axes)
+    check_names(document, axes)
     count = math.prod(len(axis.points) for axis in axes)
     if count > LARGEST:
         message = f"the study has {count} cases"
@@ -205,19 +213,6 @@ def case_at(study: Study, combination: Combination) -> Case:
     return case_of(varied(study.base, combination), study.base_path)
 
 
-def varied(base: Document, combination: Combination) -> Document:
-    """Return the base case with what a combination changes; places in the file stay those of the base case."""
-    data = copy.deepcopy(base.data)
-    for path, value in combination.assignments:
-        for place in resolve(data, path):
-            assign(data, place, copy.deepcopy(value))
-    places = [place for path in combination.removals for place in resolve(data, path)]
-    # Later entries of a list first, so that the numbers of the others stay
-    for place in sorted(places, key=lambda place: [str(item).zfill(9) for item in place], reverse=True):
-        remove(data, place)
-    return replace(base, data=data)
-
-
 def check_cases(study: Study, progress: Progress = silent) -> tuple[str, tuple[int, ...]]:
     """Check the cases of a study without running them; return the hash of their content and who was refused.
 
@@ -280,29 +275,6 @@ def _to_check(study: Study) -> list[int]:
     return sorted(chosen)
 
 
-def _check_search(document: Document, base: Any, search: schema.LimitSearch | schema.Optimisation | None) -> None:
-    """Check the paths and ranges of a search."""
-    if search is None:
-        return
-    if isinstance(search, schema.LimitSearch):
-        ranges = {search.path: (search.first, search.last)}
-        where: KeyPath = ("study", "limit", "path")
-    else:
-        ranges, where = dict(search.variables), ("study", "optimise", "variables")
-    faults = []
-    for path, (low, high) in ranges.items():
-        place = where if where[-1] == "path" else (*where, path)
-        try:
-            resolve(base, path)
-            first, last, _ = common_unit(low, high, path)
-            if not first < last:
-                raise InputError(f"the range at '{path}' is empty", remedy="give the smaller value first")
-        except InputError as error:
-            faults.append(document.fault(place, error.fault.message, remedy=error.fault.remedy, of_key=True))
-    if faults:
-        raise CaseError(faults)
-
-
 def with_search(study: Study, run: RunCase) -> RunCase:
     """Return what runs one case of the study: ``run`` itself, or a search around it."""
     from moyai.study.search import Limit, LimitRun, OptimiseRun
@@ -338,42 +310,6 @@ def _read_base(document: Document, base_path: Path) -> Document:
     base = read_yaml(base_path)
     case_of(base, base_path)
     return base
-
-
-def _place_of(document: Document, where: KeyPath, path: str) -> KeyPath:
-    """Return the place in the study file that speaks of ``path``, or the variation as a whole."""
-    named = [place for place in document.keys if place[: len(where)] == where and path and str(place[-1]) == path]
-    if named:
-        return named[0]
-    values = [
-        place for place in document.values if place[: len(where)] == where and _value(document.data, place) == path
-    ]
-    if path and values:
-        return values[0]
-    first = [place for place in document.keys if place[: len(where)] == where and len(place) == len(where) + 1]
-    return first[0] if first else where
-
-
-def _value(data: Any, place: KeyPath) -> Any:
-    for item in place:
-        data = data[item]
-    return data
-
-
-def _check_names(document: Document, axes: list[Axis]) -> None:
-    names = [axis.name for axis in axes]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
-        message = f"two axes are called '{twice[0]}'"
-        remedy = "give them names of their own with 'name'"
-        raise CaseError([document.fault(("study", "variations"), message, remedy=remedy)])
-    paths: dict[str, str] = {}
-    for axis in axes:
-        for path in {path for point in axis.points for path, _ in point.assignments}:
-            if path in paths:
-                message = f"'{path}' is varied by both '{paths[path]}' and '{axis.name}'"
-                raise CaseError([document.fault(("study", "variations"), message, remedy="vary it once")])
-            paths[path] = axis.name
 
 
 def _key(study: Study, hashes: str) -> str:

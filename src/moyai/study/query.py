@@ -265,7 +265,7 @@ def _number(text: str, name: str, unit: str) -> float:
         ) from None
     plain = quantity.unit.symbol == ""
     if not plain and unit not in ("1", ""):
-        from moyai.study.variations import si_symbol
+        from moyai.study.axes import si_symbol
 
         own = si_symbol(quantity.unit.dimension)
         if own != unit:

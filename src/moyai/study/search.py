@@ -18,9 +18,10 @@ from moyai.core.errors import CaseError, InputError
 from moyai.core.progress import Progress
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result
-from moyai.study.plan import RunCase, varied
+from moyai.study.axes import Combination, varied
+from moyai.study.plan import RunCase
 from moyai.study.responses import find_response, read_response
-from moyai.study.variations import Combination, common_unit
+from moyai.study.variations import common_unit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -285,7 +286,7 @@ def _si_factor(unit: str) -> float:
 
 
 def _si_name(unit: str) -> str:
-    from moyai.study.variations import si_symbol
+    from moyai.study.axes import si_symbol
 
     return (si_symbol(parse_quantity(f"1 {unit}").unit.dimension) if unit else "") or "1"
 

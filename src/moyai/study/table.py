@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.results import Result, Status, make_provenance
+from moyai.study.axes import Axis
 from moyai.study.ledger import Record
 from moyai.study.plan import Study
-from moyai.study.variations import Axis
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -2,87 +2,30 @@
 
 from __future__ import annotations
 
-import csv
-import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
-from moyai.core.units import Dimension
 from moyai.study import schema
-from moyai.study.paths import resolve, value_of
-from moyai.study.scatter import read_scatter
-
-Assignments = tuple[tuple[str, Any], ...]
-
-
-@dataclass(frozen=True)
-class Point:
-    """One place on an axis.
-
-    Parameters
-    ----------
-    label : str
-        What stands in tables.
-    assignments : tuple of (str, object)
-        Path and value of everything that changes.
-    removals : tuple of str
-        Paths that are left out.
-    probability : float
-        Weight of the point, NaN where it has none.
-    """
-
-    label: str
-    assignments: Assignments = ()
-    removals: tuple[str, ...] = ()
-    probability: float = math.nan
+from moyai.study.axes import Axis, Ground, Point
+from moyai.study.lost_lines import lines_lost
+from moyai.study.paths import resolve
+from moyai.study.variations_of_files import contour, scatter, spectra, table
 
 
-@dataclass(frozen=True)
-class Axis:
-    """One axis of a study.
-
-    Parameters
-    ----------
-    name : str
-        Name of the dimension.
-    points : tuple of Point
-        Where it was varied to.
-    lost_line : bool
-        Its points are the intact structure and lost lines.
-    """
-
-    name: str
-    points: tuple[Point, ...]
-    lost_line: bool = False
-
-    def coordinates(self) -> dict[str, tuple[list[Any], str]]:
-        """Return values and SI unit by path (text where they are not all numbers of one kind)."""
-        paths = [path for path, _ in self.points[0].assignments]
-        found = {}
-        for path in paths:
-            values = [dict(point.assignments).get(path) for point in self.points]
-            found[path] = _numbers(values)
-        return found
-
-
-def axes_of(variation: schema.Variation, base: Any, folder: Path) -> tuple[Axis, ...]:
-    """Return the axes that one variation gives.
+def axes_of(variation: schema.Variation, ground: Ground) -> tuple[Axis, ...]:
+    """Return the axes that one variation gives; whether the case has their paths is not looked at.
 
     Parameters
     ----------
     variation : Variation
         As read.
-    base : object
-        Content of the base case.
-    folder : Path
-        From which the study file names other files.
+    ground : Ground
+        The base case and where files stand.
 
     Raises
     ------
@@ -92,41 +35,24 @@ def axes_of(variation: schema.Variation, base: Any, folder: Path) -> tuple[Axis,
     for kind, build in _BUILDERS.items():
         given = getattr(variation, kind)
         if given is not None and given is not False:
-            axes = build(given, base, folder)
-            points = [point for axis in axes for point in axis.points]
-            named = [path for point in points for path in (*dict(point.assignments), *point.removals)]
-            for path in dict.fromkeys(named):
-                resolve(base, path)
-            return axes
+            return build(given, ground)
     return ()
 
 
-def _numbers(values: Sequence[Any]) -> tuple[list[Any], str]:
-    """Return quantities as numbers in their common SI unit, anything else as text."""
-    quantities = []
-    for value in values:
-        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-            return [str(value) for value in values], ""
+def wrong_paths(axes: tuple[Axis, ...], base: Any) -> list[InputError]:
+    """Return what is wrong with paths that the base case does not have, each path once."""
+    points = [point for axis in axes for point in axis.points]
+    named = [path for point in points for path in (*dict(point.assignments), *point.removals)]
+    found = []
+    for path in dict.fromkeys(named):
         try:
-            quantities.append(parse_quantity(value if isinstance(value, str) else repr(value)))
-        except InputError:
-            return [str(value) for value in values], ""
-    dimension = quantities[0].unit.dimension
-    if any(quantity.unit.dimension != dimension for quantity in quantities):
-        return [str(value) for value in values], ""
-    return [quantity.si for quantity in quantities], si_symbol(dimension)
+            resolve(base, path)
+        except InputError as error:
+            found.append(error)
+    return found
 
 
-def si_symbol(dimension: Dimension) -> str:
-    """Return the SI unit of a dimension: its own name where it has one, else metres, kilograms and seconds."""
-    named = {Dimension(1, 1, -2): "N", Dimension(-1, 1, -2): "Pa", Dimension(0, 1, -2): "N/m"}
-    if dimension in named:
-        return named[dimension]
-    bases = (("kg", dimension.mass), ("m", dimension.length), ("rad", dimension.angle), ("s", dimension.time))
-    return " ".join(base if power == 1 else f"{base}{power}" for base, power in bases if power)
-
-
-def _grid(given: Mapping[str, Any], base: Any, folder: Path) -> tuple[Axis, ...]:
+def _grid(given: Mapping[str, Any], ground: Ground) -> tuple[Axis, ...]:
     axes = []
     names = _short_names(list(given))
     for path, values in given.items():
@@ -168,66 +94,13 @@ def common_unit(first: Any, last: Any, path: str) -> tuple[float, float, str]:
     return float(one.number), float(one.unit.from_si(two.unit.to_si(two.number))), one.unit.symbol
 
 
-def _list(given: schema.ListOfCases, base: Any, folder: Path) -> tuple[Axis, ...]:
+def _list(given: schema.ListOfCases, ground: Ground) -> tuple[Axis, ...]:
     return (
         Axis(given.name, tuple(Point(entry.label, tuple(entry.set.items()), entry.remove) for entry in given.cases)),
     )
 
 
-def _table(given: schema.TableOfCases, base: Any, folder: Path) -> tuple[Axis, ...]:
-    file = folder / given.file
-    rows = read_rows(file)
-    known = list(rows[0])
-    for column in (*given.columns, *given.units):
-        if column not in known:
-            raise InputError(f"{file.name} has no column '{column}'", path="table.columns", allowed=", ".join(known))
-    points = []
-    for number, row in enumerate(rows, start=2):
-        entries = []
-        for column, path in given.columns.items():
-            text = (row[column] or "").strip()
-            if not text:
-                raise InputError(f"{file.name}, row {number}: column '{column}' is empty", path="table.file")
-            unit = given.units.get(column, "")
-            entries.append((path, f"{text} {unit}" if unit else _scalar(text)))
-        points.append(Point(str(number - 1), tuple(entries)))
-    return (Axis(given.name, tuple(points)),)
-
-
-def read_rows(file: Path) -> list[dict[str, str]]:
-    """Return the rows of a CSV file by column.
-
-    Raises
-    ------
-    InputError
-        When the file is absent, empty, or no text.
-    """
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(f"no such file: {file}", path="file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{file} cannot be read: {error}", path="file", remedy="save it as UTF-8") from None
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if not lines:
-        raise InputError(f"{file} is empty", path="file")
-    delimiter = max(",;\t", key=lines[0].count)
-    rows = [
-        {str(key).strip(): value for key, value in row.items() if key is not None}
-        for row in csv.DictReader(lines, delimiter=delimiter)
-    ]
-    if not rows:
-        raise InputError(f"{file} has a header but no rows", path="file")
-    return rows
-
-
-def _scalar(text: str) -> Any:
-    from moyai.case.yaml_reader import core_scalar
-
-    return core_scalar(text)
-
-
-def _return_periods(given: schema.ReturnPeriods, base: Any, folder: Path) -> tuple[Axis, ...]:
+def _return_periods(given: schema.ReturnPeriods, ground: Ground) -> tuple[Axis, ...]:
     pairs = given.pairs
     if pairs == "automatic":
         waves = sorted(given.waves, key=_years)
@@ -266,72 +139,7 @@ def _years(label: str) -> float:
         ) from None
 
 
-def _scatter(given: schema.Scatter, base: Any, folder: Path) -> tuple[Axis, ...]:
-    cells = read_scatter(folder / given.file, counts=given.counts)
-    points = tuple(
-        Point(
-            f"Hs {cell.significant_height:g} m, T {cell.period:g} s",
-            ((given.significant_height, cell.significant_height), (given.period, cell.period)),
-            probability=cell.probability,
-        )
-        for cell in cells
-    )
-    return (Axis(given.name, points),)
-
-
-def _contour(given: schema.Contour, base: Any, folder: Path) -> tuple[Axis, ...]:
-    from moyai.study.contour import contour_seas
-
-    points = tuple(
-        Point(
-            f"Hs {height:.3g} m, T {period:.3g} s",
-            ((given.significant_height, float(height)), (given.period, float(period))),
-        )
-        for height, period in zip(*contour_seas(given, folder))
-    )
-    return (Axis(given.name, points),)
-
-
-def _spectra(given: schema.SpectraOfFile, base: Any, folder: Path) -> tuple[Axis, ...]:
-    from moyai.sea.spectrum_archives import read_archive
-
-    file = folder / given.file
-    archive = read_archive(file)
-    if given.place >= len(archive.place):
-        raise InputError(
-            f"{given.file} has no place {given.place}", path="place", allowed=f"0 to {len(archive.place) - 1}"
-        )
-    places = resolve(base, given.sea)
-    sea = value_of(base, places[0])
-    if not isinstance(sea, dict):
-        raise InputError(f"'{given.sea}' is no sea state", path=given.sea, allowed="for instance waves[0]")
-    kept = {key: value for key, value in sea.items() if key in _OF_THE_SEA}
-    points = []
-    height = archive.significant_height()
-    for record in given.records or range(len(archive.time)):
-        if record >= len(archive.time):
-            raise InputError(f"there is no record {record}", path="records", allowed=f"0 to {len(archive.time) - 1}")
-        if not height[record, given.place] > 0.0:
-            raise InputError(
-                f"record {record} ({archive.time[record]}) of {given.file} holds no energy",
-                path="records",
-                remedy="list the records that are wanted under 'records'",
-            )
-        block = {**kept, "kind": "spectrum_file", "file": str(file.resolve()), "record": record, "place": given.place}
-        if given.direction:
-            bearing = float(archive.direction[record, given.place])
-            if not math.isfinite(bearing):
-                raise InputError(f"{given.file} tells no direction for record {record}", path="direction")
-            block.pop("heading_deg", None)
-            block["from_bearing_deg"] = round(bearing, 3)
-        points.append(Point(archive.time[record], ((given.sea, block),)))
-    return (Axis(given.name, tuple(points)),)
-
-
-_OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")
-
-
-def _sample(given: schema.Sample, base: Any, folder: Path) -> tuple[Axis, ...]:
+def _sample(given: schema.Sample, ground: Ground) -> tuple[Axis, ...]:
     from scipy.stats import qmc
 
     dimension = len(given.variables)
@@ -374,122 +182,24 @@ def _positive(deviation: float, path: str) -> float:
     return deviation
 
 
-def _seeds(given: schema.Seeds, base: Any, folder: Path) -> tuple[Axis, ...]:
+def _seeds(given: schema.Seeds, ground: Ground) -> tuple[Axis, ...]:
     seeds = range(given.first, given.first + given.count)
     return (Axis(given.name, tuple(Point(str(seed), ((given.path, seed),)) for seed in seeds)),)
-
-
-def _lines_lost(given: schema.LinesLost | bool, base: Any, folder: Path) -> tuple[Axis, ...]:
-    settings = schema.LinesLost() if given is True else given
-    assert isinstance(settings, schema.LinesLost)
-    path, lines = _place_of_lines(settings.path, base)
-    if isinstance(lines, dict) and not all(isinstance(value, dict) for value in lines.values()):
-        # A list of one may stand in the file as a block
-        raise InputError("the only line of the structure cannot be lost", path="lines_lost")
-    if not isinstance(lines, (list, dict)) or not lines:
-        raise InputError(
-            f"the case has no list '{settings.path}' of which one could be lost",
-            path="lines_lost",
-            allowed=", ".join(_lists(base)) or "no list of blocks is in this case",
-            remedy="name the list under 'path', or write the losses as a 'list' of cases with 'set' and 'remove'",
-        )
-    points = [Point("intact")] if settings.intact else []
-    if isinstance(lines, dict):
-        entries = [(str(key), f"{path}.{key}", line) for key, line in lines.items()]
-    else:
-        entries = [(_name_of(line, index), f"{path}[{index}]", line) for index, line in enumerate(lines)]
-    for name, where, line in entries:
-        count = line.get("count", 1) if isinstance(line, dict) else 1
-        if isinstance(count, int) and count > 1:
-            points.append(Point(f"one of {name}", ((f"{where}.count", count - 1),)))
-        elif len(lines) > 1:
-            points.append(Point(name, removals=(where,)))
-        else:
-            raise InputError("the only line of the structure cannot be lost", path="lines_lost")
-    return (Axis(settings.name, tuple(points), lost_line=True),)
-
-
-def _name_of(line: Any, index: int) -> str:
-    return str(line.get("name", index)) if isinstance(line, dict) else str(index)
-
-
-def _place_of_lines(path: str, base: Any) -> tuple[str, Any]:
-    """Return where the lines stand, and the lines; where the path is the usual one, wherever the case has 'lines'."""
-    try:
-        lines = value_of(base, resolve(base, path)[0])
-    except InputError:
-        lines = None
-    if lines is None and path == schema.LinesLost().path:
-        found = [place for place in _lists(base) if place.rpartition(".")[2] == path]
-        if len(found) == 1:
-            return found[0], value_of(base, resolve(base, found[0])[0])
-    return path, lines
-
-
-def _lists(data: Any, place: str = "") -> list[str]:
-    """Return the paths of all lists, or blocks of named entries, of which one could be lost."""
-    found: list[str] = []
-    for key, value in data.items() if isinstance(data, dict) else ():
-        where = f"{place}.{key}" if place else str(key)
-        entries = value if isinstance(value, list) else list(value.values()) if isinstance(value, dict) else []
-        if key not in ("waves", "site") and len(entries) > 1 and all(isinstance(item, dict) for item in entries):
-            found.append(where)
-        found += _lists(value, where)
-    return found
 
 
 def _text(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-_BUILDERS: dict[str, Callable[[Any, Any, Path], tuple[Axis, ...]]] = {
+_BUILDERS: dict[str, Callable[[Any, Ground], tuple[Axis, ...]]] = {
     "grid": _grid,
     "list": _list,
-    "table": _table,
+    "table": table,
     "return_periods": _return_periods,
-    "scatter": _scatter,
-    "contour": _contour,
-    "spectra": _spectra,
+    "scatter": scatter,
+    "contour": contour,
+    "spectra": spectra,
     "sample": _sample,
     "seeds": _seeds,
-    "lines_lost": _lines_lost,
+    "lines_lost": lines_lost,
 }
-
-
-@dataclass(frozen=True)
-class Combination:
-    """One case of the product of all axes.
-
-    Parameters
-    ----------
-    index : int
-        Its number, from 0, the last axis running fastest.
-    labels : tuple of str
-        Its place on every axis.
-    assignments, removals : tuple
-        What it changes in the base case, in the order of the axes.
-    """
-
-    index: int
-    labels: tuple[str, ...]
-    assignments: Assignments = ()
-    removals: tuple[str, ...] = ()
-    options: Assignments = ()
-
-    # Options are what a search inside the case asks for, such as the limit of a trade-off; they start with '@'
-
-
-def combinations(axes: Sequence[Axis]) -> tuple[Combination, ...]:
-    """Return the product of all axes."""
-    found = []
-    for index, points in enumerate(itertools.product(*(axis.points for axis in axes))):
-        found.append(
-            Combination(
-                index,
-                tuple(point.label for point in points),
-                tuple(entry for point in points for entry in point.assignments if not entry[0].startswith("@")),
-                tuple(path for point in points for path in point.removals),
-                tuple(entry for point in points for entry in point.assignments if entry[0].startswith("@")),
-            )
-        )
-    return tuple(found)

@@ -11,10 +11,10 @@ from typing import Any
 from moyai.case.yaml_reader import Document
 from moyai.core.errors import CaseError, InputError, MoyaiError
 from moyai.core.progress import Progress, silent
+from moyai.study.axes import Combination, varied
 from moyai.study.ledger import Record
-from moyai.study.plan import RunCase, varied
+from moyai.study.plan import RunCase
 from moyai.study.responses import Wanted, kept
-from moyai.study.variations import Combination
 
 _POLL = 0.2
 

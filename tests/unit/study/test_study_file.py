@@ -11,7 +11,8 @@ from scipy.stats import norm
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
-from moyai.study import variations
+from moyai.study.axes import Ground
+from moyai.study.lost_lines import lines_lost
 from moyai.study.paths import resolve, value_of
 from moyai.study.plan import case_at, load_study
 from moyai.study.scatter import read_scatter
@@ -69,6 +70,36 @@ def test_paths_that_lead_nowhere_say_where_they_end(path, words):
 def test_a_misspelt_last_key_is_told_by_the_schema_of_the_case(tmp_path):
     told = faults(tmp_path, "- grid: {'waves[storm].significant_hight': [1 m]}")
     assert "unknown key 'significant_hight'" in told and "case 1 of 1" in told
+
+
+def test_all_wrong_paths_of_a_study_are_told_at_once(tmp_path):
+    variations = """
+- grid:
+    waves[storm].significant_hight: [1 m, 2 m]
+    structur.draught: [3 m]
+- seeds: {path: 'waves[strom].seed', count: 2}
+"""
+    told = faults(tmp_path, variations)
+    for word in ("unknown key 'significant_hight'", "no key 'structur'", "no entry 'strom'"):
+        assert told.count(word) == 1, told
+    assert [f"study.yaml:{line}:" in told for line in (7, 8, 9)] == [True] * 3, told
+
+
+@pytest.mark.parametrize("search", ["limit", "optimise"])
+def test_a_misspelt_last_key_of_a_search_is_told(tmp_path, search):
+    study_cases.write_base(tmp_path)
+    path = "waves[storm].significant_hight"
+    blocks = {
+        "limit": f"{{path: '{path}', from: 1 m, to: 2 m, conditions: [{{response: SWL/x, at_most: 1}}]}}",
+        "optimise": f"{{variables: {{'{path}': [1 m, 2 m]}}, minimise: SWL/x}}",
+    }
+    file = tmp_path / "study.yaml"
+    head = "moyai: 1\nstudy:\n  title: t\n  base: base.yaml\n"
+    file.write_text(head + f"  {search}: {blocks[search]}\n", encoding="utf-8")
+    with pytest.raises(CaseError, match="unknown key 'significant_hight'"):
+        load_study(file)
+    file.write_text(file.read_text(encoding="utf-8").replace("hight", "height"), encoding="utf-8")
+    assert load_study(file).search is not None
 
 
 def test_a_path_that_does_not_exist_is_told_with_its_line(tmp_path):
@@ -271,6 +302,20 @@ def test_spectra_of_a_file_replace_a_sea_state_and_keep_its_seed(tmp_path):
     assert "0 to 1" in faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', records: [5]}")
 
 
+def test_a_study_of_spectra_that_was_moved_with_its_files_is_the_same_study(tmp_path):
+    text = "#YY MM DD hh mm Sep\n2020 01 01 00 00 9 0.1 (0.100) 0.3 (0.200) 0.1 (0.300)\n"
+    keys = []
+    for name, content in (("here", text), ("there", text), ("changed", text.replace("0.3 (", "0.4 ("))):
+        folder = tmp_path / name
+        (folder / "seas").mkdir(parents=True)
+        (folder / "seas" / "buoy.data_spec").write_text(content, encoding="utf-8")
+        path = study_cases.write_text(folder, "- spectra: {file: seas/buoy.data_spec, sea: 'waves[storm]'}")
+        study = load_study(path)
+        assert case_at(study, study.cases[0]).model.waves[0].file == "seas/buoy.data_spec"
+        keys.append(study.key)
+    assert keys[0] == keys[1] != keys[2]
+
+
 def test_the_template_of_a_study_runs_on_the_template_of_a_breakwater(tmp_path):
     for kind in ("breakwater", "study"):
         (tmp_path / f"{kind}.yaml").write_text(template(kind), encoding="utf-8")
@@ -328,7 +373,7 @@ def test_lines_that_stand_below_the_structure_by_name_are_lost_too():
         "site": {"water_depth": "5 m"},
         "structure": {"kind": "network", "lines": {"north": {"length": "3 m"}, "south": {"count": 3}, "west east": {}}},
     }
-    (axis,) = variations._lines_lost(True, data, Path())
+    (axis,) = lines_lost(True, Ground(data, Path(), Path()))
     assert [point.label for point in axis.points] == ["intact", "north", "one of south", "west east"]
     assert axis.points[1].removals == ("structure.lines.north",) and axis.lost_line
     assert axis.points[2].assignments == (("structure.lines.south.count", 2),)
@@ -336,6 +381,6 @@ def test_lines_that_stand_below_the_structure_by_name_are_lost_too():
         for path in (*point.removals, *dict(point.assignments)):
             resolve(data, path)
     with pytest.raises(InputError, match="the only line"):
-        variations._lines_lost(True, {"lines": {"name": "a", "length": "1 m"}}, Path())
+        lines_lost(True, Ground({"lines": {"name": "a", "length": "1 m"}}, Path(), Path()))
     with pytest.raises(InputError, match="the only line"):
-        variations._lines_lost(True, {"lines": {"a": {"length": "1 m"}}}, Path())
+        lines_lost(True, Ground({"lines": {"a": {"length": "1 m"}}}, Path(), Path()))

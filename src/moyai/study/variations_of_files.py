@@ -1,0 +1,141 @@
+"""Variations that stand in files: tables, scatter diagrams, contours, spectra."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+from typing import Any
+
+from moyai.core.errors import InputError
+from moyai.study import schema
+from moyai.study.axes import Axis, Ground, Point
+from moyai.study.paths import resolve, value_of
+from moyai.study.scatter import read_scatter
+
+_OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")
+
+
+def table(given: schema.TableOfCases, ground: Ground) -> tuple[Axis, ...]:
+    """Return the axis of cases from the rows of a CSV file."""
+    file = ground.folder / given.file
+    rows = read_rows(file)
+    known = list(rows[0])
+    for column in (*given.columns, *given.units):
+        if column not in known:
+            raise InputError(f"{file.name} has no column '{column}'", path="table.columns", allowed=", ".join(known))
+    points = []
+    for number, row in enumerate(rows, start=2):
+        entries = []
+        for column, path in given.columns.items():
+            text = (row[column] or "").strip()
+            if not text:
+                raise InputError(f"{file.name}, row {number}: column '{column}' is empty", path="table.file")
+            unit = given.units.get(column, "")
+            entries.append((path, f"{text} {unit}" if unit else _scalar(text)))
+        points.append(Point(str(number - 1), tuple(entries)))
+    return (Axis(given.name, tuple(points)),)
+
+
+def read_rows(file: Path) -> list[dict[str, str]]:
+    """Return the rows of a CSV file by column.
+
+    Raises
+    ------
+    InputError
+        When the file is absent, empty, or no text.
+    """
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise InputError(f"no such file: {file}", path="file") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{file} cannot be read: {error}", path="file", remedy="save it as UTF-8") from None
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if not lines:
+        raise InputError(f"{file} is empty", path="file")
+    delimiter = max(",;\t", key=lines[0].count)
+    rows = [
+        {str(key).strip(): value for key, value in row.items() if key is not None}
+        for row in csv.DictReader(lines, delimiter=delimiter)
+    ]
+    if not rows:
+        raise InputError(f"{file} has a header but no rows", path="file")
+    return rows
+
+
+def _scalar(text: str) -> Any:
+    from moyai.case.yaml_reader import core_scalar
+
+    return core_scalar(text)
+
+
+def scatter(given: schema.Scatter, ground: Ground) -> tuple[Axis, ...]:
+    """Return the axis of the sea states of a scatter diagram with their probabilities."""
+    cells = read_scatter(ground.folder / given.file, counts=given.counts)
+    points = tuple(
+        Point(
+            f"Hs {cell.significant_height:g} m, T {cell.period:g} s",
+            ((given.significant_height, cell.significant_height), (given.period, cell.period)),
+            probability=cell.probability,
+        )
+        for cell in cells
+    )
+    return (Axis(given.name, points),)
+
+
+def contour(given: schema.Contour, ground: Ground) -> tuple[Axis, ...]:
+    """Return the axis of the sea states round an environmental contour."""
+    from moyai.study.contour import contour_seas
+
+    points = tuple(
+        Point(
+            f"Hs {height:.3g} m, T {period:.3g} s",
+            ((given.significant_height, float(height)), (given.period, float(period))),
+        )
+        for height, period in zip(*contour_seas(given, ground.folder))
+    )
+    return (Axis(given.name, points),)
+
+
+def spectra(given: schema.SpectraOfFile, ground: Ground) -> tuple[Axis, ...]:
+    """Return the axis of the spectra of a file, one case a time."""
+    from moyai.sea.spectrum_archives import read_archive
+
+    file = ground.folder / given.file
+    archive = read_archive(file)
+    if given.place >= len(archive.place):
+        raise InputError(
+            f"{given.file} has no place {given.place}", path="place", allowed=f"0 to {len(archive.place) - 1}"
+        )
+    places = resolve(ground.base, given.sea)
+    sea = value_of(ground.base, places[0])
+    if not isinstance(sea, dict):
+        raise InputError(f"'{given.sea}' is no sea state", path=given.sea, allowed="for instance waves[0]")
+    kept = {key: value for key, value in sea.items() if key in _OF_THE_SEA}
+    points = []
+    height = archive.significant_height()
+    for record in given.records or range(len(archive.time)):
+        if record >= len(archive.time):
+            raise InputError(f"there is no record {record}", path="records", allowed=f"0 to {len(archive.time) - 1}")
+        if not height[record, given.place] > 0.0:
+            raise InputError(
+                f"record {record} ({archive.time[record]}) of {given.file} holds no energy",
+                path="records",
+                remedy="list the records that are wanted under 'records'",
+            )
+        block = {
+            **kept,
+            "kind": "spectrum_file",
+            "file": ground.named_by_the_base(given.file),
+            "record": record,
+            "place": given.place,
+        }
+        if given.direction:
+            bearing = float(archive.direction[record, given.place])
+            if not math.isfinite(bearing):
+                raise InputError(f"{given.file} tells no direction for record {record}", path="direction")
+            block.pop("heading_deg", None)
+            block["from_bearing_deg"] = round(bearing, 3)
+        points.append(Point(archive.time[record], ((given.sea, block),)))
+    return (Axis(given.name, tuple(points)),)
