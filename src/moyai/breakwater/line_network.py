@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 #: Depth to which a line sinks into the bed at rest, over its diameter, where no stiffness is given.
 SINKING = 0.02
 #: Tension at rest of the network against the exact line.
-STATIC_TOLERANCE = 5e-3
+STATIC_TOLERANCE = 0.02
 
 
 @dataclass(frozen=True, eq=False)

@@ -136,7 +136,7 @@ class _Search:
         self.solves = 0
         self.scale = max(
             [body.mass * network.water.gravity for body in bodies.values()]
-            + [float(np.max(np.abs(body.force[:3]))) for body in bodies.values()]
+            + [float(np.max(np.abs(np.asarray(body.force)[:3]))) for body in bodies.values()]
         )
         arms = [float(np.max(np.abs(c.arms), initial=0.0)) for c in self.carriers.values()]
         lumps = [float(np.max(np.abs(c.lumps[0]), initial=0.0)) for c in self.carriers.values()]

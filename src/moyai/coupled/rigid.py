@@ -97,20 +97,20 @@ class RigidBody:
 
     name: str
     mass: float
-    inertia: Array
-    centre_of_gravity: Array = field(default_factory=lambda: np.zeros(3))
-    position: Array = field(default_factory=lambda: np.zeros(3))
-    rotation: Array = field(default_factory=lambda: np.zeros(3))
+    inertia: ArrayLike
+    centre_of_gravity: ArrayLike = field(default_factory=lambda: np.zeros(3))
+    position: ArrayLike = field(default_factory=lambda: np.zeros(3))
+    rotation: ArrayLike = field(default_factory=lambda: np.zeros(3))
     points: Mapping[str, ArrayLike] = field(default_factory=dict)
     lumps: Lumps | None = None
-    added_mass: Array | None = None
-    linear_damping: Array | None = None
-    quadratic_damping: Array = field(default_factory=lambda: np.zeros(6))
-    stiffness: Array | None = None
+    added_mass: ArrayLike | None = None
+    linear_damping: ArrayLike | None = None
+    quadratic_damping: ArrayLike = field(default_factory=lambda: np.zeros(6))
+    stiffness: ArrayLike | None = None
     loads: WaveLoads | None = None
-    force: Array = field(default_factory=lambda: np.zeros(6))
+    force: ArrayLike = field(default_factory=lambda: np.zeros(6))
     free: tuple[bool, ...] = (True,) * 6
-    rest: tuple[Array, float] | None = None
+    rest: tuple[ArrayLike, float] | None = None
 
     def __post_init__(self) -> None:
         path = f"bodies.{self.name}"
@@ -157,7 +157,9 @@ class RigidBody:
     @property
     def rest_pose(self) -> tuple[Array, float]:
         """Place of the origin and yaw that the stiffness counts from."""
-        return (np.asarray(self.position), float(self.rotation[2])) if self.rest is None else self.rest
+        if self.rest is None:
+            return np.asarray(self.position, dtype=float), float(np.asarray(self.rotation)[2])
+        return np.asarray(self.rest[0], dtype=float), float(self.rest[1])
 
     @property
     def start_rotation(self) -> Array:
