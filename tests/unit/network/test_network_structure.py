@@ -197,7 +197,11 @@ def test_an_interrupted_run_goes_on_from_its_last_state(tmp_path):
     one, two = (r.tree["SWL/time/still water"].to_dataset() for r in (whole, rest))
     assert np.allclose(one["time"].values, two["time"].values, atol=1e-9)
     peak = float(one["end_tension"].max())
-    assert np.allclose(one["end_tension"].values, two["end_tension"].values, atol=5e-3 * peak)
+    apart = np.abs(one["end_tension"].values - two["end_tension"].values)[:, 0]
+    # central differences begin anew from a place and a speed: a slack rope feels it, and forgets it
+    assert apart.max() < 0.02 * peak
+    assert apart[-150:].max() < 1e-5 * peak
+    assert float(two["line_tension"].max()) == pytest.approx(float(one["line_tension"].max()), rel=1e-6)
     with pytest.raises(InputError, match="complete"):
         rest.write(tmp_path / "done.nc")
         run(replace(problem, settings=replace(problem.settings, resume=tmp_path / "done.nc")))
