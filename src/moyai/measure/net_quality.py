@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from moyai.core.validity import Notice
 from moyai.measure.net_runs import NetRun
 from moyai.measure.quality import QualityOptions, find_clipped, find_flat, find_spikes
 
 #: A force may rest while the carriage stands; a meter or a gauge in waves may not
 _OPTIONS = QualityOptions(flat_seconds=5.0, clip_samples=4)
+#: Fewer different values make a logger coarse
+_FEW_LEVELS = 40
 _REMEDIES = {
     "clipped": "use a wider range of the gauge; the coefficients are too small",
     "spikes": "mend single samples, or choose a part without them",
@@ -27,8 +31,10 @@ def record_notices(run: NetRun) -> list[Notice]:
         values = getattr(run, name)
         if values is None:
             continue
+        # a coarse logger rests on its few levels without standing at a limit
+        coarse = np.unique(values).size < _FEW_LEVELS
         found = {
-            "clipped": int(find_clipped(values, _OPTIONS).sum()),
+            "clipped": 0 if coarse else int(find_clipped(values, _OPTIONS).sum()),
             "spikes": int(find_spikes(values, _OPTIONS).sum()),
             "flat": int(find_flat(values, run.step, _OPTIONS).sum()) if run.kind != "still_water" else 0,
         }

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.report.document import Block, Column, Table
-from moyai.report.formatting import DASH
 from moyai.report.reading import Group
 
 
@@ -19,26 +19,21 @@ def _numbers(group: Group, name: str, dim: str) -> list[float]:
     return [] if values is None else [float(value) for value in values]
 
 
-def _with_spread(values: list[float], spreads: list[float], known: list[float] | None = None) -> list[str]:
-    """Return values up to the first digit of their interval, words where they are not known."""
-    out = []
-    for k, (value, spread) in enumerate(zip(values, spreads)):
-        if known is not None and not known[k]:
-            out.append("not determined")
-        elif not math.isfinite(value):
-            out.append(DASH)
-        else:
-            places = max(0, min(4, 1 - math.floor(math.log10(max(spread, 1e-9)))))
-            out.append(f"{value:.{places}f} ± {spread:.{places}f}")
-    return out
+def _known(values: list[float], known: list[float]) -> list[float]:
+    """Return values, NaN where the record does not hold them."""
+    return [value if sure else math.nan for value, sure in zip(values, known)]
 
 
 def towing_table(towing: Group) -> list[Block]:
     """Return the coefficients of the runs through still water."""
     if not towing.exists:
         return []
-    drag = _with_spread(_numbers(towing, "drag", "run"), _numbers(towing, "drag_half_width", "run"))
-    lift = _with_spread(_numbers(towing, "lift", "run"), _numbers(towing, "lift_half_width", "run"))
+    law = Matsubara()
+    low, high = law.reynolds_range
+    ratio = [
+        value / float(law.twine_drag(number)) if low <= number <= high else math.nan
+        for value, number in zip(_numbers(towing, "drag", "run"), _numbers(towing, "reynolds", "run"))
+    ]
     return [
         Table(
             "towing",
@@ -49,8 +44,11 @@ def towing_table(towing: Group) -> list[Block]:
                 Column("speed", _numbers(towing, "speed", "run"), "m/s"),
                 Column("Re", _numbers(towing, "reynolds", "run")),
                 Column("force on the frame", _numbers(towing, "frame_force", "run"), "N"),
-                Column("C_D", drag),
-                Column("C_L", lift),
+                Column("C_D", _numbers(towing, "drag", "run"), digits=4),
+                Column("± C_D", _numbers(towing, "drag_half_width", "run"), digits=3),
+                Column("over 9.84 Re^-0.36", ratio),
+                Column("C_L", _numbers(towing, "lift", "run"), digits=2),
+                Column("± C_L", _numbers(towing, "lift_half_width", "run"), digits=3),
                 Column("effective degrees of freedom", _numbers(towing, "freedom", "run"), digits=2),
             ),
             note="On the area of the twines, the frame's force taken off. Intervals follow the autocorrelation of the "
@@ -63,10 +61,8 @@ def wave_table(waves: Group) -> list[Block]:
     """Return the coefficients of the runs in waves."""
     if not waves.exists:
         return []
-    known = {key: _numbers(waves, f"{key}_known", "run") for key in ("drag", "inertia")}
-    text = {
-        key: _with_spread(_numbers(waves, key, "run"), _numbers(waves, f"{key}_half_width", "run"), known[key])
-        for key in ("drag", "inertia")
+    values = {
+        key: _known(_numbers(waves, key, "run"), _numbers(waves, f"{key}_known", "run")) for key in ("drag", "inertia")
     }
     return [
         Table(
@@ -80,15 +76,17 @@ def wave_table(waves: Group) -> list[Block]:
                 Column("velocity amplitude", _numbers(waves, "velocity_amplitude", "run"), "m/s"),
                 Column("KC", _numbers(waves, "keulegan_carpenter", "run")),
                 Column("largest Re", _numbers(waves, "reynolds", "run")),
-                Column("C_D", text["drag"]),
-                Column("C_M", text["inertia"]),
+                Column("C_D", values["drag"], digits=4),
+                Column("± C_D", _numbers(waves, "drag_half_width", "run"), digits=3),
+                Column("C_M", values["inertia"]),
+                Column("± C_M", _numbers(waves, "inertia_half_width", "run"), digits=2),
                 Column("correlation", _numbers(waves, "correlation", "run"), digits=2),
                 Column("explained", _numbers(waves, "explained", "run")),
                 Column("lift over drag, rms", _numbers(waves, "lift_share", "run"), digits=2),
             ),
             note="By least squares over the record, on the area and the volume of the twines; the bare frame's "
-            "coefficients in the same waves are taken off. A coefficient whose interval exceeds half of it is called "
-            "not determined.",
+            "coefficients in the same waves are taken off. A coefficient whose interval exceeds half of it is not "
+            "given.",
         )
     ]
 
@@ -105,10 +103,10 @@ def net_table(nets: Group) -> list[Block]:
         Column("solidity, listed", _numbers(nets, "solidity_listed", "net")),
         Column("A", _numbers(nets, "factor", "net")),
         Column("A from", _numbers(nets, "factor_low", "net")),
-        Column("to", _numbers(nets, "factor_high", "net")),
+        Column("A to", _numbers(nets, "factor_high", "net")),
         Column("B", _numbers(nets, "exponent", "net")),
         Column("B from", _numbers(nets, "exponent_low", "net")),
-        Column("to", _numbers(nets, "exponent_high", "net")),
+        Column("B to", _numbers(nets, "exponent_high", "net")),
     ]
     if nets.real("joint_factor", "net") is not None:
         columns.append(Column("A, all nets", _numbers(nets, "joint_factor", "net")))
