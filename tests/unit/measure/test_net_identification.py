@@ -10,12 +10,13 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.measure.net_campaign import NetCampaign, measure_nets
+from moyai.measure.net_flow import encounter_period
 from moyai.measure.net_regression import fit_joint_law, fit_power_law
 from moyai.measure.net_runs import NetRun, Specimen, Tank
 from moyai.measure.net_synthesis import Rig, towed_run, wave_run
 from moyai.measure.net_tensions import CageRecord, EndRecord, measure_tensions
 from moyai.measure.net_vibration import Vibration
-from moyai.measure.net_waves import encounter_period, fit_waves, wave_coefficients
+from moyai.measure.net_waves import fit_waves, wave_coefficients
 from moyai.morison.nets import Net
 
 TANK = Tank(1000.0, 1.14e-6, 9.81, 0.45, -0.2)
