@@ -115,16 +115,16 @@ def _fill_nodes(p: Packed, t: float, x: float, nodes: Array) -> None:
         first, second = amplitude * math.cos(angle), amplitude * math.sin(angle)
         sigma, sense = c[1, i], c[6, i]
         for m in range(across):
-            real = first * p.travel[0, m, i] - second * p.travel[1, m, i]
-            imaginary = first * p.travel[1, m, i] + second * p.travel[0, m, i]
+            real = first * p.travel[0, i, m] - second * p.travel[1, i, m]
+            imaginary = first * p.travel[1, i, m] + second * p.travel[0, i, m]
             nodes[0, m, 0] += real
             along, rising = sense * sigma * real, sigma * imaginary
             pushed, lifted = sense * sigma * sigma * imaginary, sigma * sigma * real
             for n in range(upward):
-                nodes[1, m, n] += p.depth_parts[0, n, i] * along
-                nodes[2, m, n] += p.depth_parts[1, n, i] * rising
-                nodes[3, m, n] += p.depth_parts[0, n, i] * pushed
-                nodes[4, m, n] -= p.depth_parts[1, n, i] * lifted
+                nodes[1, m, n] += p.depth_parts[0, i, n] * along
+                nodes[2, m, n] += p.depth_parts[1, i, n] * rising
+                nodes[3, m, n] += p.depth_parts[0, i, n] * pushed
+                nodes[4, m, n] -= p.depth_parts[1, i, n] * lifted
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -333,7 +333,9 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         fx = fz = 0.0
         if speed_squared > 1e-20:
             along = math.sqrt(along_squared)
-            normal, tangential = _table(p, math.atan2(along, abs(across)), math.sqrt(speed_squared))
+            # a side wall lies along the plane of motion: nothing passes it
+            angle = math.atan2(along, abs(across)) if across != 0.0 else 0.5 * math.pi
+            normal, tangential = _table(p, angle, math.sqrt(speed_squared))
             head = 0.5 * density * e[4] * share * speed_squared
             sign = 1.0 if across >= 0.0 else -1.0
             fx, fz = head * normal * sign * nx, head * normal * sign * nz

@@ -56,12 +56,12 @@ TABLE_DECADES = (-4, 1.5)
 
 #: Up to this number waves are summed at every part of the cage, beyond it at nodes around it
 FEW_WAVES = 4
-#: Nodes along x and over the depth
-NODES_ALONG = 8
-NODES_DOWN = 9
+#: Error of the polynomials between nodes, over the amplitude of the shortest wave, and the most nodes one way
+NODE_ERROR = 2e-3
+MOST_NODES = 24
 
-#: Pieces that a rod is cut into along the plane of motion
-ROD_PIECES = 5
+#: Gauss points along a rod in the plane of motion
+ROD_POINTS = 3
 
 
 def law_tables(law: NetLaw, net: Net, kinematic_viscosity: float) -> tuple[Array, Array, Array]:
@@ -139,27 +139,14 @@ def rod_rows(cage: RigidCage) -> Array:
         a, b = np.array(rod.start), np.array(rod.end)
         along = (b - a) / rod.length
         # a rod across the plane of motion moves as one
-        pieces = 1 if abs(along[1]) > 1.0 - 1e-9 else ROD_PIECES
+        nodes, weights = np.polynomial.legendre.leggauss(1 if abs(along[1]) > 1.0 - 1e-9 else ROD_POINTS)
         # one sense of the axis, so that mirror images merge
         sign = -1.0 if along[0] + 1e-9 * along[2] < 0.0 else 1.0
-        for n in range(pieces):
-            middle = a + (n + 0.5) / pieces * (b - a)
-            rows.append(
-                (
-                    middle[0] - x,
-                    middle[2] - z,
-                    sign * along[0],
-                    sign * along[2],
-                    rod.length / pieces,
-                    rod.diameter,
-                    rod.volume / pieces,
-                    cage.rod_drag,
-                    cage.rod_added_mass,
-                    1.0,
-                    1.0,
-                    1.0,
-                )
-            )
+        for node, weight in zip(nodes, 0.5 * weights):
+            middle = a + 0.5 * (1.0 + node) * (b - a)
+            place = (middle[0] - x, middle[2] - z, sign * along[0], sign * along[2])
+            size = (weight * rod.length, rod.diameter, weight * rod.volume)
+            rows.append((*place, *size, cage.rod_drag, cage.rod_added_mass, 1.0, 1.0, 1.0))
     array = np.array(rows, dtype=float).reshape(-1, len(ROD_COLUMNS))
     return _merged(array, (0, 1, 2, 3, 5), (4, 6, 11))
 
@@ -212,12 +199,13 @@ def node_rows(waves: WaveComponents | None, reach: float, depth: float) -> tuple
     if waves is None or len(waves) <= FEW_WAVES:
         none = np.zeros((2, 0))
         return none, none, np.zeros((2, 0, 0)), np.zeros((2, 0, 0))
-    along = reach * _lobatto(NODES_ALONG)
+    shortest = float(waves.wave_number.max())
+    along = reach * _lobatto(_node_count(shortest * reach))
     lowest = -min(depth, 4.0 * reach)
-    heights = 0.5 * lowest * (1.0 - _lobatto(NODES_DOWN))
+    heights = 0.5 * lowest * (1.0 - _lobatto(_node_count(-0.5 * shortest * lowest)))
     sense = np.where(np.cos(waves.heading) >= 0.0, 1.0, -1.0)
-    turn = np.exp(1j * along[:, None] * (sense * waves.wave_number))
-    horizontal, vertical, _ = depth_functions(waves.wave_number[None, :], depth, heights[:, None])
+    turn = np.exp(1j * (sense * waves.wave_number)[:, None] * along)
+    horizontal, vertical, _ = depth_functions(waves.wave_number[:, None], depth, heights[None, :])
     rows = [np.stack([nodes, _barycentric(len(nodes))]) for nodes in (along, heights)]
     return (
         rows[0],
@@ -225,6 +213,15 @@ def node_rows(waves: WaveComponents | None, reach: float, depth: float) -> tuple
         np.ascontiguousarray(np.stack([turn.real, turn.imag])),
         np.ascontiguousarray(np.stack([horizontal, vertical])),
     )
+
+
+def _node_count(phase: float) -> int:
+    """Return how many nodes represent exp of a phase (or decay) of +-``phase`` within :data:`NODE_ERROR`."""
+    error, count = 2.0, 0
+    while count < 6 or (error > NODE_ERROR and count < MOST_NODES):
+        count += 1
+        error *= 0.5 * phase / count
+    return count
 
 
 def _lobatto(count: int) -> Array:

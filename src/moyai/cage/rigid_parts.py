@@ -101,7 +101,7 @@ def join(parts: list[Patches]) -> Patches:
 
 
 def rectangle(corner: object, first: object, second: object, count: int) -> Patches:
-    """Return a rectangular face cut into ``count`` x ``count`` equal patches.
+    """Return a rectangular face in ``count`` x ``count`` patches about the points of Gauss.
 
     Parameters
     ----------
@@ -111,21 +111,25 @@ def rectangle(corner: object, first: object, second: object, count: int) -> Patc
         Patches along each edge.
     """
     origin, a, b = (np.asarray(item, dtype=float) for item in (corner, first, second))
-    share = (np.arange(count) + 0.5) / count
-    i, j = (item.reshape(-1) for item in np.meshgrid(share, share, indexing="ij"))
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    share, part = 0.5 * (1.0 + nodes), 0.5 * weights
+    i, j = (item.reshape(-1) for item in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
     normal = np.cross(a, b)
     area = float(np.linalg.norm(normal))
-    steep = max(abs(float(a[2])), abs(float(b[2])))
-    # a level face has no steepest line; its larger half edge serves when it tilts
-    half = 0.5 * (steep if steep > 1e-9 * math.sqrt(area) else max(np.linalg.norm(a), np.linalg.norm(b))) / count
-    spread = (a[0] ** 2 + a[2] ** 2 + b[0] ** 2 + b[2] ** 2) / (12.0 * count**2)
-    size = count * count
+    # the half height of a patch; a level face has none, and its half edge serves when it tilts
+    steep = abs(float(a[2])) > abs(float(b[2]))
+    level = max(abs(float(a[2])), abs(float(b[2]))) < 1e-9 * math.sqrt(area)
+    half = 0.5 * np.where(steep, part[i] * abs(a[2]), part[j] * abs(b[2]))
+    if level:
+        half = 0.5 * np.maximum(part[i] * np.linalg.norm(a), part[j] * np.linalg.norm(b))
+    # two points of Gauss or more carry the second moments exactly
+    spread = (a[0] ** 2 + a[2] ** 2 + b[0] ** 2 + b[2] ** 2) / 12.0 if count == 1 else 0.0
     return Patches(
-        origin + i[:, None] * a + j[:, None] * b,
-        np.tile(normal / area, (size, 1)),
-        np.full(size, area / size),
-        np.full(size, float(half)),
-        np.full(size, float(spread)),
+        origin + share[i][:, None] * a + share[j][:, None] * b,
+        np.tile(normal / area, (count * count, 1)),
+        area * part[i] * part[j],
+        np.asarray(half, dtype=float),
+        np.full(count * count, float(spread)),
     )
 
 

@@ -105,7 +105,7 @@ CageSeaState = Annotated[
 class RigidCageSettings(Block):
     """How the rigid cage is computed."""
 
-    patches: Patches = Field(default=5, description="Patches along each edge of a net face. Default: 5.")
+    patches: Patches = Field(default=3, description="Points of Gauss along each edge of a net face. Default: 3.")
     periods: Count = Field(default=40, description="Wave periods run in regular waves. Default: 40.")
     settled_periods: Count = Field(
         default=20, description="Last periods that amplitudes and extremes are taken from. Default: 20."

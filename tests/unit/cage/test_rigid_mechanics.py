@@ -47,12 +47,12 @@ def random_cage(rng, *, drag=True, shape="box"):
     if shape == "box":
         patches = box_patches(length, width, height, ("sides", "bottom"), 3)
         rods = box_rods(length, width, height, rod)
-        points = box_floats(length, width, 0.5 * height + 0.05 * size, 2)
+        points = box_floats(length, width, 0.5 * height + 0.12 * size, 2)
     else:
         width = length
         patches = cylinder_patches(length, height, ("sides", "bottom"), 3)
         rods = cylinder_rods(length, height, rod)
-        points = ring_floats(length, 0.5 * height + 0.05 * size, 8)
+        points = ring_floats(length, 0.5 * height + 0.12 * size, 8)
     density = rng.uniform(2000.0, 4000.0)
     rods = tuple(replace(item, mass=density * item.volume) for item in rods)
     thickness = 1.5e-4 * size
@@ -330,7 +330,7 @@ def test_fixed_steps_converge_with_fourth_order_and_adaptive_ones_to_them():
     rest = rest_with_lines(cage, lines, water, NU)
     packed = pack(cage, lines, water, NU, waves=swell(0.12 * size_of(cage), period, water), ramp=period)
     start = np.concatenate([rest.place, np.zeros(3)])
-    fine = march_fixed(packed, start, duration=3 * period, step=period / 40000, every=400)
+    fine = march_fixed(packed, start, duration=3 * period, step=period / 12000, every=120)
     found = [
         march(
             packed,
