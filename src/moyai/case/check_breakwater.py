@@ -34,6 +34,7 @@ def check(model: BreakwaterCase, findings: Findings, folder: Path) -> None:
         draught = _check_floating(model, hull, findings)
         _check_places_of_lines(model, hull, draught, findings)
     _check_catalogue(model, findings)
+    _check_lines_in_motion(model, findings)
     _check_by_statics(model, findings, folder)
 
 
@@ -72,6 +73,42 @@ def _check_needs(model: BreakwaterCase, findings: Findings) -> None:
         findings.fault(
             ("lines", index, "name"), f"two lines are called '{model.lines[index].name}'", remedy="rename one"
         )
+
+
+def _check_lines_in_motion(model: BreakwaterCase, findings: Findings) -> None:
+    """Check what lines in motion need of the rest of the case."""
+    moving = [
+        (index, line) for index, line in enumerate(model.lines) if isinstance(line, CatenaryLine) and line.dynamic
+    ]
+    if not moving:
+        return
+    index, first = moving[0]
+    if "time" not in model.analyses:
+        findings.warn(
+            ("lines", index, "dynamic"), "lines are in motion in the analysis 'time' alone, which is not asked for"
+        )
+    if model.settings.time.memory == "convolution":
+        findings.fault(
+            ("settings", "time", "memory"),
+            "lines in motion need the memory of the water as states",
+            allowed="state_space",
+            remedy="give memory: state_space, or set dynamic: false",
+        )
+    for other, line in moving[1:]:
+        if line.bed_friction != first.bed_friction:
+            findings.fault(
+                ("lines", other, "bed_friction"),
+                f"line '{line.name}' rubs with {line.bed_friction:g} on the bed, '{first.name}' with "
+                f"{first.bed_friction:g}",
+                allowed="one value for all lines in motion",
+                remedy="give them the same 'bed_friction', or set dynamic: false",
+            )
+    for other, line in moving:
+        if line.drag_width > 0.0:
+            findings.warn(
+                ("lines", other, "drag_width"),
+                f"'drag_width' of line '{line.name}' counts in the frequency domain alone: in motion it has its drag",
+            )
 
 
 def _check_settings(model: BreakwaterCase, findings: Findings) -> None:

@@ -203,3 +203,46 @@ def test_impossible_lines_in_motion_get_one_clear_message(tmp_path, changes, tol
     with pytest.raises(CaseError) as caught:
         moyai.load_case(path)
     assert told in str(caught.value)
+
+
+@pytest.fixture(scope="module")
+def snapping(tmp_path_factory):
+    """Short chains in high waves: slack and taut once a wave, with the sensitivity of the peak."""
+    path = tmp_path_factory.mktemp("snap") / "case.yaml"
+    words = text(
+        height="9 cm", period=1.4, segment=SEGMENT.replace("197.5 cm", "195.5 cm"), duration="12 s", drift="false"
+    )
+    path.write_text(words.replace("bars: 20", "bars: 20, sensitivity: true, snap_fraction: 2"))
+    return moyai.run(moyai.load_case(path))
+
+
+@pytest.mark.slow
+def test_snaps_are_found_counted_and_judged(snapping, tmp_path) -> None:
+    sea = snapping.tree["/SWL/time/one"].to_dataset()
+    contacts = snapping.tree["/SWL/time/one/T1p4/contacts"].to_dataset()
+    assert float(sea.slack_time.sum()) > 0.0
+    assert float(sea.contact_count.sum()) > 2.0
+    assert contacts.sizes["contact"] >= float(sea.contact_count.sum())
+    assert np.all(contacts.rise_time.values >= 0.0)
+    assert np.all(contacts.contact_peak.values > 0.0)
+    for name in ("twice_the_bars", "half_the_step", "twice_the_damping"):
+        change = sea[f"peak_change_{name}"].values
+        assert np.all(np.isfinite(change)) and np.all(np.abs(change) < 0.5)
+    assert np.all(np.abs(sea.peak_change_half_the_step.values) < 0.02)
+    moyai.write_report(snapping, tmp_path)
+    page = next(path for path in tmp_path.rglob("*.html")).read_text()
+    assert "Twice the bars" in page and "Largest snap" in page
+
+
+def test_lines_in_motion_that_do_not_fit_the_rest_of_the_case_are_named(tmp_path) -> None:
+    path = tmp_path / "case.yaml"
+    words = text()
+    for changed, told in (
+        (words.replace("analysed_periods: 3", "memory: convolution"), "as states"),
+        (words.replace("anchor: {x: 211.5 cm}", "anchor: {x: 211.5 cm}\n    bed_friction: 0.4"), "rubs with 0.4"),
+    ):
+        assert changed != words
+        path.write_text(changed)
+        with pytest.raises(CaseError) as caught:
+            moyai.load_case(path)
+        assert told in str(caught.value)
