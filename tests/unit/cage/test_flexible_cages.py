@@ -364,3 +364,34 @@ def test_pipes_and_stress() -> None:
     assert two == pytest.approx(math.sqrt(3.0) * 2e3 * 0.225 / (2.0 * pipe.second_moment))
     with pytest.raises(InputError, match="wall"):
         Pipe(0.1, 0.06, 950.0, 1e9, 0.4, 1.0, 0.1, 1.0)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_random_cages_come_to_rest_with_the_pull_of_their_drag(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    size, shape = rng.uniform(10.0, 50.0), str(rng.choice(["circular", "square"]))
+    depth = rng.uniform(0.2, 0.5) * size
+    water = Water(rng.uniform(1.5, 2.5) * depth + 15.0, 1025.0, 9.81)
+    bottom = str(rng.choice(["none", "flat", "cone"]))
+    net = CageNet(
+        Net.from_solidity(rng.uniform(0.0015, 0.003), rng.uniform(0.12, 0.32)),
+        net_law(str(rng.choice(["loland", "aarsnes", "kristiansen_faltinsen", "takagi"]))),
+        str(rng.choice(["none", "loland", "cheng"])), depth, bottom, 1140.0, 10.0 ** rng.uniform(8.0, 9.3),
+        cone_depth=0.2 * depth if bottom == "cone" else 0.0,
+    )  # fmt: skip
+    pipe = Pipe(0.4, 0.024, 955.0, 0.9e9, 0.42, 1.0, 0.1, 1.0, 5.0)
+    collar = Collar(pipe, int(rng.integers(1, 3)), 0.8)
+    rope, chain = line_type("polyester", 0.056), line_type("studless_chain_U3", 0.04)
+    reach = rng.uniform(1.5, 3.0) * water.depth
+    length = math.hypot(reach, water.depth - 5.0)
+    grid = GridMooring(
+        1.6 * size + 8.0, 5.0, rope, Buoy(1.5, 150.0, 0.6), rope, int(rng.integers(1, 4)),
+        ((rope, 0.83 * length), (chain, 0.17 * length)), reach, int(rng.integers(1, 3)),
+    )  # fmt: skip
+    design = CageDesign(shape, size, collar, net, Sinkers(int(rng.integers(6, 16)), 100.0, 0.0127))  # type: ignore[arg-type]
+    model = FlexibleCage(design, grid, water, Bed(-water.depth, 1e5, 1e4, 0.5), CageMesh(16, 4, 3, 10.0), 1.3e-6)
+    rest = solve_rest(model, build_cage(model), uniform(rng.uniform(0.1, 0.6), rng.uniform(-3.0, 3.0)))
+    split, pull = horizontal_balance(rest)
+    whole = split[:, :2].sum(axis=0)
+    assert np.linalg.norm(pull[:2] - whole) < 0.02 * np.linalg.norm(whole)
+    assert 0.05 < share(rest) < 1.6 and rest.residual < 5e-3
