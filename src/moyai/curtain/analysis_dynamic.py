@@ -402,22 +402,22 @@ def _frames(run: DynamicRun, plan: _Plan) -> xr.Dataset:
                                      [int(np.argmin(np.abs(history.time - when)))]]))  # fmt: skip
     sheets = network.sheets
     assert sheets is not None
+    # what keeps columns of the skirt in order belongs to no cable and is not shown
+    shown = np.concatenate([strand.bars for strand in network.strands])
     stress = np.stack([sheet_stress(sheets, history.position[row]).first for row in rows])
     data: dict[str, Any] = {
         "node_position": (("frame", "node", "axis"), history.position[rows].astype(np.float32)),
-        "bar_tension": (("frame", "bar"), history.tension[rows].astype(np.float32)),
+        "bar_tension": (("frame", "bar"), history.tension[rows][:, shown].astype(np.float32)),
         "triangle_tension": (("frame", "triangle"), stress.astype(np.float32)),
-        "bar_nodes": (("bar", "end"), np.stack([network.bars.start, network.bars.end], axis=1)),
+        "bar_nodes": (("bar", "end"), np.stack([network.bars.start, network.bars.end], axis=1)[shown]),
         "triangle_nodes": (("triangle", "corner"), sheets.triangles),
     }
     waves = run.flow.waves
     if waves is not None:
         for key in ("amplitude", "omega", "wave_number", "heading", "phase"):
             data[f"wave_{key}"] = ("component", np.asarray(getattr(waves, key)))
-    names = np.full(len(network.bars), "", dtype=object)
-    for strand in network.strands:
-        names[strand.bars] = strand.name
-    coords = {"frame_time": ("frame", history.time[rows]), "bar_line": ("bar", names.astype(str))}
+    names = [strand.name for strand in network.strands for _ in strand.bars]
+    coords = {"frame_time": ("frame", history.time[rows]), "bar_line": ("bar", names)}
     attributes = {"wave_ramp": max(run.flow.ramp, run.flow.wave_ramp), "peak_time": when}
     return labelled(xr.Dataset(data, coords=coords, attrs=attributes))
 

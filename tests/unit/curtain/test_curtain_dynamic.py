@@ -11,9 +11,10 @@ import pytest
 import moyai
 from moyai.core.errors import CaseError, InputError
 from moyai.curtain.dynamic import DynamicRun, run_span, span_sensitivity
+from moyai.curtain.dynamic_cable import dynamic_cable
 from moyai.curtain.dynamic_model import AnchoredSupport, CurtainSpan, Mesh, build_span
 from moyai.curtain.dynamic_section import section_mesh
-from moyai.curtain.impact import Impact, peak_by_energy
+from moyai.curtain.impact import Impact, energy_bound, peak_by_energy
 from moyai.flexible.flow import Flow
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
@@ -52,6 +53,22 @@ def test_curved_section_pushes_downstream_and_down() -> None:
     assert mesh.rigid_mass / (2000.0 / math.pi) == pytest.approx(1.080, abs=0.002)
     assert np.allclose(mesh.added_mass, mesh.added_mass.T)
     assert np.linalg.eigvalsh(mesh.added_mass)[0] > -1e-9
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_dynamic_cable_keeps_its_energy_below_the_bound(seed: int) -> None:
+    """Random spans: energy kept to 1 %, peaks below that of all the energy in an evenly stretched cable."""
+    rng = np.random.default_rng(seed)
+    span = 10.0 ** rng.uniform(-0.5, 1.5)
+    impact = Impact(
+        span, span * rng.uniform(1.05, 1.5), 0.2 * span, *(1e4 * span**2 * 10.0 ** rng.uniform(-1.0, 1.0, 2)),
+        0.5 * rng.uniform(0.3, 1.0), Water(span, 1025.0, 9.81),
+    )  # fmt: skip
+    for start in ("sag", "uniform"):
+        found = dynamic_cable(impact, own_mass=0.005 * 1025.0 * span**2, start=start)  # type: ignore[arg-type]
+        assert found.energy_drift < 0.01
+        bound = energy_bound(impact, impact.deep_mass + 0.005 * 1025.0 * span**2)
+        assert 0.85 * peak_by_energy(impact).tension < found.tension < 1.1 * bound
 
 
 def test_peak_lies_between_the_models_and_the_bound() -> None:
