@@ -91,27 +91,32 @@ def rest_views(level: Level) -> Block | None:
     if parts is None or position is None or tension is None or speed is None:
         return None
     keep, kept = _without_anchor_lines(level, position.shape[1])
-    bars, thin, faces, markers, names = _near(parts, keep, kept)
+    near = _near(parts, keep, kept)
     options = []
     for number, value in enumerate(speed):
-        place, pull = position[number][kept], tension[number][keep]
-        scene = Scene3D(
-            np.array([0.0, 1.0]), np.stack([place] * 2), bars, np.stack([pull] * 2), thin, faces, markers,
-            current=_current(level, float(value)), maximum=0.0, names=names, is_still=True,
-        )  # fmt: skip
         said = format_quantity(float(value), "m/s") if value > 0.0 else "still water"
-        options.append(
-            Option(
-                said,
-                (
-                    animation_3d(
-                        key(level, "rest-view", str(number + 1)), f"The cage at rest, {said}", scene,
-                        "To scale, without anchor lines; colour and breadth grow with the tension, dashed is slack.",
-                    ),
-                ),
-            )
-        )  # fmt: skip
-    return Choice(f"rest-view-{level.name}", "Current", tuple(options), len(options) - 1, print_all=False)
+        options.append(Option(said, (_still(level, near, position[number][kept], tension[number][keep], value, said),)))
+    if keep.size < tension.shape[1]:
+        last = len(speed) - 1
+        said = f"{format_quantity(float(speed[last]), 'm/s')}, with anchor lines"
+        options.append(Option(said, (_still(level, parts, position[last], tension[last], speed[last], said),)))
+    return Choice(f"rest-view-{level.name}", "Current", tuple(options), len(speed) - 1, print_all=False)
+
+
+def _still(level: Level, parts: Parts, place: Array, pull: Array, speed: float, said: str) -> Animation:
+    """Return the view of one rest."""
+    bars, thin, faces, markers, names = parts
+    scene = Scene3D(
+        np.array([0.0, 1.0]), np.stack([place] * 2), bars, np.stack([pull] * 2), thin, faces, markers,
+        bed=_bed(level) if said.endswith("lines") else None, current=_current(level, float(speed)), maximum=0.0,
+        names=names, is_still=True,
+    )  # fmt: skip
+    return animation_3d(
+        key(level, "rest-view", said),
+        f"The cage at rest, {said}",
+        scene,
+        "To scale; colour and breadth grow with the tension, dashed grey is slack.",
+    )
 
 
 def run_view(level: Level, sea: str, run: Group) -> Animation | None:
@@ -124,8 +129,9 @@ def run_view(level: Level, sea: str, run: Group) -> Animation | None:
     good = np.isfinite(position).all(axis=(1, 2))
     if good.sum() < 2:
         return None
-    time, position, tension = time[good], position[good], tension[good]
-    bars, thin, faces, markers, names = parts
+    keep, kept = _without_anchor_lines(level, position.shape[1])
+    time, position, tension = time[good], position[good][:, kept], tension[good][:, keep]
+    bars, thin, faces, markers, names = _near(parts, keep, kept)
     period = float(run.attributes.get("period", math.nan))
     length = _WINDOW_PERIODS * period
     window = (float(time[0]), float(time[-1]))
@@ -134,14 +140,14 @@ def run_view(level: Level, sea: str, run: Group) -> Animation | None:
     rows = frame_rows(time, nodes=position.shape[1], bars=len(bars), window=window)
     scene = Scene3D(
         time[rows], position[rows], bars, tension[rows], thin, faces, markers, traces=_traces(level, run, names),
-        waves=_waves(run), bed=_bed(level),
-        current=_current(level, float(level.group.attributes.get("current", 0.0))), window=window, names=names,
+        waves=_waves(run), current=_current(level, float(level.group.attributes.get("current", 0.0))), window=window,
+        names=names,
     )  # fmt: skip
     return animation_3d(
         key(level, sea, run.name, "view"),
         f"The cage in motion: {run.attributes.get('wave', run.name)}",
         scene,
-        "To scale, not enlarged; colour and breadth grow with the tension, dashed grey is slack.",
+        "To scale, not enlarged, without the anchor lines; colour and breadth grow with the tension, dashed is slack.",
     )
 
 
