@@ -32,6 +32,8 @@ _MOVING = (
 _STAGE, _LAST = (0.25, 150), (0.25, 400)
 #: Parts of the current on the way to the whole.
 _CURRENTS = (0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0)
+#: Numbers in the factors of all solves together, before a network without rest is given up.
+_MOST_NUMBERS = 2e8
 #: How often and how long the true motion is asked for help.
 _SHAKES, _SHAKE_INTERVALS = 6, 40
 
@@ -68,7 +70,7 @@ def solve_equilibrium(
     start: State | None = None,
     time: float = math.inf,
     tolerance: float = 1e-9,
-    most_steps: int = 6000,
+    most_steps: int | None = None,
     state_file: str | PathLike[str] | None = None,
 ) -> Equilibrium:
     """Find the network at rest.
@@ -89,8 +91,8 @@ def solve_equilibrium(
         At which the flow is taken (its ramp is over when left out) [s].
     tolerance : float
         Force left over the largest force at work. Where it stays out of reach, 1e-5 is returned too; see ``residual``.
-    most_steps : int
-        Solves before it gives up.
+    most_steps : int, optional
+        Solves before it gives up; when left out 6000 for small networks, down to 500 for large ones.
     state_file : path, optional
         Where the nearest state is kept when no equilibrium is found (:func:`moyai.flexible.recovery.read_state`).
 
@@ -108,6 +110,8 @@ def solve_equilibrium(
     place[fixed] = network.nodes.position[fixed]
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
     problem = Relaxation(network, calm, time)
+    if most_steps is None:
+        most_steps = int(min(max(_MOST_NUMBERS / max(problem.plan.size, 1), 500), 6000))
     best, found, steps = _ladder(problem, place, tolerance, most_steps)
     if not (best.converged or best.residual <= max(tolerance, _GOOD_ENOUGH)):
         kept = ""
