@@ -64,6 +64,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
             current=current_of(case.current, water, bearing),
         ),
         settings=_settings(case, folder),
+        sheets=tuple(_sheet(name, sheet) for name, sheet in unit.sheets.items()),
         bodies=tuple(_body(name, body) for name, body in unit.bodies.items()),
         case_text=case_text,
         case_hash=case_hash,
@@ -295,6 +296,20 @@ def _net(name: str, entry: parts.NetworkNet, types: Any, folder: Path) -> model.
     return model.NetPlan(
         name, corners, entry.rows, entry.columns, along, across, entry.hanging_ratio, entry.first_row,  # type: ignore[arg-type]
         entry.motion or "", entry.ballast or 0.0, entry.flow_factor, entry.z_from == "still_water",
+    )  # fmt: skip
+
+
+def _sheet(name: str, entry: parts.NetworkSheet) -> model.SheetPlan:
+    corners = [_place(corner) for corner in entry.corners]
+    properties = {
+        "warp_stiffness": entry.warp_stiffness, "weft_stiffness": entry.weft_stiffness,
+        "shear_stiffness": entry.shear_stiffness, "mass_per_area": entry.mass, "volume_per_area": entry.thickness,
+        "drag_normal": entry.drag_normal, "drag_tangential": entry.drag_tangential,
+        "damping_time": entry.damping_time,
+    }  # fmt: skip
+    return model.SheetPlan(
+        name, (corners[0], corners[1], corners[2], corners[3]), entry.rows, entry.columns, properties,
+        entry.fullness, entry.first_row, entry.motion or "", entry.z_from == "still_water",
     )  # fmt: skip
 
 

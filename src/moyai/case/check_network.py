@@ -73,32 +73,36 @@ def _longest(text: str, findings: Findings) -> tuple[str | int, ...]:
 
 def _check_names(model: NetworkCase, findings: Findings) -> None:
     unit = model.structure
-    for group in ("points", "lines", "nets", "bodies"):
+    for group in ("points", "lines", "nets", "sheets", "bodies"):
         for name in getattr(unit, group):
             if any(letter in name for letter in "[],"):
                 findings.fault(
                     ("structure", group, name), f"'{name}' holds a bracket or comma, which knots of nets are named by",
                     remedy="use letters, digits and blanks",
                 )  # fmt: skip
-    both = [name for name in unit.lines if name in unit.nets]
-    for name in both:
-        findings.fault(("structure", "nets", name), f"a line is called '{name}' too", remedy="rename one")
+    for group, others in (("nets", unit.lines), ("sheets", {**unit.lines, **unit.nets})):
+        for name in getattr(unit, group):
+            if name in others:
+                findings.fault(("structure", group, name), f"a line or net is called '{name}' too", remedy="rename one")
     moved: list[tuple[tuple[str, ...], str | None]] = [
         (("structure", "points", name, "motion"), point.motion)
         for name, point in unit.points.items()
         if isinstance(point, parts.DrivenPoint)
     ]
     moved += [(("structure", "nets", name, "motion"), net.motion) for name, net in unit.nets.items()]
+    moved += [(("structure", "sheets", name, "motion"), sheet.motion) for name, sheet in unit.sheets.items()]
     for path, motion in moved:
         if motion is not None and motion not in unit.motions:
             findings.fault(
                 path, f"there is no motion '{motion}'", allowed=", ".join(unit.motions) or "a name in 'motions'",
                 remedy=did_you_mean(motion, unit.motions),
             )  # fmt: skip
-    for name, net in unit.nets.items():
+    rows: list[tuple[str, str, Any]] = [("nets", name, net) for name, net in unit.nets.items()]
+    rows += [("sheets", name, sheet) for name, sheet in unit.sheets.items()]
+    for group, name, net in rows:
         if net.motion is not None and net.first_row != "driven":
             findings.fault(
-                ("structure", "nets", name, "motion"), f"the first row is {net.first_row} and follows no motion",
+                ("structure", group, name, "motion"), f"the first row is {net.first_row} and follows no motion",
                 remedy="set first_row: driven",
             )  # fmt: skip
     carried = [(body, point) for body, entry in unit.bodies.items() for point in entry.points]
@@ -123,7 +127,8 @@ def _check_names(model: NetworkCase, findings: Findings) -> None:
 
 def _check_lines(model: NetworkCase, findings: Findings) -> None:
     unit = model.structure
-    knots = {f"{name}[{i},{j}]" for name, net in unit.nets.items() for i in range(net.rows) for j in range(net.columns)}
+    grids: list[tuple[str, Any]] = [*unit.nets.items(), *unit.sheets.items()]
+    knots = {f"{name}[{i},{j}]" for name, grid in grids for i in range(grid.rows) for j in range(grid.columns)}
     known = [*unit.points, *(point for body in unit.bodies.values() for point in body.points)]
     for name, line in unit.lines.items():
         for key in ("start", "end"):
@@ -260,6 +265,7 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
     """Warn of what is allowed and odd: lines over-stretched as built, free points in the air, nets of many nodes."""
     import numpy as np
 
+    from moyai.flexible.network import FREE
     from moyai.network.assembly import assemble
 
     _, level = problem.environment.water_levels[0]
@@ -276,7 +282,8 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
                 remedy="check the length and the places of its points",
             )  # fmt: skip
     if problem.bed is None and math.isfinite(problem.environment.water.depth):
-        lowest = float(network.nodes.position[:, 2].min())
+        free = network.nodes.kind == FREE
+        lowest = float(network.nodes.position[free, 2].min()) if free.any() else 0.0
         if lowest < -problem.environment.water_at(level).depth * (1.0 - 1e-6):
             findings.warn(("structure",), "there is no 'bed', and nodes reach the bed: they will sink into it",
                           remedy="give structure.bed")  # fmt: skip

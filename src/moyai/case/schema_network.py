@@ -14,6 +14,7 @@ from moyai.case.schema_network_parts import (
     NetworkLineType,
     NetworkNet,
     NetworkPoint,
+    NetworkSheet,
     NonNegativeDuration,
     PointMotion,
 )
@@ -41,7 +42,7 @@ Tolerance = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, below=1.0)
 class NetworkStructure(Block):
     """Points joined by lines and nets."""
 
-    at_least_one: ClassVar[KeyGroups] = (("lines", "nets"),)
+    at_least_one: ClassVar[KeyGroups] = (("lines", "nets", "sheets"),)
 
     kind: Literal["network"] = Field(description="Network of lines and nets.")
     line_types: dict[Name, NetworkLineType] = Field(default={}, description="Materials, by name.", max_length=500)
@@ -53,6 +54,11 @@ class NetworkStructure(Block):
     nets: dict[Name, NetworkNet] = Field(
         default={},
         description="Nets, by name; their knots are points called 'name[row,column]', counted from 0.",
+        max_length=50,
+    )
+    sheets: dict[Name, NetworkSheet] = Field(
+        default={},
+        description="Sheets, by name; their knots are points called 'name[row,column]', counted from 0.",
         max_length=50,
     )
     bodies: dict[Name, NetworkBody] = Field(

@@ -18,6 +18,7 @@ from moyai.case.schema_types import (
     Length,
     Mass,
     Name,
+    NonNegativeLength,
     NonNegativeNumber,
     PositiveForce,
     PositiveLength,
@@ -35,6 +36,8 @@ from moyai.core import quantities
 Height = Annotated[float | None, QuantityOf(quantities.LENGTH, words=(("bed", None),))]
 Place = tuple[Length, Length, Height]
 Shift = tuple[Length, Length, Length]
+MembraneStiffness = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, least=0.0)]
+MassPerArea = Annotated[float, QuantityOf(quantities.MASS_PER_AREA, above=0.0)]
 Angles = tuple[Heading, Heading, Heading]
 Viscosity = Annotated[float, QuantityOf(quantities.Kind("a viscosity", "N s", "newton seconds", "1e4 N s"), least=0.0)]
 BendingStiffness = Annotated[float, QuantityOf(quantities.BENDING_STIFFNESS, least=0.0)]
@@ -387,6 +390,33 @@ class NetworkNet(Block):
         default=None, description="Sinker line along the last row, mass in water per length of it."
     )
     flow_factor: NonNegativeNumber = Field(default=1.0, description="Factor on the water velocity. Default: 1.")
+    z_from: ZFrom = Field(default="datum", description="datum, or still_water. Default: datum.")
+
+
+class NetworkSheet(Block):
+    """A sheet between four corners: cloth that wrinkles instead of bearing compression."""
+
+    corners: tuple[Place, Place, Place, Place] = Field(
+        description="Start and end of the first row, then end and start of the last row: once around the sheet."
+    )
+    rows: Annotated[int, Field(strict=True, ge=2, le=500)] = Field(description="Knots from the first to the last row.")
+    columns: Annotated[int, Field(strict=True, ge=2, le=500)] = Field(description="Knots along a row.")
+    warp_stiffness: MembraneStiffness = Field(description="Modulus times thickness from row to row.")
+    weft_stiffness: MembraneStiffness = Field(description="Modulus times thickness along the rows.")
+    shear_stiffness: MembraneStiffness = Field(description="Shear modulus times thickness; 0 lets the threads turn.")
+    mass: MassPerArea = Field(description="Mass per area.")
+    thickness: NonNegativeLength = Field(description="Displaced volume per area.")
+    drag_normal: NonNegativeNumber = Field(description="Drag coefficient across, on its area.")
+    drag_tangential: NonNegativeNumber = Field(description="Drag coefficient along, on its area.")
+    damping_time: NonNegativeDuration = Field(
+        default=0.0, description="Internal damping: time that multiplies the rate of strain. Default: 0."
+    )
+    fullness: Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=5.0)] = Field(
+        default=1.0,
+        description="Unstretched length over the distance of the corners; above 1 it hangs loose. Default: 1.",
+    )
+    first_row: Literal["fixed", "driven", "free"] = Field(description="What holds the first row.")
+    motion: Name | None = Field(default=None, description="Motion of a driven first row; held still when left out.")
     z_from: ZFrom = Field(default="datum", description="datum, or still_water. Default: datum.")
 
 

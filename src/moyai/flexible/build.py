@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, Array, Bars, BarType, Bed, Network, Nodes, Strand
+from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.shape import line_shape
 from moyai.sea.water import Water
@@ -71,6 +72,7 @@ class NetworkBuilder:
         self._runs: list[_Run] = []
         self._types: list[BarType] = []
         self._motions: list[str] = []
+        self._sheets: list[tuple[list[list[str]], Array, Array, dict[str, float]]] = []
 
     def _add(
         self, name: str, position: ArrayLike, kind: int, held: tuple[bool, bool, bool], motion: int, **attached: float
@@ -323,6 +325,62 @@ class NetworkBuilder:
                     )
                 )
 
+    def sheet(
+        self,
+        name: str,
+        points: ArrayLike,
+        *,
+        warp: ArrayLike,
+        weft: ArrayLike,
+        first_row: Literal["free", "fixed", "driven"] = "free",
+        motion: str | None = None,
+        **properties: float,
+    ) -> None:
+        """Add a sheet: a grid of points, ``name[row,column]``, with an orthotropic membrane between them.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+        points : array_like, shape (rows, columns, 3)
+            Positions of the knots [m].
+        warp, weft : array_like, shape (rows,) and (columns,)
+            Unstretched places of rows and columns [m], rising.
+        first_row : {"free", "fixed", "driven"}
+            What holds the first row.
+        motion : str, optional
+            Name of the motion of a driven first row (the sheet's name when left out).
+        **properties
+            Stiffnesses, mass, drag ... of :class:`moyai.flexible.sheets.Sheets`.
+        """
+        grid = np.array(points, dtype=np.float64)
+        labels = [[f"{name}[{i},{j}]" for j in range(grid.shape[1])] for i in range(grid.shape[0])]
+        for i, row in enumerate(labels):
+            for j, label in enumerate(row):
+                if i > 0 or first_row == "free":
+                    self.free(label, grid[i, j])
+                elif first_row == "fixed":
+                    self.fixed(label, grid[i, j])
+                else:
+                    self.driven(label, grid[i, j], motion or name)
+        self._sheets.append(
+            (labels, np.asarray(warp, dtype=np.float64), np.asarray(weft, dtype=np.float64), properties)
+        )
+
+    def _joined_sheets(self, index: dict[str, int]) -> Sheets | None:
+        if not self._sheets:
+            return None
+        triangles, rest = [], []
+        values: dict[str, list[Array]] = {key: [] for _, _, _, given in self._sheets for key in given}
+        for labels, warp, weft, given in self._sheets:
+            corners, places = sheet_grid([[index[label] for label in row] for row in labels], warp, weft)
+            triangles.append(corners)
+            rest.append(places)
+            for key, column in values.items():
+                column.append(np.full(len(corners), given.get(key, 0.0)))
+        joined = {key: np.concatenate(column) for key, column in values.items()}
+        return Sheets(np.concatenate(triangles), np.concatenate(rest), **joined)  # type: ignore[arg-type]
+
     def build(self) -> Network:
         """Return the network.
 
@@ -389,6 +447,7 @@ class NetworkBuilder:
             tuple(Strand(name, np.array(nodes), np.array(bars)) for name, (nodes, bars) in strands.items()),
             dict(index),
             tuple(self._motions),
+            sheets=self._joined_sheets(index),
         )  # fmt: skip
 
 

@@ -165,6 +165,12 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
          for name, node in zip(names, nodes, strict=True)], dtype=object,
     )  # fmt: skip
     data["point_kind"] = ("point", kind_names, {"units": "1", "long_name": "what moves the point"})
+    if network.sheets is not None:
+        data["sheet_nodes"] = (
+            ("triangle", "corner"),
+            network.sheets.triangles,
+            {"units": "1", "long_name": "nodes of the triangles of sheets"},
+        )
     if problem.bodies:
         data["solid_size"] = (
             ("solid", "axis"),
@@ -256,7 +262,13 @@ def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, 
     """Hold the loads on all held points against the weight in water, where nothing lies on a bed or floats."""
     network = assembly.network
     carried = any(name in network.points for name in network.motion_names)
-    if carried or network.bed is not None or np.any(network.nodes.height > 0.0) or network.nodes.held.any():
+    if (
+        carried
+        or network.sheets is not None
+        or network.bed is not None
+        or np.any(network.nodes.height > 0.0)
+        or network.nodes.held.any()
+    ):
         return
     rest = found.get("still water")
     if rest is None or np.any(rest.state.position[:, 2] > -1e-6):

@@ -15,7 +15,7 @@ from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.network import SPHERE, BarType, Bed, Network, Strand
 from moyai.mooring.lines import Clump, Line, LineType, Segment
 from moyai.mooring.shape import line_shape
-from moyai.network.model import STILL, Attached, LinePlan, NetPlan, NetworkProblem, PartPlan, PointPlan
+from moyai.network.model import STILL, Attached, LinePlan, NetPlan, NetworkProblem, PartPlan, PointPlan, SheetPlan
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
@@ -35,12 +35,15 @@ class Assembly:
         Nodes of the nets.
     net_bars : mapping of str to ndarray of int
         Bars of the nets.
+    sheets : tuple of str
+        Names of the sheets.
     """
 
     network: Network
     lines: Mapping[str, Strand]
     nets: Mapping[str, NDArray[np.int64]]
     net_bars: Mapping[str, NDArray[np.int64]]
+    sheets: tuple[str, ...] = ()
 
 
 def assemble(problem: NetworkProblem, level: float) -> Assembly:
@@ -74,6 +77,8 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
             builder.driven(name, where)
     for net in problem.nets:
         _add_net(builder, net, level, water)
+    for sheet in problem.sheets:
+        _add_sheet(builder, sheet, level, water)
     pieces: dict[str, list[str]] = {}
     for line in problem.lines:
         pieces[line.name] = _add_line(builder, line, water)
@@ -88,7 +93,7 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
         )
         own = [strand.bars for strand in network.strands if strand.name.startswith(f"{net.name} ")]
         bars[net.name] = np.concatenate(own) if own else np.zeros(0, dtype=np.int64)
-    return Assembly(network, lines, nets, bars)
+    return Assembly(network, lines, nets, bars, tuple(sheet.name for sheet in problem.sheets))
 
 
 def _place(
@@ -285,6 +290,22 @@ def _add_net(builder: NetworkBuilder, net: NetPlan, level: float, water: Water) 
         bar = net.across[1 if j in (0, net.columns - 1) else 0]
         for i in range(net.rows - 1):
             join("column", j, (i, j), (i + 1, j), bar)
+
+
+def _add_sheet(builder: NetworkBuilder, sheet: SheetPlan, level: float, water: Water) -> None:
+    path = f"structure.sheets.{sheet.name}.corners"
+    a, b, c, d = (np.array(_place(corner, sheet.floats, level, water, path)) for corner in sheet.corners)
+    u, v = np.linspace(0.0, 1.0, sheet.columns)[None, :, None], np.linspace(0.0, 1.0, sheet.rows)[:, None, None]
+    grid = (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * d + u * c)
+    high = 0.5 * float(np.linalg.norm(d - a) + np.linalg.norm(c - b)) * sheet.fullness
+    wide = 0.5 * float(np.linalg.norm(b - a) + np.linalg.norm(c - d)) * sheet.fullness
+    if not (high > 0.0 and wide > 0.0):
+        raise InputError("two corners stand at the same place", path=path, remedy="give four different corners")
+    builder.sheet(
+        sheet.name, grid, warp=np.linspace(0.0, high, sheet.rows), weft=np.linspace(0.0, wide, sheet.columns),
+        first_row=sheet.first_row, motion=(sheet.motion or STILL) if sheet.first_row == "driven" else None,
+        **sheet.properties,
+    )  # fmt: skip
 
 
 def _with_rows(network: Network, problem: NetworkProblem, pieces: dict[str, list[str]]) -> Network:

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.errors import ConvergenceError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
+from moyai.flexible.sheets import sheet_stress
 from moyai.flexible.simulate import simulate
 from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.network.assembly import Assembly
@@ -163,7 +164,7 @@ def run(
             else:
                 sensitivity = _sensitivity(problem, assembly, plan, begin, worst, progress)
             notices += list(sensitivity.notices())
-        except ConvergenceError as error:
+        except (ConvergenceError, InputError) as error:
             notices.append(
                 Notice("sensitivity-failed", f"{plan.name}: {error.fault.message}", remedy=error.fault.remedy)
             )
@@ -314,6 +315,10 @@ def _frames(plan: RunPlan, history: History) -> xr.Dataset:
         ),
     }  # fmt: skip
     coords: dict[str, Any] = {"frame": history.time[chosen], "axis": AXES, "node": history.nodes, "bar": history.bars}
+    sheets = history.network.sheets
+    if sheets is not None and history.nodes.size == len(history.network.nodes):
+        first = np.array([sheet_stress(sheets, place).first for place in history.position[chosen]])
+        data["sheet_tension"] = (("frame", "triangle"), np.maximum(first, 0.0).astype(np.float32))
     waves = plan.waves
     if waves is not None:
         for name, values in (

@@ -171,6 +171,34 @@ class NetPlan:
 
 
 @dataclass(frozen=True)
+class SheetPlan:
+    """A sheet between four corners, as :class:`NetPlan`; warp runs from row to row, weft along the rows.
+
+    Parameters
+    ----------
+    name : str
+    corners : tuple of four places
+    rows, columns : int
+    properties : mapping
+        Arguments of :class:`moyai.flexible.sheets.Sheets`.
+    fullness : float
+        Unstretched length over the distance of the corners [-].
+    first_row, motion, floats
+        As in :class:`NetPlan`.
+    """
+
+    name: str
+    corners: tuple[Place, Place, Place, Place]
+    rows: int
+    columns: int
+    properties: Mapping[str, float]
+    fullness: float = 1.0
+    first_row: Literal["fixed", "driven", "free"] = "free"
+    motion: str = ""
+    floats: bool = False
+
+
+@dataclass(frozen=True)
 class BedPlan:
     """Stiffness [Pa/m], damping [Pa s/m] and friction [-] of the bed."""
 
@@ -250,6 +278,7 @@ class NetworkProblem:
         Water, levels, seas, current.
     settings : Settings
     bodies : tuple of BodyPlan
+    sheets : tuple of SheetPlan
     case_text, case_hash : str
     """
 
@@ -262,6 +291,7 @@ class NetworkProblem:
     environment: Environment
     settings: Settings = field(default_factory=Settings)
     bodies: tuple[BodyPlan, ...] = ()
+    sheets: tuple[SheetPlan, ...] = ()
     case_text: str = ""
     case_hash: str = ""
 

@@ -29,7 +29,7 @@ TURNS = ["roll", "pitch", "yaw"]
 def named_points(assembly: Assembly) -> tuple[list[str], NDArray[np.int64]]:
     """Return the points of the case, without knots of nets and joints of lines, and their nodes."""
     network = assembly.network
-    inner = {f"{name}[" for name in assembly.nets}
+    inner = {f"{name}[" for name in (*assembly.nets, *assembly.sheets)}
     joints = {f"{name} joint " for name in assembly.lines}
     names = [
         name

@@ -188,6 +188,7 @@ def motions_of(problem: NetworkProblem, duration: float) -> dict[str, Motion]:
     """
     used = {point.motion for point in problem.points if point.kind == "driven"}
     used |= {net.motion for net in problem.nets if net.first_row == "driven"}
+    used |= {sheet.motion for sheet in problem.sheets if sheet.first_row == "driven"}
     found = {name: problem.motions[name].over(duration) for name in used if name}
     if "" in used:
         found[STILL] = Motion(0.0, duration, np.zeros((2, 3)), np.zeros((2, 3)))

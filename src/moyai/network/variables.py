@@ -29,6 +29,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "position": ("m", "place of the node, z above still water"),
     "velocity": ("m/s", "velocity of the node"),
     "tension": ("N", "tension of the bar"),
+    "sheet_tension": ("N/m", "higher principal tension of the sheet, 0 where it is slack"),
     "line_tension": ("N", "highest tension along the line since the row before"),
     "line_least_tension": ("N", "lowest tension along the line"),
     "start_tension": ("N", "tension at the start of the line"),

@@ -67,13 +67,16 @@ def _markers(level: NetworkLevel, kept: IntArray) -> tuple[Marker, ...]:
     return tuple(found)
 
 
-def _faces(level: NetworkLevel, place: dict[int, int]) -> tuple[Faces, ...]:
-    """Return the triangles of sheets."""
+def _faces(level: NetworkLevel, place: dict[int, int], load: Array | None = None) -> tuple[Faces, ...]:
+    """Return the triangles of sheets, coloured by their tension where it is known."""
     corners = level.network.array("sheet_nodes", "triangle", "corner")
     if corners is None:
         return ()
-    known = [row for row in corners if all(int(node) in place for node in row)]
-    return (Faces(np.array([[place[int(node)] for node in row] for row in known]), "sheet"),) if known else ()
+    whole = np.array([all(int(node) in place for node in row) for row in corners])
+    known = np.array([[place[int(node)] for node in row] for row in corners[whole]], dtype=np.int64)
+    if not len(known):
+        return ()
+    return (Faces(known, "sheet", load=None if load is None else load[:, whole]),)
 
 
 def _through_kept(bars: IntArray, thin: NDArray[np.bool_], names: tuple[str, ...], kept: IntArray, tension: Array,
@@ -125,11 +128,13 @@ def run_animation(level: NetworkLevel, run: Group) -> Animation | None:
     pairs, thin, names, pull = _through_kept(*bars, kept.astype(np.int64), tension, len(built))
     rows = frame_rows(time, nodes=position.shape[1], bars=len(pairs), window=window, moments=(moment,))
     place = {int(node): number for number, node in enumerate(kept)}
+    cloth = frames.real("sheet_tension", "frame", "triangle")
     current = (attribute(level.network, "current_x"), attribute(level.network, "current_y"))
     bed = attribute(level.network, "bed")
     depth = attribute(level.group, "water_depth")
     scene = Scene3D(
-        time[rows], position[rows], pairs, pull[rows], thin, _faces(level, place), _markers(level, kept),
+        time[rows], position[rows], pairs, pull[rows], thin,
+        _faces(level, place, None if cloth is None else cloth[good][rows]), _markers(level, kept),
         bodies=_solids(level, frames, good, rows), traces=_traces(level, run, pairs, names), waves=_waves(frames),
         bed=bed if math.isfinite(bed) else (-depth if math.isfinite(depth) else None),
         current=(current[0] if math.isfinite(current[0]) else 0.0, current[1] if math.isfinite(current[1]) else 0.0),
