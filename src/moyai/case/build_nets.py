@@ -212,7 +212,7 @@ def _run(block: NetRunBlock, index: int, model: NetsFile, findings: Findings, fo
             net="" if block.net == "none" else block.net,
             kind=block.kind,
             time=read["time"],
-            force=read["force"],
+            force=-read["force"] if model.reverse_force else read["force"],
             lift=read.get("lift"),
             speed=block.speed or 0.0,
             speed_record=read.get("speed"),

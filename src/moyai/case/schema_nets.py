@@ -154,6 +154,9 @@ class NetsFile(Block):
     columns: RunColumns = Field(default_factory=RunColumns, description="Columns of the runs' files.")
     runs: tuple[NetRunBlock, ...] = Field(default=(), description="Runs of nets and of the bare frame.")
     cages: tuple[CageRunBlock, ...] = Field(default=(), description="Runs of a moored cage with line tensions.")
+    reverse_force: Truth = Field(
+        default=False, description="Whether the gauge counts forces against the water's motion. Default: false."
+    )
     vibration: VibrationBlock = Field(default_factory=VibrationBlock, description="Vibration of the carriage.")
     law_solidity: Literal["geometric", "listed"] = Field(
         default="geometric", description="Solidity that A and B are functions of. Default: geometric."

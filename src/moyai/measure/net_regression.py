@@ -298,7 +298,7 @@ def fit_joint_law(
     index = np.array([names.index(name) for name, keep in zip(nets, good) if keep], dtype=np.intp)
     if len(names) < _LEAST_NETS:
         raise InputError(
-            f"{len(names)} nets are too few for A and B as functions of solidity",
+            f"{len(names)} net{'s are' if len(names) > 1 else ' is'} too few for A and B as functions of solidity",
             path="nets",
             allowed=f"at least {_LEAST_NETS}",
         )

@@ -87,6 +87,22 @@ def correlated_mean(values: Array, confidence: float = 0.95) -> Mean:
     return Mean(float(values.mean()), error, freedom, quantile(confidence, freedom) * error)
 
 
+def zero_error(noise: Array, samples: int) -> float:
+    """Return the standard error of a reading at rest: that of means over so many samples of the same noise.
+
+    Parameters
+    ----------
+    noise : ndarray
+        What a fit or a mean leaves of a record.
+    samples : int
+        Length of the reading at rest; longer than a quarter of the noise counts as that.
+    """
+    length = max(1, min(samples, noise.size // 4))
+    sums = np.cumsum(np.concatenate([[0.0], noise - noise.mean()]))
+    means = (sums[length:] - sums[:-length]) / length
+    return float(means.std())
+
+
 def correlated_covariance(gain: Array, residual: Array, shortest: float) -> tuple[Array, float]:
     """Return the covariance of coefficients that are linear in a force with correlated errors [eq:net-sandwich].
 
@@ -135,7 +151,7 @@ def steady_window(time: Array, signal: Array, *, is_speed: bool) -> tuple[float,
     signal : ndarray
         Speed [m/s] or low-passed force [N].
     is_speed : bool
-        A speed is held within 3 % of its plateau, a force within 15 %.
+        A speed is held within 3 % of its plateau, a force within 15 %, or three times its own slow noise.
 
     Raises
     ------
@@ -146,9 +162,13 @@ def steady_window(time: Array, signal: Array, *, is_speed: bool) -> tuple[float,
     top = float(np.quantile(size, 0.95))
     if top <= 0.0:
         raise InputError("the record does not move", path="window", remedy="give the window, or check the column")
-    plateau = float(np.median(size[size > 0.5 * top]))
-    band = _SPEED_BAND if is_speed else _FORCE_BAND
-    good = np.abs(size - plateau) <= band * plateau
+    upper = size[size > 0.5 * top]
+    plateau = float(np.median(upper))
+    band = (_SPEED_BAND if is_speed else _FORCE_BAND) * plateau
+    if not is_speed:
+        # a small force swings about its plateau by its own slow noise
+        band = max(band, 4.5 * float(np.median(np.abs(upper - plateau))))
+    good = np.abs(size - plateau) <= band
     # single samples of noise do not end a stretch
     width = max(1, time.size // 100)
     share = np.convolve(good.astype(float), np.ones(width) / width, mode="same")

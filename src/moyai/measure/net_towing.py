@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.measure.net_runs import NetRun, Specimen, Tank
-from moyai.measure.net_steady import Mean, correlated_mean, quantile, steady_window
+from moyai.measure.net_steady import Mean, correlated_mean, quantile, steady_window, zero_error
 from moyai.measure.net_vibration import Vibration, low_pass, remove_band, shaken_mass
 
 Array = NDArray[np.float64]
@@ -135,7 +135,12 @@ def measure_tow(run: NetRun, vibration: Vibration | None, confidence: float) -> 
     else:
         speed = Mean(run.speed, 0.0, math.inf, 0.0)
     lift = None if run.lift is None else correlated_mean(low_pass(run.step, run.lift, LOW_PASS)[part], confidence)
-    return Tow(run, window, speed, correlated_mean(slow[part], confidence), lift, clean, slow, mass)
+    mean = correlated_mean(slow[part], confidence)
+    if run.zero is not None:
+        # the reading at rest carries the same noise as the force
+        error = math.hypot(mean.error, zero_error(clean[part], int(run.part(run.zero).sum())))
+        mean = Mean(mean.value, error, mean.freedom, quantile(confidence, mean.freedom) * error)
+    return Tow(run, window, speed, mean, lift, clean, slow, mass)
 
 
 @dataclass(frozen=True)
@@ -232,8 +237,18 @@ def tow_coefficients(
     if tow.lift is not None:
         lift, lift_half = tow.lift.value / head, tow.lift.half_width / head
     if drag <= 0.0:
+        against = tow.force.value < 0.0 and carried <= 0.0
         notices.append(
             Notice(
+                "net-drag-against",
+                f"run {tow.run.name}: the force, {tow.force.value:.3g} N, points against the water",
+                tow.force.value,
+                0.0,
+                "error",
+                "give 'reverse_force: true' where the gauge counts the other way",
+            )
+            if against
+            else Notice(
                 "net-drag-negative",
                 f"run {tow.run.name}: the force on net and frame, {tow.force.value:.3g} N, does not exceed that on the "
                 f"bare frame, {carried:.3g} N",

@@ -14,7 +14,7 @@ from moyai.core.validity import Notice
 from moyai.measure.force_identification import Fit, ForceRecord, Identification, Setup, identify
 from moyai.measure.net_flow import Flow, settled, wave_flow
 from moyai.measure.net_runs import NetRun, Specimen, Tank
-from moyai.measure.net_steady import correlated_covariance, quantile
+from moyai.measure.net_steady import correlated_covariance, quantile, zero_error
 from moyai.measure.net_vibration import Vibration, remove_band, shaken_mass
 
 Array = NDArray[np.float64]
@@ -303,6 +303,10 @@ def _covariance(fitted: WaveFit) -> tuple[Array, float]:
     followed, followed_freedom = correlated_covariance(gain, fit.residual, steps)
     own, other = np.diagonal(blocks), np.diagonal(followed)
     rise = np.sqrt(np.maximum(other, own) / np.maximum(own, 1e-300))
+    if fitted.run.zero is not None and not setup.mean:
+        # the reading at rest shifts the whole record
+        shift = zero_error(fit.residual, int(fitted.run.part(fitted.run.zero).sum())) * gain.sum(axis=1)
+        blocks = blocks + np.outer(shift, shift) / np.outer(rise, rise)
     freedom = max(2.0, min(fitted.found.blocks - 1.0, followed_freedom))
     return np.asarray(blocks * np.outer(rise, rise)), freedom
 

@@ -538,3 +538,33 @@ def test_clipped_and_spiky_records_are_told():
     told = {item.code: item for item in found.notices}
     assert "1 of 1500 samples of the force are spikes" in told["net-record-spikes"].message
     assert "velocity" in told["net-record-clipped"].message
+
+
+def test_noise_of_the_reading_at_rest_widens_the_interval():
+    """A short zero carries the slow noise of the gauge into the mean: intervals must still cover."""
+    rng = np.random.default_rng(91)
+    net, rig, hits, ratio = specimen(), Rig(vibration_force=0.0, zero=0.4, slow_noise=0.05), 0, []
+    for _ in range(24):
+        runs = [
+            towed_run(rig, TANK, item, 1.3, 0.4, name=name, rng=rng, ramp=6.0)
+            for name, item in (("f", None), ("n", net))
+        ]
+        runs = [dataclasses.replace(run, zero=(0.0, 0.3), window=(7.0, 18.0)) for run in runs]
+        found = measure_nets(NetCampaign("t", TANK, (net,), tuple(runs), vibration="none")).towing[0]
+        hits += abs(found.drag - 1.3) < found.drag_half_width
+        plain = [dataclasses.replace(run, zero=None, force=run.force - 0.4) for run in runs]
+        other = measure_nets(NetCampaign("t", TANK, (net,), tuple(plain), vibration="none")).towing[0]
+        ratio.append(found.drag_error / other.drag_error)
+    assert hits >= 20
+    assert np.mean(ratio) > 1.5
+
+
+def test_forces_against_the_water_are_refused():
+    rng = np.random.default_rng(93)
+    net = specimen()
+    runs = [towed_run(QUIET, TANK, item, 1.3, 0.4, name=name, rng=rng) for name, item in (("f", None), ("n", net))]
+    turned = tuple(dataclasses.replace(run, force=-run.force) for run in runs)
+    found = measure_nets(NetCampaign("t", TANK, (net,), turned, vibration="none"))
+    (notice,) = [item for item in found.notices if item.code == "net-drag-against"]
+    assert notice.severity == "error"
+    assert "reverse_force" in notice.remedy
