@@ -161,7 +161,11 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
             found = document.fault(path, f"unknown key '{near}'", remedy="did you mean 'structure'?", of_key=True)
         else:
             written = ", ".join(list(data)[:8])
-            found = document.fault((), "the key 'structure' is missing", remedy=f"the file has the keys {written}")
+            others = [word for word in ("study", "fit") if word in data]
+            remedy = (
+                f"the file is a {others[0]}: 'moyai {others[0]} FILE'" if others else f"the file has the keys {written}"
+            )
+            found = document.fault((), "the key 'structure' is missing", remedy=remedy)
     elif not isinstance(structure, dict):
         found = document.fault(("structure",), "expected a block of keys with 'kind'", allowed=known)
     elif "kind" not in structure:

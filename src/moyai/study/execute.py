@@ -116,6 +116,7 @@ def run_study(
                 close = getattr(records, "close", None)
                 if close is not None:
                     close()
+            ledger.settle()
     finally:
         ledger.close()
     return study_result(study, known.values(), interrupted=stopped)

@@ -1,8 +1,9 @@
-"""The diary of a study: one line a finished case, on disk as soon as the case is finished.
+"""The diary of a study: one line a finished case, written as soon as the case is finished.
 
-Plain lines of JSON, appended and flushed to the disk one by one: whenever the program ends, by whatever means, at most
+Plain lines of JSON, appended and handed to the system one by one: whenever the program ends, by whatever means, at most
 the line being written is damaged, and it is left out when the diary is read again. Numbers are written so that they
-are read back to the last bit.
+are read back to the last bit. Once a second the system is made to put them on the disk itself, so that a machine that
+loses its power loses no more than that; asking for it line by line would cost more than short cases do.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import contextlib
 import json
 import os
 import sys
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +23,9 @@ from moyai.core.errors import InputError
 FORMAT = 1
 NAME = "study.jsonl"
 LOCK = ".study.lock"
+
+_SYNC = 1.0
+"""Seconds between two demands to put the diary on the disk."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +87,7 @@ class Ledger:
         self.path = folder / NAME
         self._file: IO[str] | None = None
         self._lock: IO[str] | None = None
+        self._synced = -_SYNC
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self._lock = _locked(folder)
@@ -123,7 +129,9 @@ class Ledger:
         assert self._file is not None
         self._file.write(line + "\n")
         self._file.flush()
-        os.fsync(self._file.fileno())
+        if time.monotonic() - self._synced >= _SYNC:
+            os.fsync(self._file.fileno())
+            self._synced = time.monotonic()
 
     def add(self, record: Record) -> None:
         """Append a finished case.
@@ -136,11 +144,28 @@ class Ledger:
         try:
             self._write(record.line())
         except OSError as error:
-            raise InputError(
-                f"cannot write {self.path}: {error.strerror or error}; the cases finished before are safe",
-                path="output",
-                remedy="make room and give the same command again",
-            ) from error
+            raise self._full(error) from error
+
+    def settle(self) -> None:
+        """Have everything that was added on the disk.
+
+        Raises
+        ------
+        InputError
+            When the disk is full or gone.
+        """
+        if self._file is not None:
+            try:
+                os.fsync(self._file.fileno())
+            except OSError as error:
+                raise self._full(error) from error
+
+    def _full(self, error: OSError) -> InputError:
+        return InputError(
+            f"cannot write {self.path}: {error.strerror or error}; the cases finished before are safe",
+            path="output",
+            remedy="make room and give the same command again",
+        )
 
     def close(self) -> None:
         """Close the file."""

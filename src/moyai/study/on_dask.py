@@ -159,4 +159,7 @@ def _address(text: str) -> str:
     """Return the scheduler's address of ``dask://host:port``."""
     if not text.startswith("dask://") or ":" not in text[len("dask://") :]:
         raise InputError(f"'{text}' is no cluster", path="on", allowed="dask://host:port")
-    return "tcp://" + text[len("dask://") :]
+    host, _, port = text[len("dask://") :].rpartition(":")
+    if not host or not port.isdecimal() or not 0 < int(port) < 65536:
+        raise InputError(f"'{port}' is no port of a cluster", path="on", allowed="dask://host:port, such as :8786")
+    return f"tcp://{host}:{port}"

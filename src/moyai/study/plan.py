@@ -18,7 +18,7 @@ from moyai.core.progress import Progress, silent
 from moyai.study import schema
 from moyai.study.axes import Axis, Combination, Ground, Point, combinations, varied, without
 from moyai.study.paths import resolve
-from moyai.study.plan_faults import check_names, check_search, place_of, unknown_keys
+from moyai.study.plan_faults import check_kind, check_names, check_search, place_of, unknown_keys
 from moyai.study.responses import Wanted
 from moyai.study.variations import axes_of, wrong_paths
 
@@ -107,6 +107,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
         With every fault of the study file, or of the cases, at once.
     """
     document = read_yaml(path)
+    check_kind(document)
     root = read_block(document, schema.StudyFile)
     block: schema.StudyBlock = root.study
     folder = Path(path).parent

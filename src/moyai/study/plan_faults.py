@@ -15,6 +15,17 @@ from moyai.study.paths import resolve
 from moyai.study.variations import common_unit
 
 
+def check_kind(document: Document) -> None:
+    """Refuse a file that is a case or a fit with one sentence."""
+    data = document.data
+    if isinstance(data, dict) and "study" not in data:
+        if "structure" in data:
+            remedy = "'moyai run FILE' runs a case; a study names it as 'base' (docs: study file)"
+            raise CaseError([document.fault((), "this is a case, not a study", remedy=remedy)])
+        if "fit" in data:
+            raise CaseError([document.fault((), "this is a fit, not a study", remedy="'moyai fit FILE' runs it")])
+
+
 def unknown_keys(axes: tuple[Axis, ...], base: Document, base_path: Path) -> list[Fault]:
     """Return the faults of keys that the case does not know, each path of the axes tried once on its own.
 

@@ -191,6 +191,27 @@ def test_a_changed_base_case_is_another_study(tmp_path):
     assert load_study(path).key != first.key
 
 
+def test_every_case_is_written_at_once_and_the_disk_is_asked_once_a_second(tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(os, "fsync", asked.append)
+    ledger = Ledger(tmp_path, "key", "title")
+    for index in range(50):
+        ledger.add(Record(index, "converged", "", 1.0, {"x": index}))
+        # What the system holds outlives the process, whatever ends it
+        assert len((tmp_path / "study.jsonl").read_text(encoding="utf-8").splitlines()) == index + 2
+    assert len(asked) <= 2
+    ledger.settle()
+    assert 2 <= len(asked) <= 3
+
+    def full(number):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(InputError, match="No space left on device; the cases finished before are safe"):
+        ledger.settle()
+    ledger.close()
+
+
 def test_a_full_disk_says_so_and_keeps_the_cases_before(tmp_path):
     ledger = Ledger(tmp_path, "key", "title")
     ledger.add(Record(0, "converged", "", 1.0, {}))

@@ -8,6 +8,7 @@ import pytest
 import study_cases
 from scipy.stats import norm
 
+from moyai.case.reader import load_case
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
@@ -314,6 +315,20 @@ def test_a_study_of_spectra_that_was_moved_with_its_files_is_the_same_study(tmp_
         assert case_at(study, study.cases[0]).model.waves[0].file == "seas/buoy.data_spec"
         keys.append(study.key)
     assert keys[0] == keys[1] != keys[2]
+
+
+@pytest.mark.parametrize(("word", "told"), [("structure", "moyai run"), ("fit", "moyai fit")])
+def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path, word, told):
+    path = tmp_path / "other.yaml"
+    path.write_text(f"moyai: 1\ntitle: t\n{word}: {{}}\n", encoding="utf-8")
+    with pytest.raises(CaseError, match=told) as caught:
+        load_study(path)
+    assert len(caught.value.faults) == 1
+
+
+def test_a_study_that_is_run_as_a_case_is_told_its_command(tmp_path):
+    with pytest.raises(CaseError, match="moyai study FILE"):
+        load_case(study_cases.write_text(tmp_path, "- lines_lost: true"))
 
 
 def test_the_template_of_a_study_runs_on_the_template_of_a_breakwater(tmp_path):

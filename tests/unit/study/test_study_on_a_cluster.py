@@ -83,7 +83,8 @@ def test_nobody_at_the_address_says_how_to_start_a_scheduler(tmp_path, monkeypat
         run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, on="dask://127.0.0.1:9")
 
 
-def test_an_address_of_another_kind_is_refused(tmp_path):
+@pytest.mark.parametrize("on", ["tcp://127.0.0.1:8786", "dask://h:port", "dask://h:99999", "dask://:1", "dask://h"])
+def test_an_address_of_another_kind_is_refused(tmp_path, on):
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=1))
     with pytest.raises(InputError, match="dask://host:port"):
-        run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, on="tcp://127.0.0.1:8786")
+        run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, on=on)
