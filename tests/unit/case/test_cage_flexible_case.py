@@ -12,6 +12,7 @@ from moyai.cage.analysis import run
 from moyai.case.builder import build
 from moyai.case.derived import derived_numbers
 from moyai.case.reader import case_of, load_case
+from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError
 from moyai.core.results import read_result
@@ -164,3 +165,8 @@ def test_sensitivity_tells_what_peaks_are_worth():
     anchor = list(table["quantity"].values).index("highest tension, anchor [N]")
     # half the step hardly matters
     assert values[1, anchor] == pytest.approx(values[0, anchor], rel=0.02)
+
+
+def test_the_template_is_sound():
+    loaded = case_of(parse_yaml(template("flexible_cage"), "case.yaml"), Path("case.yaml"))
+    assert build(loaded).model == "flexible"
