@@ -275,3 +275,51 @@ def test_the_last_good_state_of_a_sound_run_is_its_end(tmp_path):
     kept = last_good_state(bad)
     assert np.allclose(kept.position, item.history.position[-1])
     assert kept.time == pytest.approx(2.0)
+
+
+def test_a_box_on_slack_chains_floats_at_its_draught(tmp_path):
+    text = SITE + f"""
+structure:
+  kind: network
+  bed: {{stiffness: 3e5, damping: 3e4, friction: 0}}
+  line_types: {{rope: {ROPE}}}
+  bodies:
+    box: {{shape: box, size: [4 m, 6 m, 2 m], mass: 20 t, gyration_radii: [1.8 m, 1.3 m, 2.1 m],
+           centre_of_gravity: [0, 0, -0.3 m], position: [0, 0, 0.2 m], drag: [1, 1, 1], added_mass: [0.5, 0.5, 1],
+           points: {{west: [-2 m, 0, -0.5 m], east: [2 m, 0, -0.5 m]}}}}
+  points: {{a: {{kind: fixed, position: [-45, 0, bed]}}, b: {{kind: fixed, position: [45, 0, bed]}}}}
+  lines:
+    west: {{start: a, end: west, type: rope, length: 56 m, segments: 14}}
+    east: {{start: b, end: east, type: rope, length: 56 m, segments: 14}}
+analyses: [statics]
+"""
+    rest = run(problem_of(text, tmp_path)).tree["SWL/statics"].to_dataset().sel(condition="still water")
+    place = rest["solid_position"].sel(solid="box").values
+    assert np.abs(place[:2]).max() < 1e-3
+    assert np.abs(rest["solid_angle"].values).max() < 1e-4
+    # weight, pulls and half a bar at each point against the displaced water of the wet part
+    pull = float(rest["load"].sel(axis="z", point=["west", "east"]).sum())
+    half_bars = 2.0 * 0.5 * 4.0 * (9.0 - 1025.0 * math.pi / 4.0 * 0.04**2) * 9.81
+    draught = 1.0 - place[2]
+    assert 20e3 * 9.81 - pull + half_bars == pytest.approx(1025.0 * 9.81 * 24.0 * draught, rel=1e-4)
+
+
+def test_a_sheet_hangs_down_by_its_length(tmp_path):
+    text = SITE + """
+structure:
+  kind: network
+  sheets:
+    skirt: {corners: [[0, 0, -1], [0, 4, -1], [0, 4, -3], [0, 0, -3]], rows: 7, columns: 13, warp_stiffness: 50 kN/m,
+            weft_stiffness: 50 kN/m, shear_stiffness: 2 kN/m, mass: 4 kg/m2, thickness: 2 mm, drag_normal: 1.2,
+            drag_tangential: 0.02, fullness: 1.1, first_row: fixed}
+analyses: [statics]
+"""
+    problem = problem_of(text, tmp_path)
+    network = assemble(problem, 0.0).network
+    assert network.node_mass.sum() == pytest.approx(4.0 * 4.4 * 2.2, rel=1e-9)
+    result = run(problem)
+    assert result.status == "converged"
+    place = result.tree["SWL/statics"]["position"].values[0]
+    middle = network.points["skirt[6,6]"]
+    # the top row stands closer than the cloth is wide, so that it falls in folds: never longer than its threads
+    assert -1.0 - 2.2 * 1.001 < place[middle, 2] < -1.0 - 2.0
