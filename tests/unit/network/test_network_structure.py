@@ -278,7 +278,9 @@ def test_the_last_good_state_of_a_sound_run_is_its_end(tmp_path):
 
 
 def test_a_box_on_slack_chains_floats_at_its_draught(tmp_path):
-    text = SITE + f"""
+    text = (
+        SITE
+        + f"""
 structure:
   kind: network
   bed: {{stiffness: 3e5, damping: 3e4, friction: 0}}
@@ -293,6 +295,7 @@ structure:
     east: {{start: b, end: east, type: rope, length: 56 m, segments: 14}}
 analyses: [statics]
 """
+    )
     rest = run(problem_of(text, tmp_path)).tree["SWL/statics"].to_dataset().sel(condition="still water")
     place = rest["solid_position"].sel(solid="box").values
     assert np.abs(place[:2]).max() < 1e-3
@@ -305,7 +308,9 @@ analyses: [statics]
 
 
 def test_a_sheet_hangs_down_by_its_length(tmp_path):
-    text = SITE + """
+    text = (
+        SITE
+        + """
 structure:
   kind: network
   sheets:
@@ -314,6 +319,7 @@ structure:
             drag_tangential: 0.02, fullness: 1.1, first_row: fixed}
 analyses: [statics]
 """
+    )
     problem = problem_of(text, tmp_path)
     network = assemble(problem, 0.0).network
     assert network.node_mass.sum() == pytest.approx(4.0 * 4.4 * 2.2, rel=1e-9)
