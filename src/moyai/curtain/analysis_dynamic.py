@@ -183,7 +183,9 @@ def dynamic_answer(
     plans = _plans(unit, settings, seas, span)
     for number, plan in enumerate(plans):
         progress(f"dynamic, {plan.name}", number, len(plans))
-        run = run_span(span, given.mesh, progress=progress, **plan.arguments)
+        # the forces of turning sections act on the light cloth itself: it gathers in waves, where they would blow it up
+        mesh = replace(given.mesh, convective=given.mesh.convective and not seas)
+        run = run_span(span, mesh, progress=progress, **plan.arguments)
         place = f"dynamic, {plan.name}"
         worth: Sensitivity | None = None
         if run.history.status == "interrupted":

@@ -287,14 +287,21 @@ def sheet_stiffness(C: Any, triangles: Any, place: Any, stiff: Any, damp: Any) -
         for k in range(3):
             p[k] = place[k, triangles[t, 1]] - place[k, triangles[t, 0]]
             p[3 + k] = place[k, triangles[t, 2]] - place[k, triangles[t, 0]]
+        # gathered cloth may be taut before the step is chosen again: its threads count with their full length
+        one, two = 0.0, 0.0
+        for k in range(3):
+            fk, sk = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
+            one += fk * fk
+            two += sk * sk
+        one, two = 1.0 / math.sqrt(min(max(one, 1e-12), 1.0)), 1.0 / math.sqrt(min(max(two, 1e-12), 1.0))
         whole = 0.0
         for corner in range(3):
             g, h = (-a - c, -b - d) if corner == 0 else ((a, b) if corner == 1 else (c, d))
             row, trace = 0, 0.0
             for k in range(3):
-                fk, sk = p[k] * a + p[3 + k] * c, p[k] * b + p[3 + k] * d
+                fk, sk = one * (p[k] * a + p[3 + k] * c), two * (p[k] * b + p[3 + k] * d)
                 for m in range(k, 3):
-                    fm, sm = p[m] * a + p[3 + m] * c, p[m] * b + p[3 + m] * d
+                    fm, sm = one * (p[m] * a + p[3 + m] * c), two * (p[m] * b + p[3 + m] * d)
                     value = C[t, C11] * g * g * fk * fm + C[t, C22] * h * h * sk * sm
                     value += C[t, C12] * g * h * (fk * sm + sk * fm)
                     value += C[t, C33] * (fk * h + sk * g) * (fm * h + sm * g)

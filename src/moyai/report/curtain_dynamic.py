@@ -249,8 +249,8 @@ def _waves(frames: Group) -> Waves3D | None:
     if any(part is None for part in parts):
         return None
     ramp = attribute(frames, "wave_ramp")
-    arrays = [np.asarray(part, dtype=float) for part in parts]
-    return Waves3D(*arrays, ramp if math.isfinite(ramp) else 0.0)
+    amplitude, omega, number, heading, phase = (np.asarray(part, dtype=np.float64) for part in parts)
+    return Waves3D(amplitude, omega, number, heading, phase, ramp if math.isfinite(ramp) else 0.0)
 
 
 __all__ = [
