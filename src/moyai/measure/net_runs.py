@@ -43,6 +43,12 @@ class Specimen:
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(f"{name} of net {self.name} is {value:g} m2", path=name, allowed="greater than 0 m2")
+        if self.net.mesh_pitch**2 > self.panel_area:
+            raise InputError(
+                f"meshes of {self.net.mesh_pitch:.4g} m do not fit net {self.name}'s panel of {self.panel_area:.4g} m2",
+                path="mesh_pitch",
+                remedy="check the units: mm or m, cm2 or m2",
+            )
         if not 0.25 * self.net.listed < self.projected_area / self.panel_area < 2.0:
             raise InputError(
                 f"the twines of net {self.name} shade {self.projected_area:.4g} m2 of a panel of {self.panel_area:.4g}",

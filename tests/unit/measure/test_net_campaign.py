@@ -126,6 +126,7 @@ def test_text_output(folder):
         ("table: A}", "twine_diameter: 14 mm, mesh_pitch: 11.3 mm}", "close meshes"),
         ("table: A}", "twine_diameter: 1.4 mm, aperture: 11.3 mm, solidity_listed: 22}", "less than 1"),
         ("table: A}", "aperture: 11.3 mm}", "twine diameter of net 'A' is missing"),
+        ("table: A}", "twine_diameter: 1.4 mm, mesh_pitch: 12.7}", "do not fit net A's panel"),
         ("net: C, kind", "net: Z, kind", "there is no net 'Z'"),
         ("file: records/A-10.csv", "file: records/A-11.csv", "A-11.csv cannot be read"),
         ("force: force,", "force: kraft,", "no column 'kraft'"),
