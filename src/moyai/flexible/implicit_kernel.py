@@ -744,6 +744,35 @@ def _energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
 
 
 @njit(cache=True, error_model="numpy")
+def _rises(x: Any, v: Any, a: Any, system: Any, tension: Any, rises: Any) -> None:
+    """Write the rate of every tension [N/s], without the turn of the bars."""
+    _, bars, start, end, curve, curves, _, _, _ = system
+    for k in range(start.size):
+        size = stretching = quickening = 0.0
+        for axis in range(3):
+            t = x[end[k], axis] - x[start[k], axis]
+            size += t * t
+            stretching += t * (v[end[k], axis] - v[start[k], axis])
+            quickening += t * (a[end[k], axis] - a[start[k], axis])
+        size = max(math.sqrt(size), 1e-100)
+        _, slope = _elastic(bars, k, size, curve[k], curves)
+        rises[k] = (slope * stretching + bars[2, k] * quickening) / size if tension[k] > bars[3, k] else 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def _top(first: float, last: float, rise: float, fall: float) -> float:
+    """Return the top of the cubic through both ends of a step, with the changes that their rates would give."""
+    if not (rise > 0.0 and fall < 0.0):
+        return max(first, last)
+    a, b = 6.0 * (first - last) + 3.0 * (rise + fall), -6.0 * (first - last) - 4.0 * rise - 2.0 * fall
+    s = 2.0 * rise / (-b + math.sqrt(max(b * b - 4.0 * a * rise, 0.0)))
+    s = min(max(s, 0.0), 1.0)
+    r = 1.0 - s
+    value = r * r * ((1.0 + 2.0 * s) * first + s * rise) + s * s * ((1.0 + 2.0 * r) * last - r * fall)
+    return max(first, last, value)
+
+
+@njit(cache=True, error_model="numpy")
 def _powers(x: Any, v: Any, force: Any, system: Any, fluid: Any, own: Any, tension: Any, result: Any) -> None:
     """Write the power of the loads on what is free and of the driven points on the bars [W]."""
     nodes, bars, start, end, curve, curves, hinges, bending, _ = system
@@ -806,6 +835,8 @@ def implicit_march(
     forces(x, v, now_water, system, fluid, bed, force, tension, mass)
     _powers(x, v, force, system, fluid, own, tension, before)
     pulled[:] = tension
+    rises, risen = np.zeros(start.size), np.zeros(start.size)
+    _rises(x, v, a, system, tension, risen)
     for row in range(rows):
         target = begin + (row + 1) * interval
         while time < target - 1e-9 * interval:
@@ -873,11 +904,14 @@ def implicit_march(
             time += h
             counts[2] += 1
             forces(x, v, now_water, system, fluid, bed, force, tension, mass)
+            _rises(x, v, a, system, tension, rises)
             for k in range(start.size):
-                peak[k] = max(peak[k], tension[k])
+                # peaks fall between long steps
+                peak[k] = max(peak[k], _top(pulled[k], tension[k], h * risen[k], h * rises[k]))
                 control[5] = max(control[5], abs(tension[k]))
             _powers(x, v, force, system, fluid, own, tension, powers)
             pulled[:] = tension
+            risen[:] = rises
             ledger[0] += 0.5 * h * (powers[0] + before[0])
             ledger[1] += 0.5 * h * (powers[1] + before[1])
             before[:] = powers

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
@@ -155,6 +156,28 @@ def _pendulum() -> float:
     return float(np.mean(np.diff(when))) / (2.0 * math.pi * math.sqrt(2.0 / 9.81))
 
 
+def _boom() -> float:
+    """Return the height [mm] at which a slack floating line of 40 bars lies, 0.6 of the water's density."""
+    builder = NetworkBuilder(Water(50.0, 1025.0, 9.81))
+    builder.fixed("one", (0.0, 0.0, 0.0))
+    builder.fixed("two", (18.0, 0.0, 0.0))
+    kind = BarType("boom", 0.6 * 1025.0 * math.pi / 4.0 * 0.1**2, 1e6, 0.1)
+    builder.line("boom", "one", "two", kind, length=20.0, segments=40, shape="straight")
+    return 1e3 * float(np.median(solve_equilibrium(builder.build()).state.position[2:-2, 2]))
+
+
+def _thrown(method: Literal["tr_bdf2", "esdirk4"]) -> float:
+    """Return the highest tension [N] of a massless rope that a thrown mass takes from slack to taut and back."""
+    builder = NetworkBuilder(_STILL)
+    builder.fixed("wall", (0.0, 0.0, _DEEP))
+    builder.free("mass", (1.8, 0.0, _DEEP), mass=40.0)
+    builder.line("rope", "wall", "mass", BarType("rope", 1e-9, 2e5, 1e-9), length=2.0, segments=1)
+    network = builder.build()
+    start = State(0.0, np.array(network.nodes.position), np.array([[0.0, 0.0, 0.0], [1.5, 0.0, 0.0]]))
+    history = simulate(network, duration=0.3, output_step=0.05, start=start, method=method, tolerance=1e-4)
+    return float(history.tension_peak.max())
+
+
 CASES: tuple[ValidationCase, ...] = (
     *(
         ValidationCase(
@@ -190,6 +213,24 @@ CASES: tuple[ValidationCase, ...] = (
         1.066334245579963,
         2e-4,
         note="the rod stretches by 1e-4",
+    ),
+    ValidationCase(
+        "flexible: height of a slack floating line [mm]",
+        "(1/2 - density ratio) x diameter",
+        _boom,
+        -10.0,
+        0.05,
+        note="the fixed ends bend the line nearby",
+    ),
+    *(
+        ValidationCase(
+            f"flexible: mass thrown into a slack rope, {method} [N]",
+            "V sqrt(k m)",
+            partial(_thrown, method),  # type: ignore[arg-type]
+            1.5 * math.sqrt(1e5 * 40.0),
+            2e-4,
+        )
+        for method in ("tr_bdf2", "esdirk4")
     ),
     ValidationCase("flexible: snap load of a rope [kN]", _MOORDYN, _snap, 102.36, 5e-3, note="20 bars"),
     *(
