@@ -139,7 +139,9 @@ def rod_rows(cage: RigidCage) -> Array:
         a, b = np.array(rod.start), np.array(rod.end)
         along = (b - a) / rod.length
         # a rod across the plane of motion moves as one
-        nodes, weights = np.polynomial.legendre.leggauss(1 if abs(along[1]) > 1.0 - 1e-9 else ROD_POINTS)
+        # nor does a short piece of a ring need more than its middle
+        whole = abs(along[1]) > 1.0 - 1e-9 or rod.length < 0.25 * max(cage.extent)
+        nodes, weights = np.polynomial.legendre.leggauss(1 if whole else ROD_POINTS)
         # one sense of the axis, so that mirror images merge
         sign = -1.0 if along[0] + 1e-9 * along[2] < 0.0 else 1.0
         for node, weight in zip(nodes, 0.5 * weights):
