@@ -182,6 +182,8 @@ def _line_series(
         return {}
     bars = [run.rest.network.strands[part.strand].bars for part in built.lines]
     upper = np.stack([history.tension[:, own[-1]] for own in bars], axis=1)
+    lower = np.stack([history.tension[:, own[0]] for own in bars], axis=1)
+    lower_peak = np.stack([history.tension_peak[:, own[0]] for own in bars], axis=1)
     peak = np.stack([history.tension_peak[:, own].max(axis=1) for own in bars], axis=1)
     mean = upper[steady].mean(axis=0)
     slack, count, highest = [], [], []
@@ -198,7 +200,9 @@ def _line_series(
     largest = peak[steady].max(axis=0)
     return {
         "line_tension": (("time", "line"), upper),
+        "line_tension_lower": (("time", "line"), lower),
         "line_peak": (("time", "line"), peak),
+        "tension_maximum_lower": ("line", lower_peak[steady].max(axis=0)),
         "tension_mean": ("line", mean),
         "tension_minimum": ("line", upper[steady].min(axis=0)),
         "tension_maximum": ("line", largest),

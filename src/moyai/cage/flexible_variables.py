@@ -54,6 +54,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "position": ("m", "places of the nodes"),
     "tension": ("N", "tension of the bars"),
     "line_tension": ("N", "tension at the upper end of the line"),
+    "line_tension_lower": ("N", "tension at the lower end of the line: of anchor lines at the anchor"),
+    "tension_maximum_lower": ("N", "highest tension at the lower end of the line: of anchor lines at the anchor"),
     "line_peak": ("N", "highest tension in the line since the row before"),
     "tension_mean": ("N", "mean tension at the upper end"),
     "tension_minimum": ("N", "smallest tension at the upper end"),

@@ -113,7 +113,15 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
     names = run.labels("line")
     values = {
         name: run.real(name, "line")
-        for name in ("tension_mean", "tension_minimum", "tension_maximum", "utilisation", "slack_share", "snaps")
+        for name in (
+            "tension_mean",
+            "tension_minimum",
+            "tension_maximum",
+            "tension_maximum_lower",
+            "utilisation",
+            "slack_share",
+            "snaps",
+        )
     }
     if not names or any(value is None for value in values.values()):
         return None
@@ -123,6 +131,7 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
         Column("mean", list(got["tension_mean"]), "N"),
         Column("smallest", list(got["tension_minimum"]), "N"),
         Column("highest", list(got["tension_maximum"]), "N"),
+        Column("highest, lower end", list(got["tension_maximum_lower"]), "N"),
         Column("of its breaking load", list(100.0 * got["utilisation"]), "%"),
         Column("slack, of the time", list(100.0 * got["slack_share"]), "%"),
         Column("snaps", [int(value) for value in got["snaps"]]),
@@ -132,8 +141,8 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
         f"Tensions: {run.attributes.get('wave', run.name)}",
         columns,
         emphasised=(int(np.argmax(got["utilisation"])),),
-        note="Upper ends after the ramp; highest: anywhere in the line, at every step. A snap is a peak after slack, "
-        "above the multiple of the mean that the settings name.",
+        note="Upper ends after the ramp; highest: anywhere in the line, at every step; lower end: at the anchor. A snap "
+        "is a peak after slack, above the multiple of the mean that the settings name.",
         collapsed=len(names) > 40,
     )
 
