@@ -9,6 +9,7 @@ from random_lines import random_line, random_net
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
+from moyai.flexible.modes import natural_modes
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
 from moyai.flexible.recovery import read_state, write_state
@@ -217,3 +218,19 @@ def test_the_error_estimate_resolves_slack_and_taut(method, seed):
         peaks.append(float(history.tension_peak.max()) / (speed * math.sqrt(spring * mass)))
     assert np.all(np.array(errors) < [2e-2, 2e-3, 2e-4])
     assert peaks == pytest.approx([1.0, 1.0, 1.0], abs=2e-4)
+
+
+def test_modes_of_a_large_network_by_shift_and_inversion():
+    """A taut string of 400 bars, far from the size of the dense solver: n pi c / L in both directions across."""
+    builder = NetworkBuilder(Water(math.inf, 1000.0, 1e-12))
+    builder.fixed("one", (0.0, 0.0, -500.0))
+    builder.fixed("two", (40.0, 0.0, -500.0))
+    kind = BarType("string", 2.0, 1e6, 1e-9)
+    builder.line("string", "one", "two", kind, length=39.6, segments=400, shape="straight")
+    network = builder.build()
+    rest = solve_equilibrium(network)
+    pull = 1e6 * (40.0 / 39.6 - 1.0)
+    assert rest.tension == pytest.approx(pull, rel=1e-9)
+    speed = math.sqrt(pull / (2.0 * 39.6 / 40.0))
+    modes = natural_modes(network, rest.state, count=6)
+    assert modes.omega == pytest.approx(np.array([1, 1, 2, 2, 3, 3]) * math.pi * speed / 40.0, rel=1e-4)
