@@ -81,8 +81,8 @@ def test_the_moored_box_keeps_its_symmetry_and_nearly_slackens_its_chains(exampl
     assert history.status == "converged"
     assert all(check.passed for check in history.checks)
     body = history.bodies["box"]
-    assert np.max(np.abs(body.position[:, 1])) < 1e-9
-    assert np.max(np.abs(body.angles[:, [0, 2]])) < 1e-9
+    assert np.max(np.abs(body.position[:, 1])) < 1e-6
+    assert np.max(np.abs(body.angles[:, [0, 2]])) < 1e-5
     found = example.figures(history, last=3.0)
     # the wave is thirty times as long as the box is deep: it rides the surface
     assert found["heave"] == pytest.approx(example.HEIGHT, rel=0.06)

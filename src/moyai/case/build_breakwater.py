@@ -193,7 +193,7 @@ def bar_type_of(part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryL
     volume = (mass - weight / water.gravity) / water.density
     if volume < 0.0:
         raise InputError(
-            f"a segment of line {entry.name!r} weighs {weight / water.gravity:.4g} kg/m in water, {mass:.4g} kg/m in air",
+            f"a segment of line {entry.name!r} weighs {weight / water.gravity:.4g} kg/m in water, {mass:.4g} in air",
             path=f"{path}.mass",
             allowed="more in air than in water",
         )
