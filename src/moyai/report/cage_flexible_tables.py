@@ -141,8 +141,8 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
         f"Tensions: {run.attributes.get('wave', run.name)}",
         columns,
         emphasised=(int(np.argmax(got["utilisation"])),),
-        note="Upper ends after the ramp; highest: anywhere in the line, at every step; lower end: at the anchor. A snap "
-        "is a peak after slack, above the multiple of the mean that the settings name.",
+        note="Upper ends after the ramp; highest: anywhere in the line, at every step; lower end: at the anchor. A "
+        "snap is a peak after slack, above the multiple of the mean that the settings name.",
         collapsed=len(names) > 40,
     )
 
