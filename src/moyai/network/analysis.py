@@ -78,7 +78,7 @@ def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
         for _ in _steps(problem, collected, progress):
             pass
     except KeyboardInterrupt:
-        collected.interrupted = collected.interrupted or "interrupted between two analyses"
+        collected.interrupted = collected.interrupted or "interrupted"
     return _result(problem, collected)
 
 
@@ -363,10 +363,10 @@ def _result(problem: NetworkProblem, collected: _Collected) -> Result:
         status, message = "not_converged", "; ".join(collected.failures)
     if collected.interrupted:
         status = "interrupted"
-        message = (
-            f"{collected.interrupted}; rows up to there are kept, and the last state with them: "
-            "settings.resume goes on from it"
-        )
+        begun = any("/time/" in name for name in collected.groups)
+        # bodies keep no state to go on from
+        ahead = "; settings.resume goes on from its last state" if begun and not problem.bodies else ""
+        message = f"{collected.interrupted}; what there was by then is kept{ahead}"
     root = xr.Dataset(
         attrs={
             "structure": "network", "title": problem.title, "case_hash": problem.case_hash,
