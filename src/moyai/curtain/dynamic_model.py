@@ -167,9 +167,9 @@ class Mesh:
     skirt_damping_time : float or None
         [s]; None: the same of the skirt.
     convective : bool
-        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`): for the snap of a taut
-        span. In waves the cloth gathers, and these forces, which act on the light cloth itself, may blow it up: leave
-        them off there.
+        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`), for the snap of a
+        taut span. In waves the cloth gathers, and these forces, which act on the light cloth itself, may blow it up:
+        leave them off there.
     """
 
     along: int
