@@ -1,5 +1,7 @@
 """Mistakes in network cases: each told once, with its place, what is allowed and how to mend it."""
 
+from pathlib import Path
+
 import pytest
 
 from moyai.case.reader import load_case
@@ -126,3 +128,18 @@ def test_a_circular_motion_goes_round(tmp_path):
     assert np.allclose(np.linalg.norm(velocity, axis=1), 0.7 * 2.0 * np.pi / 5.0, atol=1e-5)
     # with waves towards +x: forward at the top
     assert velocity[0, 0] > 0.0 and place[0, 2] > 0.69
+
+
+EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples" / "network").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_sound(example):
+    case = load_case(example)
+    assert case.warnings == ()
+
+
+def test_there_is_an_example_of_every_part():
+    text = "".join(path.read_text(encoding="utf-8") for path in EXAMPLES)
+    for part in ("lines:", "nets:", "sheets:", "bodies:", "motions:", "clump:", "along:", "kind: sphere", "current:"):
+        assert part in text, part
