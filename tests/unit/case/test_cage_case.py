@@ -116,7 +116,7 @@ def test_reynolds_outside_the_law_and_odd_viscosity_warn_with_the_number():
     assert any("wholly under water" in str(fault) for fault in drowned.warnings)
 
 
-@pytest.mark.parametrize("shape", ["box", "cylinder"])
+@pytest.mark.parametrize("shape", ["box", pytest.param("cylinder", marks=pytest.mark.slow)])
 def test_other_shapes_lines_seas_and_levels_run(shape, tmp_path):
     """Own lines with weight, a sinker, a current, an irregular sea, two levels, Wheeler, another law."""
     changes = [
@@ -138,7 +138,7 @@ def test_other_shapes_lines_seas_and_levels_run(shape, tmp_path):
          "      - {name: west, attachment: {x: -10 cm, z: 10 cm}, anchor: {x: -60 cm}, slack: 5 mm, axial_stiffness: 1 kN, gauge_stiffness: 5 kN/m, submerged_weight: 0.01 N/m, breaking_load: 40 N}\n"
          "      - {name: east, attachment: {x: 10 cm, z: 10 cm}, anchor: {x: 60 cm}, slack: 5 mm, stiffness: 1 kN/m, damping: 1 N s/m}\n"),
         ("# settings:\n#   rigid: {periods: 40, settled_periods: 20, stretching: wheeler, stiffnesses: [1 kN/m, 3 kN/m, 10 kN/m]}",
-         "settings:\n  rigid: {periods: 10, settled_periods: 4, stretching: wheeler, patches: 3, stiffness_factors: [1, 3]}"),
+         "settings:\n  rigid: {periods: 8, settled_periods: 3, stretching: wheeler, patches: 2, tolerance: 1e-4, stiffness_factors: [1, 3]}"),
     ]  # fmt: skip
     if shape == "cylinder":
         changes += [
