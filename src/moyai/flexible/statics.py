@@ -27,6 +27,7 @@ _CALM = ((1.0, 300, False), (0.25, 1000, False), (1.0, 700, True), (0.08, 1200, 
 #: ... and in a current, where the matrix need not be positive about a stable rest.
 _MOVING = (
     (1.0, 150, True), (1.0, 300, False), (0.25, 400, True), (0.25, 1000, False), (1.0, 700, True), (0.08, 600, True),
+    (1.0, 2500, True),
 )  # fmt: skip
 #: The same on the way of a rising stiffness or current, and after the true motion has led.
 _STAGE, _LAST = (0.25, 150), (0.25, 400)
@@ -92,7 +93,7 @@ def solve_equilibrium(
     tolerance : float
         Force left over the largest force at work. Where it stays out of reach, 1e-5 is returned too; see ``residual``.
     most_steps : int, optional
-        Solves before it gives up; when left out 6000 for small networks, down to 500 for large ones.
+        Solves before it gives up; when left out 9000 for small networks, down to 500 for large ones.
     state_file : path, optional
         Where the nearest state is kept when no equilibrium is found (:func:`moyai.flexible.recovery.read_state`).
 
@@ -111,7 +112,7 @@ def solve_equilibrium(
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
     problem = Relaxation(network, calm, time)
     if most_steps is None:
-        most_steps = int(min(max(_MOST_NUMBERS / max(problem.plan.size, 1), 500), 6000))
+        most_steps = int(min(max(_MOST_NUMBERS / max(problem.plan.size, 1), 500), 9000))
     best, found, steps = _ladder(problem, place, tolerance, most_steps)
     if not (best.converged or best.residual <= max(tolerance, _GOOD_ENOUGH)):
         kept = ""
@@ -165,6 +166,8 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
             if go("rising current", x, _STAGE, True):
                 return best, found, steps
             x = last.place if np.isfinite(last.place).all() else x
+    if best.residual <= _GOOD_ENOUGH:
+        return best, found, steps
     x = place
     for shake in range(_SHAKES):
         x = _shake(problem.network, x, problem.flow, not moving or shake % 2 == 1)
