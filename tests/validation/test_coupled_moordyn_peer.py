@@ -58,7 +58,8 @@ def test_moordyn_feels_the_same_tensions_under_the_motion_of_the_box(tmp_path, e
     rest = find_rest(network, {"box": body})
     body = rest.bodies["box"]
     # the box in waves, its chains in still water, as MoorDyn is given none
-    step = 0.0125
+    # MoorDyn goes straight on from the place and velocity at the start of each call: short calls
+    step = 0.003125
     carrier = body.carrier(example.WATER, example.sea())
     history = simulate_coupled(
         rest.network, {"box": body}, duration=12.0, output_step=step, flow=Flow(), start=rest.state,
@@ -100,5 +101,5 @@ def test_moordyn_feels_the_same_tensions_under_the_motion_of_the_box(tmp_path, e
     error = np.sqrt(np.mean((ours[keep] - theirs[keep]) ** 2)) / np.ptp(theirs[keep])
     peaks = ours[keep].max(axis=0) / theirs[keep].max(axis=0) - 1.0
     print(f"rms over range {error:.5f}, peaks {np.array2string(100.0 * peaks, precision=3)} %")
-    assert np.abs(peaks).max() < 0.01
+    assert np.abs(peaks).max() < 0.005
     assert error < 0.01
