@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -267,7 +267,6 @@ class RigidCage:
     extent: tuple[float, float, float]
     weights: tuple[PointWeight, ...] = ()
     outline: str = "box"
-    frame_mass: float = field(default=0.0)
 
     def __post_init__(self) -> None:
         _not_negative(self, "net_mass", "net_volume", "net_added_mass", "rod_drag", "rod_added_mass")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -88,8 +87,3 @@ def sensitivity_dataset(
             attrs={"wave": wave.name, "own_stiffness": own, "wave_height": wave.height, "period": wave.period},
         )
     )
-
-
-def without_damping(lines: tuple[CageLine, ...]) -> tuple[CageLine, ...]:
-    """Return the same lines without damping."""
-    return tuple(replace(line, damping=0.0) for line in lines)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from moyai.cage.rigid_parts import Floats, Patches, Rod, cylinder_wall, disc, join, rectangle
+from moyai.cage.rigid_parts import Patches, Rod, cylinder_wall, disc, join, rectangle
 
 #: Straight pieces that stand for a ring of rod
 RING_PIECES = 24
@@ -84,14 +84,3 @@ def ring_floats(diameter: float, level: float, count: int) -> np.ndarray:
     """Return float centres spread evenly around a ring, symmetric about y = 0 [m]."""
     angle = 2.0 * math.pi * (np.arange(count) + 0.5) / count
     return np.column_stack([0.5 * diameter * np.cos(angle), 0.5 * diameter * np.sin(angle), np.full(count, level)])
-
-
-__all__ = [
-    "Floats",
-    "box_floats",
-    "box_patches",
-    "box_rods",
-    "cylinder_patches",
-    "cylinder_rods",
-    "ring_floats",
-]

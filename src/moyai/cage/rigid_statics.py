@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -306,8 +306,3 @@ def rest_with_lines(
             )
         return free
     return rest_of(packed, cage, place)
-
-
-def line_with_length(line: CageLine, length: float) -> CageLine:
-    """Return the line with another unstretched length [m]."""
-    return replace(line, length=length)
