@@ -93,6 +93,11 @@ class SimulatedWorker:
         """Follow one word of the scheduler on the stream."""
         what = message["op"]
         if what == "compute-task":
+            missing = [key for key in message["who_has"] if key not in self.data]
+            if missing:
+                # A real worker fetches the common part of the cases from another one, once, and tells the scheduler
+                self.data.update(dict.fromkeys(missing))
+                self._say({"op": "add-keys", "keys": missing, "stimulus_id": f"fetched-{time.time()}"})
             self.waiting.append(message)
             self._next()
         elif what in ("free-keys", "remove-replicas"):

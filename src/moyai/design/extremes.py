@@ -153,6 +153,8 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     Coles (2001), ch. 3 and 4 [eq:extremes-gumbel] [eq:extremes-weibull] [eq:extremes-pareto]; the equations of the
     Gumbel and Weibull reduce to one unknown, that of the Pareto to a search along one (Grimshaw 1993).
     """
+    if family not in _LEAST:
+        raise InputError(f"'{family}' is no family of extremes", path="family", allowed=", ".join(_LEAST))
     data = np.asarray(values, dtype=float).ravel()
     if not np.isfinite(data).all():
         raise InputError("the values hold NaN or infinity", path="values", remedy="leave them out knowingly")

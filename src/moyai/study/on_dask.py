@@ -15,6 +15,7 @@ from moyai.study.local import THREADS
 from moyai.study.work import Task, run_case
 
 _FLIGHT = 4
+_COPIES = 8
 _CONNECT = 10.0
 _ASK = 1.0
 _ASKS = 100.0
@@ -45,7 +46,9 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
         from distributed import Event, as_completed
 
         cancel = Event(f"moyai-cancel-{uuid.uuid4().hex[:12]}", client=client)
-        shared = client.scatter(task, broadcast=True, hash=False)
+        # A few copies outlive the death of workers; the others fetch it from each other when their first case comes.
+        # Copies for all at once hold up the scheduler: minutes with a thousand workers on a busy network
+        shared = client.scatter(task, broadcast=_COPIES, hash=False)  # type: ignore[arg-type]
         waiting = iter(cases)
         jobs: dict[str, Combination] = {}
 
@@ -143,7 +146,8 @@ def _client(on: Any) -> Iterator[Any]:
                 remedy="start one with 'dask scheduler' and workers with 'dask worker tcp://HOST:8786 --nthreads 1'",
             ) from None
     try:
-        if not client.scheduler_info(n_workers=-1)["workers"]:
+        # Not the client's own note of the scheduler: it is renewed beside, without the workers
+        if not client.nthreads():
             raise InputError(
                 "the cluster has no workers",
                 path="on",
