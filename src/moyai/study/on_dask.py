@@ -15,7 +15,6 @@ from moyai.study.local import THREADS
 from moyai.study.work import Task, run_case
 
 _FLIGHT = 4
-_COPIES = 8
 _CONNECT = 10.0
 _ASK = 1.0
 _ASKS = 100.0
@@ -46,9 +45,8 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
         from distributed import Event, as_completed
 
         cancel = Event(f"moyai-cancel-{uuid.uuid4().hex[:12]}", client=client)
-        # A few copies outlive the death of workers; the others fetch it from each other when their first case comes.
-        # Copies for all at once hold up the scheduler: minutes with a thousand workers on a busy network
-        shared = client.scatter(task, broadcast=_COPIES, hash=False)  # type: ignore[arg-type]
+        # To every worker: the scheduler gives cases first to workers that hold what they need
+        shared = client.scatter(task, broadcast=True, hash=False)
         waiting = iter(cases)
         jobs: dict[str, Combination] = {}
 
