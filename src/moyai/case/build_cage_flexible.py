@@ -33,10 +33,14 @@ def _under(path: str) -> Iterator[None]:
     except InputError as error:
         fault = error.fault
         inner = fault.path.split(".")
-        known = inner if inner and inner[0] else []
+        known = [_KEYS.get(name, name) for name in inner if name]
         raise InputError(
             fault.message, path=".".join([path, *known[-1:]]), allowed=fault.allowed, remedy=fault.remedy
         ) from None
+
+
+#: What other rooms call a key of the case file.
+_KEYS = {"line_type": "catalogue"}
 
 
 def build_problem(
@@ -160,7 +164,8 @@ def _sinkers_of(entry: parts.SinkerSet, water: Water) -> Sinkers:
             if share >= 1.0:
                 raise InputError("sinkers lighter than water", path="structure.sinkers.density")
             mass = entry.submerged_weight / water.gravity / (1.0 - share)
-            return Sinkers(entry.count, mass, mass / entry.density, entry.drag_area)
+            volume = mass / entry.density
+            return Sinkers(entry.count, mass, volume, entry.drag_area, 0.5 * water.density * volume)
         return Sinkers(entry.count, entry.submerged_weight / water.gravity, 0.0, entry.drag_area)
     assert entry.mass is not None
     if entry.density is None:
@@ -180,11 +185,12 @@ def _grid_of(entry: parts.GridEntry) -> GridMooring:
     )
     if entry.bridle_length is not None and entry.bridle_slack != 0.0:
         raise InputError("'bridle_length' and 'bridle_slack' say the same thing", path="structure.mooring.bridle_slack")
+    frame = rope_of(entry.frame_rope, "structure.mooring.frame_rope")
+    bridle = rope_of(entry.bridle, "structure.mooring.bridle")
     with _under("structure.mooring"):
         return GridMooring(
-            entry.bay, entry.frame_depth, rope_of(entry.frame_rope, "structure.mooring.frame_rope"),
-            Buoy(entry.buoys.diameter, entry.buoys.mass, entry.buoys.drag),
-            rope_of(entry.bridle, "structure.mooring.bridle"), entry.bridles_per_corner, segments,
+            entry.bay, entry.frame_depth, frame,
+            Buoy(entry.buoys.diameter, entry.buoys.mass, entry.buoys.drag), bridle, entry.bridles_per_corner, segments,
             entry.anchor_distance, entry.lines_per_corner, entry.bridle_slack, entry.bridle_length, entry.damping,
         )  # fmt: skip
 

@@ -7,7 +7,7 @@ import numpy as np
 from moyai.report.cage_rigid_reading import Level, key
 from moyai.report.cage_rigid_tables import _listing as listing
 from moyai.report.cage_rigid_tables import _row as row
-from moyai.report.document import Column, Table
+from moyai.report.document import Column, Table, in_one_unit
 from moyai.report.reading import Group
 
 _CAGE = ("rest_volume", "net_area", "net_mass", "solidity", "submerged_weight", "reserve_buoyancy")
@@ -62,7 +62,7 @@ def current_table(level: Level) -> Table | None:
     if stress is not None:
         columns.append(Column("collar, stress", list(stress.max(axis=1)), "Pa"))
     return Table(
-        key(level, "currents"), "At rest in each current", tuple(columns),
+        key(level, "currents"), "At rest in each current", in_one_unit(columns),
         note="Offsets and deflections from still water. Ovality: largest less smallest diameter over their mean.",
     )  # fmt: skip
 
@@ -83,7 +83,7 @@ def split_table(level: Level) -> Table | None:
     if balance is not None:
         columns.append(Column("pull less drag", list(np.where(speed > 0.0, 100.0 * balance, np.nan)), "%"))
     return Table(
-        key(level, "split"), "Drag split, along the current", tuple(columns),
+        key(level, "split"), "Drag split, along the current", in_one_unit(columns),
         note="The last column holds the pull of the anchors (or of the held collar) against the sum.",
     )  # fmt: skip
 
@@ -103,7 +103,7 @@ def lines_table(level: Level) -> Table | None:
     columns.append(Column("of its breaking load", list(100.0 * used.max(axis=0)), "%"))
     worst = int(np.argmax(used.max(axis=0)))
     return Table(
-        key(level, "lines"), "Lines, bridles and frame at rest", tuple(columns), emphasised=(worst,),
+        key(level, "lines"), "Lines, bridles and frame at rest", in_one_unit(columns), emphasised=(worst,),
         note="Breaking load: of new rope, without a safety factor.", collapsed=len(names) > 40,
     )  # fmt: skip
 
@@ -139,7 +139,7 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
     return Table(
         key(level, sea, run.name, "lines"),
         f"Tensions: {run.attributes.get('wave', run.name)}",
-        columns,
+        in_one_unit(columns),
         emphasised=(int(np.argmax(got["utilisation"])),),
         note="Upper ends after the ramp; highest: anywhere in the line, at every step; lower end: at the anchor. A "
         "snap is a peak after slack, above the multiple of the mean that the settings name.",
@@ -157,11 +157,13 @@ def drag_table(level: Level, sea: str, run: Group) -> Table | None:
     return Table(
         key(level, sea, run.name, "drag"),
         f"Drag on the parts: {run.attributes.get('wave', run.name)}",
-        (
-            Column("Part", [names[k] for k in keep]),
-            Column("mean, x", [float(mean[k, 0]) for k in keep], "N"),
-            Column("mean, y", [float(mean[k, 1]) if abs(mean[k, 1]) > 1e-9 else 0.0 for k in keep], "N"),
-            Column("largest, horizontal", [float(largest[k]) for k in keep], "N"),
+        in_one_unit(
+            (
+                Column("Part", [names[k] for k in keep]),
+                Column("mean, x", [float(mean[k, 0]) for k in keep], "N"),
+                Column("mean, y", [float(mean[k, 1]) if abs(mean[k, 1]) > 1e-9 else 0.0 for k in keep], "N"),
+                Column("largest, horizontal", [float(largest[k]) for k in keep], "N"),
+            )
         ),
     )
 

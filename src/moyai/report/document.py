@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -174,6 +174,8 @@ class Column:
         Drop trailing zeros (input echo).
     links : sequence of str
         File beside the report that each cell leads to, empty text where to none; on the screen only.
+    like : float
+        Magnitude that chooses the display unit together with the values (see :func:`in_one_unit`).
     """
 
     label: str
@@ -184,6 +186,27 @@ class Column:
     uniform: bool = True
     trim: bool = False
     links: Sequence[str] = ()
+    like: float = 0.0
+
+
+def in_one_unit(columns: Sequence[Column], unit: str = "N") -> tuple[Column, ...]:
+    """Return columns of which those of one unit are shown in the same display unit, so that they can be compared.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+    unit : str
+        Unit of the columns that belong together; others stay as they are.
+    """
+    kin = [column for column in columns if column.unit == unit]
+    sizes = [
+        abs(value)
+        for column in kin
+        for value in column.values
+        if isinstance(value, float | int) and not isinstance(value, bool) and math.isfinite(value)
+    ]
+    largest = float(max(sizes, default=0.0))
+    return tuple(replace(column, like=largest) if column.unit == unit else column for column in columns)
 
 
 @dataclass(frozen=True)

@@ -211,7 +211,7 @@ def column_unit(column: Column) -> DisplayUnit:
     if column.fixed or any(isinstance(value, str) for value in column.values):
         return DisplayUnit("" if column.unit in {"1", "-"} else column.unit)
     numbers = [float(value) for value in column.values if value is not None and not isinstance(value, bool)]  # type: ignore[arg-type]
-    return display_unit(column.unit, numbers or None)
+    return display_unit(column.unit, [*numbers, column.like] if numbers else None)
 
 
 def _csv_cell(value: Cell, factor: float) -> str:

@@ -112,6 +112,25 @@ def test_each_slip_gives_one_clear_message(name):
     assert len(found) <= 2, found
 
 
+@pytest.mark.parametrize("rope", ("bridle", "frame_rope"))
+def test_a_rope_is_found_by_its_own_key(rope):
+    """A mistake in a rope is told at that rope, whatever the catalogue calls it."""
+    start = BASE.index(f"    {rope}: {{catalogue: ") + len(f"    {rope}: {{catalogue: ")
+    known = BASE[start : BASE.index(",", start)]
+    (fault,) = faults((f"{rope}: {{catalogue: {known}", f"{rope}: {{catalogue: {known}x"))
+    assert f"structure.mooring.{rope}.catalogue" in fault
+
+
+def test_weights_of_one_mass_are_alike_however_they_are_told():
+    """A mass in air and its weight in water give the same sinkers, with the water that they drag along."""
+    told = build(case()).cage.design.sinkers
+    submerged = (told.mass - 1025.0 * told.volume) * 9.81
+    same = build(case(("mass: 120 kg", f"submerged_weight: {submerged!r} N"))).cage.design.sinkers
+    for key in ("mass", "volume", "added_mass"):
+        assert getattr(same, key) == pytest.approx(getattr(told, key), rel=1e-12)
+    assert told.added_mass > 0.0
+
+
 def test_an_infinite_depth_is_refused():
     assert any("bed" in fault for fault in faults(("water_depth: 30 m", "water_depth: infinite")))
 
