@@ -138,8 +138,8 @@ def measure_tow(run: NetRun, vibration: Vibration | None, confidence: float) -> 
     mean = correlated_mean(slow[part], confidence)
     if run.zero is not None:
         # the reading at rest carries the same noise as the force
-        error = math.hypot(mean.error, zero_error(clean[part], int(run.part(run.zero).sum())))
-        mean = Mean(mean.value, error, mean.freedom, quantile(confidence, mean.freedom) * error)
+        spread = math.hypot(mean.error, zero_error(clean[part], int(run.part(run.zero).sum())))
+        mean = Mean(mean.value, spread, mean.freedom, quantile(confidence, mean.freedom) * spread)
     return Tow(run, window, speed, mean, lift, clean, slow, mass)
 
 
