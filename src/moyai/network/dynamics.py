@@ -21,7 +21,7 @@ from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.network.assembly import Assembly
 from moyai.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
 from moyai.network.model import NetworkProblem
-from moyai.network.rest import AXES, TURNS, line_numbers, named_points, pulls
+from moyai.network.rest import AXES, MEASURES, TURNS, highest_pulls, line_numbers, named_points, pulls
 from moyai.network.resume import Earlier, joined, last_good_state
 from moyai.network.runs import RunPlan, motions_of
 from moyai.network.variables import labelled
@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 
 #: Values that a run may hold in memory, and those of the frames that it keeps.
 MOST_VALUES, MOST_FRAME_VALUES = 80_000_000, 6_000_000
+#: Loads on points in the summary, in the order of the measures of :func:`moyai.network.rest.highest_pulls`.
+LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +153,7 @@ def run(
         series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
     snaps = _snaps(problem, series)
     governing, worst = _governing(assembly, history, problem.settings.skip)
-    sensitivity, notices = None, [*history.notices, *_run_notices(problem, history, plan)]
+    sensitivity, notices = None, [*history.notices, *_run_notices(problem, history, plan, snaps)]
     if problem.settings.sensitivity and history.status == "converged" and worst >= 0 and earlier is None:
         try:
             if coupled is not None:
@@ -234,21 +236,24 @@ def _series(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset:
     names, nodes = named_points(assembly)
     place = np.searchsorted(history.nodes, nodes)
     position = _whole(network.nodes.position.shape[0], history)
+    # the first row has no time before it
+    highest = np.fmax(history.tension_peak, history.tension)
     data: dict[str, Any] = {
         "kinetic_energy": ("time", history.kinetic_energy),
         "elastic_energy": ("time", history.elastic_energy),
         "work": ("time", history.work),
         "point_position": (("time", "point", "axis"), history.position[:, place]),
         "load": (("time", "point", "axis"), pulls(network, nodes, position, history.tension)),
-    }
+        "highest_load": (
+            ("time", "point", "measure"), highest_pulls(network, nodes, position, history.tension, highest)
+        ),
+    }  # fmt: skip
     numbers = line_numbers(assembly, history.tension)
     if numbers:
         strands = list(assembly.lines.values())
-        numbers["line_tension"] = np.stack([history.tension_peak[:, s.bars].max(axis=1) for s in strands], axis=1)
-        # the first row has no time before it
-        numbers["line_tension"][0] = np.maximum(
-            numbers["line_tension"][0], [history.tension[0, s.bars].max() for s in strands]
-        )
+        numbers["line_tension"] = np.stack([highest[:, s.bars].max(axis=1) for s in strands], axis=1)
+        numbers["start_highest"] = np.stack([highest[:, s.bars[0]] for s in strands], axis=1)
+        numbers["end_highest"] = np.stack([highest[:, s.bars[-1]] for s in strands], axis=1)
     for key, values in numbers.items():
         data[key] = (("time", "line"), values)
     if assembly.net_bars:
@@ -264,7 +269,7 @@ def _series(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset:
             data,
             coords={
                 "time": time, "point": names, "line": list(assembly.lines), "axis": AXES,
-                "net": list(assembly.net_bars),
+                "net": list(assembly.net_bars), "measure": MEASURES,
             },
         )
     )  # fmt: skip
@@ -356,8 +361,17 @@ def _snaps(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecord]
     return found
 
 
-def _run_notices(problem: NetworkProblem, history: History, plan: RunPlan) -> list[Notice]:
+def _run_notices(
+    problem: NetworkProblem, history: History, plan: RunPlan, snaps: Mapping[str, SnapRecord]
+) -> list[Notice]:
     notices = []
+    rise = min((contact.rise_time for record in snaps.values() for contact in record.snaps), default=math.inf)
+    if rise < 3.0 * plan.output_step:
+        notices.append(
+            Notice("rows-too-far-apart", "slack, contacts and rise times are found at the rows, too far apart for "
+                   "the shortest rise; peaks are taken at every step", plan.output_step, rise / 3.0, "warning",
+                   "shorten settings.output_step")
+        )  # fmt: skip
     if history.nodes.size < len(history.network.nodes):
         notices.append(
             Notice(
@@ -436,10 +450,12 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
         at = int(np.nanargmax(record))
         ends = [item.series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
         pull = max(ends, key=lambda values: float(np.nanmean(values)))
+        most = {key: item.series[key].sel(line=name).values[chosen] for key in ("start_highest", "end_highest")}
         values = {
-            "peak": float(record[at]), "peak_time": float(time[at]), "start_peak": float(np.nanmax(ends[0])),
-            "end_peak": float(np.nanmax(ends[1])), "mean": float(np.nanmean(pull)),
-            "deviation": float(np.nanstd(pull)), "utilisation": float(record[at]) / breaking[name],
+            "peak": float(record[at]), "peak_time": float(time[at]),
+            "start_peak": float(np.nanmax(most["start_highest"])), "end_peak": float(np.nanmax(most["end_highest"])),
+            "mean": float(np.nanmean(pull)), "deviation": float(np.nanstd(pull)),
+            "utilisation": float(record[at]) / breaking[name],
         }  # fmt: skip
         if snaps is not None:
             peaks = [contact.peak for contact in snaps.snaps]
@@ -456,20 +472,16 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
 
 def _point_summary(problem: NetworkProblem, item: Run, names: list[str], rest: Array | None) -> dict[str, list[float]]:
     chosen = _counted(problem, item)
-    out: dict[str, list[float]] = {
-        key: [] for key in ("load_peak", "load_horizontal", "load_upwards", "load_downwards", "excursion")
-    }
+    out: dict[str, list[float]] = {key: [] for key in (*LOADS, "excursion")}
     for number, name in enumerate(names):
-        load = item.series["load"].sel(point=name).values[chosen]
+        load = item.series["highest_load"].sel(point=name).values[chosen]
         place = item.series["point_position"].sel(point=name).values[chosen]
         if load.size == 0 or not np.isfinite(load).any():
             for key in out:
                 out[key].append(math.nan)
             continue
-        out["load_peak"].append(float(np.nanmax(np.linalg.norm(load, axis=1))))
-        out["load_horizontal"].append(float(np.nanmax(np.linalg.norm(load[:, :2], axis=1))))
-        out["load_upwards"].append(float(np.nanmax(np.maximum(load[:, 2], 0.0))))
-        out["load_downwards"].append(float(np.nanmax(np.maximum(-load[:, 2], 0.0))))
+        for key, highest in zip(LOADS, np.nanmax(load, axis=0), strict=True):
+            out[key].append(float(highest))
         origin = rest[number] if rest is not None else place[0]
         out["excursion"].append(float(np.nanmax(np.linalg.norm(place - origin, axis=1))))
     return out

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 AXES = ["x", "y", "z"]
 TURNS = ["roll", "pitch", "yaw"]
+MEASURES = ["size", "horizontal", "upwards", "downwards"]
 
 
 def named_points(assembly: Assembly) -> tuple[list[str], NDArray[np.int64]]:
@@ -62,6 +63,48 @@ def pulls(network: Network, nodes: NDArray[np.int64], position: Array, tension: 
             size = np.maximum(np.linalg.norm(reach, axis=2, keepdims=True), 1e-12)
             out[:, column] += np.sum(tension[:, own, None] * reach / size, axis=1)
     return out
+
+
+def highest_pulls(network: Network, nodes: NDArray[np.int64], position: Array, tension: Array, highest: Array) -> Array:
+    """Return what pulls most at some nodes since the row before, shape (rows, nodes, 4) [N].
+
+    One bar after the other is given its highest tension since the row before, while the others pull as at the row:
+    exact where one bar meets the node.
+
+    Parameters
+    ----------
+    network, nodes, position, tension
+        As in :func:`pulls`.
+    highest : ndarray, shape (rows, m)
+        Highest tension of every bar since the row before [N].
+
+    Returns
+    -------
+    ndarray
+        Size, horizontal, upward and downward part, each at its own highest.
+    """
+    bars = network.bars
+    at_row = pulls(network, nodes, position, tension)
+    out = _measures(at_row)
+    for column, node in enumerate(nodes):
+        for meets, away in ((bars.start, bars.end), (bars.end, bars.start)):
+            for bar in np.flatnonzero(meets == node):
+                reach = position[:, away[bar]] - position[:, node]
+                unit = reach / np.maximum(np.linalg.norm(reach, axis=1, keepdims=True), 1e-12)
+                more = np.maximum(highest[:, bar] - tension[:, bar], 0.0)
+                out[:, column] = np.fmax(out[:, column], _measures(at_row[:, column] + more[:, None] * unit))
+    return out
+
+
+def _measures(load: Array) -> Array:
+    up = load[..., 2]
+    return np.stack(
+        [
+            np.linalg.norm(load, axis=-1), np.linalg.norm(load[..., :2], axis=-1), np.maximum(up, 0.0),
+            np.maximum(-up, 0.0),
+        ],
+        axis=-1,
+    )  # fmt: skip
 
 
 def line_numbers(assembly: Assembly, tension: Array) -> dict[str, Array]:

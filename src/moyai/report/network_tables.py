@@ -164,9 +164,9 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
             _column("Highest snap", of("largest_snap"), "N"),
             _column("Shortest rise", of("shortest_rise"), "s"),
         ],
-        "Highest: anywhere along the line, taken at every step; at its start and end: at the rows. Mean and standard "
-        "deviation: at its more loaded end. A contact ends a slack phase; a snap is a contact whose peak exceeds the "
-        "threshold (settings.snap_threshold, or the mean of the taut tension).",
+        "Highest: anywhere along the line; all three peaks are taken at every step. Mean and standard deviation: at "
+        "its more loaded end. A contact ends a slack phase; a snap is a contact whose peak exceeds the threshold "
+        "(settings.snap_threshold, or the mean of the taut tension).",
         emphasised=governs,
     )  # fmt: skip
 
@@ -192,7 +192,7 @@ def points_table(level: NetworkLevel, run: Group) -> Table | None:
             _column("downwards", of("load_downwards"), "N"),
             _column("Excursion", of("excursion"), "m"),
         ],
-        "Pull of the lines on the point; the largest of each column, not at one time.",
+        "Pull of the lines on the point, taken at every step; the largest of each column, not at one time.",
     )
 
 
