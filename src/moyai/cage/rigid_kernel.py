@@ -31,10 +31,11 @@ class Packed(NamedTuple):
     normal_table: Array
     tangential_table: Array
     table_axis: Array
-    node_x: Array
-    node_z: Array
-    travel: Array
+    series: Array
+    centre: Array
     depth_parts: Array
+    summed_at: Array
+    summed: Array
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -96,84 +97,111 @@ def _water_at(p: Packed, t: float, x: float, z: float, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _fill_nodes(p: Packed, t: float, x: float, nodes: Array) -> None:
-    """Sum the waves at nodes around x: elevation, velocities, accelerations, shape (5, node_x, node_z).
-
-    The travel from x to the nodes and the depth functions are known beforehand, so that a component costs one sine
-    and cosine for all of them [eq:cage-nodes].
-    """
-    ramp = p.water[3]
-    grown = 1.0
-    if ramp > 0.0 and t < ramp:
-        grown = 0.5 * (1.0 - math.cos(math.pi * max(t, 0.0) / ramp))
+def _centre_waves(p: Packed, x: float, z: float) -> None:
+    """Move the middle of the series to a point: depth functions of every wave there, and nothing summed yet."""
+    depth = p.water[2]
+    z = min(max(z, -depth), 0.0)
+    p.centre[0], p.centre[1] = x, z
     c = p.components
-    across, upward = p.node_x.shape[1], p.node_z.shape[1]
-    nodes[:] = 0.0
     for i in range(c.shape[1]):
-        angle = c[6, i] * c[4, i] * x - c[0, i] * t + c[3, i]
-        amplitude = grown * c[2, i]
-        first, second = amplitude * math.cos(angle), amplitude * math.sin(angle)
-        sigma, sense = c[1, i], c[6, i]
-        for m in range(across):
-            real = first * p.travel[0, i, m] - second * p.travel[1, i, m]
-            imaginary = first * p.travel[1, i, m] + second * p.travel[0, i, m]
-            nodes[0, m, 0] += real
-            along, rising = sense * sigma * real, sigma * imaginary
-            pushed, lifted = sense * sigma * sigma * imaginary, sigma * sigma * real
-            for n in range(upward):
-                nodes[1, m, n] += p.depth_parts[0, i, n] * along
-                nodes[2, m, n] += p.depth_parts[1, i, n] * rising
-                nodes[3, m, n] += p.depth_parts[0, i, n] * pushed
-                nodes[4, m, n] -= p.depth_parts[1, i, n] * lifted
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def _shares(nodes: Array, at: float, out: Array) -> None:
-    """Fill the values of the Lagrange polynomials of nodes (row 0, barycentric weights in row 1)."""
-    total = 0.0
-    for m in range(nodes.shape[1]):
-        gap = at - nodes[0, m]
-        if abs(gap) < 1e-13:
-            out[:] = 0.0
-            out[m] = 1.0
-            return
-        out[m] = nodes[1, m] / gap
-        total += out[m]
-    for m in range(nodes.shape[1]):
-        out[m] /= total
+        lift = math.exp(c[4, i] * z)
+        below = c[5, i] / lift
+        p.depth_parts[0, i] = (lift + below) / (1.0 - c[5, i])
+        p.depth_parts[1, i] = (lift - below) / (1.0 - c[5, i])
+    p.summed_at[:] = math.inf
 
 
 @njit(cache=True, error_model="numpy")
-def _from_nodes(p: Packed, x: float, z: float, nodes: Array, share: Array, out: Array) -> None:
-    """Interpolate the waves between their nodes; ``x`` counts from the middle of the nodes."""
-    across, upward = p.node_x.shape[1], p.node_z.shape[1]
-    beside, below = share[0, :across], share[1, :upward]
-    _shares(p.node_x, x, beside)
+def _sum_waves(p: Packed, number: float, out: Array) -> None:
+    """Sum the waves at a time of the grid into the coefficients of their series [eq:cage-series-of-waves].
+
+    Rows of ``out``: elevation, velocity u - i w (real, imaginary), acceleration (real, imaginary); then their rates.
+    """
+    reach, step = p.series[0], p.series[1]
+    t = number * step
+    c = p.components
+    terms = out.shape[1]
+    out[:] = 0.0
+    for i in range(c.shape[1]):
+        sense, sigma, omega = c[6, i], c[1, i], c[0, i]
+        angle = sense * c[4, i] * p.centre[0] - omega * t + c[3, i]
+        cosine, sine = c[2, i] * math.cos(angle), c[2, i] * math.sin(angle)
+        across, upward = p.depth_parts[0, i], p.depth_parts[1, i]
+        # cosine and sine of the complex phase s k (x + i (z + h)) - omega t + eps, over sinh kh
+        c_real, c_imaginary = across * cosine, -sense * upward * sine
+        s_real, s_imaginary = across * sine, sense * upward * cosine
+        factor = 1.0
+        speed = sense * sigma
+        for n in range(terms):
+            out[0, n] += factor * cosine
+            out[1, n] += factor * speed * c_real
+            out[2, n] += factor * speed * c_imaginary
+            out[3, n] += factor * speed * sigma * s_real
+            out[4, n] += factor * speed * sigma * s_imaginary
+            out[5, n] += factor * omega * sine
+            out[6, n] += factor * speed * omega * s_real
+            out[7, n] += factor * speed * omega * s_imaginary
+            out[8, n] -= factor * speed * sigma * omega * c_real
+            out[9, n] -= factor * speed * sigma * omega * c_imaginary
+            # next derivative along x + i z: cosine to minus sine, sine to cosine
+            cosine, sine = -sine, cosine
+            c_real, s_real = -s_real, c_real
+            c_imaginary, s_imaginary = -s_imaginary, c_imaginary
+            factor *= sense * c[4, i] * reach / (n + 1.0)
+
+
+@njit(cache=True, error_model="numpy")
+def _series_at(p: Packed, t: float, x: float, z: float, out: Array) -> None:
+    """Fill the coefficients at a time for a cage at a place, between two times of the grid by Hermite's cubic."""
+    step, margin, ramp = p.series[1], p.series[2], p.water[3]
+    if not math.hypot(x - p.centre[0], min(max(z, -p.water[2]), 0.0) - p.centre[1]) <= margin:
+        _centre_waves(p, x, z)
+    slots = p.summed_at.size
+    first = math.floor(t / step)
+    for number in (first, first + 1):
+        slot = int(number) % slots
+        if p.summed_at[slot] != number:
+            _sum_waves(p, float(number), p.summed[slot])
+            p.summed_at[slot] = number
+    low, high = p.summed[int(first) % slots], p.summed[int(first + 1) % slots]
+    grown = 1.0
+    if ramp > 0.0 and t < ramp:
+        grown = 0.5 * (1.0 - math.cos(math.pi * max(t, 0.0) / ramp))
+    s = t / step - first
+    rest = 1.0 - s
+    a, b = grown * rest * rest * (1.0 + 2.0 * s), grown * s * s * (3.0 - 2.0 * s)
+    d, e = grown * step * s * rest * rest, -grown * step * s * s * rest
+    for row in range(5):
+        for n in range(out.shape[1]):
+            out[row, n] = a * low[row, n] + b * high[row, n] + d * low[row + 5, n] + e * high[row + 5, n]
+
+
+@njit(cache=True, error_model="numpy")
+def _from_series(p: Packed, x: float, z: float, series: Array, out: Array) -> None:
+    """Evaluate the series of the waves at a point."""
+    reach, depth = p.series[0], p.water[2]
+    terms = series.shape[1]
+    along = (x - p.centre[0]) / reach
     eta = 0.0
-    for m in range(across):
-        eta += beside[m] * nodes[0, m, 0]
+    for n in range(terms - 1, -1, -1):
+        eta = eta * along + series[0, n]
     level = z
     if p.water[4] == 2.0:
-        depth = p.water[2]
         level = z - eta if math.isinf(depth) else (z - eta) * depth / (depth + eta)
-    level = min(max(level, p.node_z[0, 0]), 0.0)
-    _shares(p.node_z, level, below)
+    up = (min(max(level, -depth), 0.0) - p.centre[1]) / reach
+    u, w, first, second = 0.0, 0.0, 0.0, 0.0
+    for n in range(terms - 1, -1, -1):
+        u, w = u * along - w * up + series[1, n], u * up + w * along + series[2, n]
+        first, second = first * along - second * up + series[3, n], first * up + second * along + series[4, n]
     out[0] = eta
-    for q in range(1, 5):
-        total = 0.0
-        for m in range(across):
-            column = 0.0
-            for n in range(upward):
-                column += below[n] * nodes[q, m, n]
-            total += beside[m] * column
-        out[q] = total
+    out[1], out[2], out[3], out[4] = u, -w, first, -second
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def _water(p: Packed, t: float, middle: float, x: float, z: float, nodes: Array, share: Array, out: Array) -> None:
-    """Fill elevation, velocity and acceleration at a point, directly or between nodes."""
-    if nodes.shape[0] > 0:
-        _from_nodes(p, x - middle, z, nodes, share, out)
+def _water(p: Packed, t: float, x: float, z: float, series: Array, out: Array) -> None:
+    """Fill elevation, velocity and acceleration at a point, wave by wave or from their series."""
+    if series.shape[1] > 0:
+        _from_series(p, x, z, series, out)
     else:
         _water_at(p, t, x, z, out)
 
@@ -269,12 +297,10 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
     vertical, constant_buoyancy = p.body[4], p.body[5]
     cosine, sine = math.cos(y[2]), math.sin(y[2])
     turn = y[5] * y[5]
-    # many components are summed at nodes around the cage, few at every part
-    across, upward = p.node_x.shape[1], p.node_z.shape[1]
-    nodes = np.empty((5 if across > 0 else 0, across, upward))
-    share_of = np.empty((2, max(across, upward)))
-    if across > 0:
-        _fill_nodes(p, t, y[0], nodes)
+    # many waves are summed into a series about the cage, few at every part
+    series = np.empty((5, p.summed.shape[2]))
+    if series.shape[1] > 0:
+        _series_at(p, t, y[0], y[1], series)
     force[:] = 0.0
     mass[:] = 0.0
     mass[0, 0] = mass[1, 1] = p.body[0]
@@ -287,7 +313,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         e = p.spheres[i]
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
         x, z = y[0] + rx, y[1] + rz
-        _water(p, t, y[0], x, z, nodes, share_of, work)
+        _water(p, t, x, z, series, work)
         radius = e[2]
         high = work[0] - z + radius
         if high <= 0.0 and not weightless:
@@ -320,7 +346,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
         nx, nz = cosine * e[2] + sine * e[3], -sine * e[2] + cosine * e[3]
         x, z = y[0] + rx, y[1] + rz
-        _water(p, t, y[0], x, z, nodes, share_of, work)
+        _water(p, t, x, z, series, work)
         share = 1.0 if weightless else _wet(work[0], z, e[6] * math.sqrt(max(0.0, 1.0 - nz * nz)))
         if share <= 0.0:
             continue
@@ -367,7 +393,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
         ex, ez = cosine * e[2] + sine * e[3], -sine * e[2] + cosine * e[3]
         x, z = y[0] + rx, y[1] + rz
-        _water(p, t, y[0], x, z, nodes, share_of, work)
+        _water(p, t, x, z, series, work)
         share = 1.0 if weightless else _wet(work[0], z, 0.5 * (abs(ez) * e[4] / e[11] + e[5]))
         if share <= 0.0:
             continue
@@ -394,7 +420,7 @@ def loads(p: Packed, t: float, y: Array, taut: Array, force: Array, mass: Array,
     for i in range(p.blocks.shape[0]):
         e = p.blocks[i]
         rx, rz = cosine * e[0] + sine * e[1], -sine * e[0] + cosine * e[1]
-        _water(p, t, y[0], y[0] + rx, y[1] + rz, nodes, share_of, work)
+        _water(p, t, y[0] + rx, y[1] + rz, series, work)
         added = density * e[2] * e[4]
         fx = density * e[2] * e[3] * work[3] + added * turn * rx
         fz = density * e[2] * e[3] * work[4] + added * turn * rz

@@ -13,7 +13,7 @@ from moyai.cage.rigid_parts import RigidCage
 from moyai.morison.net_law import Net, NetLaw
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
-from moyai.sea.kinematics import depth_functions, stretching_code
+from moyai.sea.kinematics import stretching_code
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
@@ -54,11 +54,14 @@ TABLE_ANGLES = 65
 TABLE_PER_DECADE = 40
 TABLE_DECADES = (-4, 1.5)
 
-#: Up to this number waves are summed at every part of the cage, beyond it at nodes around it
+#: Up to this number waves are summed at every part of the cage, beyond it into a series about it
 FEW_WAVES = 4
-#: Error of the polynomials between nodes, over the amplitude of the shortest wave, and the most nodes one way
-NODE_ERROR = 2e-3
-MOST_NODES = 24
+#: Error of the series at its rim and of the cubic between its times, over the amplitude of the shortest wave
+SERIES_ERROR = 1e-3
+#: Most terms of the series; beyond it waves are too short for the cage and are summed at every part
+MOST_TERMS = 60
+#: Times of the series that are kept
+KEPT_TIMES = 16
 
 #: Gauss points along a rod in the plane of motion
 ROD_POINTS = 3
@@ -192,50 +195,53 @@ def component_rows(waves: WaveComponents | None, depth: float) -> Array:
     )
 
 
-def node_rows(waves: WaveComponents | None, reach: float, depth: float) -> tuple[Array, Array, Array, Array]:
-    """Return nodes around the cage for the sum of many waves, with their travel and depth functions [eq:cage-nodes].
+def series_rows(
+    waves: WaveComponents | None, reach: float, stretching: str
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Return numbers and empty store of the series that stands for many waves [eq:cage-series-of-waves].
 
-    Chebyshev nodes along x over ``reach`` [m] to both sides, and over the depth that the cage may come to; none for
-    few waves.
+    Parameters
+    ----------
+    waves : WaveComponents or None
+    reach : float
+        Farthest part of the cage from its centre of gravity [m].
+    stretching : str
+        A stretched column looks up water beyond the parts of the cage, by up to the crest.
+
+    Returns
+    -------
+    tuple of ndarray
+        Reach of the series [m], step of its times [s] and how far the cage may leave its middle [m]; the middle; depth
+        functions; times and coefficients, which the march fills. No terms for few waves.
     """
-    if waves is None or len(waves) <= FEW_WAVES:
-        none = np.zeros((2, 0))
-        return none, none, np.zeros((2, 0, 0)), np.zeros((2, 0, 0))
-    shortest = float(waves.wave_number.max())
-    along = reach * _lobatto(_node_count(shortest * reach))
-    lowest = -min(depth, 4.0 * reach)
-    heights = 0.5 * lowest * (1.0 - _lobatto(_node_count(-0.5 * shortest * lowest)))
-    sense = np.where(np.cos(waves.heading) >= 0.0, 1.0, -1.0)
-    turn = np.exp(1j * (sense * waves.wave_number)[:, None] * along)
-    horizontal, vertical, _ = depth_functions(waves.wave_number[:, None], depth, heights[None, :])
-    rows = [np.stack([nodes, _barycentric(len(nodes))]) for nodes in (along, heights)]
+    margin = 0.3 * reach
+    whole = reach + margin
+    terms = 0
+    count = 0 if waves is None else len(waves)
+    step = 1.0
+    if waves is not None and count > FEW_WAVES:
+        if stretching != "constant":
+            whole += 3.0 * math.sqrt(0.5 * float(np.sum(waves.amplitude**2)))
+        # Hermite's cubic errs by (omega step)^4 / 384
+        step = (384.0 * 0.1 * SERIES_ERROR) ** 0.25 / float(np.max(np.abs(waves.omega)))
+        terms = _term_count(float(waves.wave_number.max()) * whole)
     return (
-        rows[0],
-        rows[1],
-        np.ascontiguousarray(np.stack([turn.real, turn.imag])),
-        np.ascontiguousarray(np.stack([horizontal, vertical])),
+        np.array([whole, step, margin]),
+        np.full(2, math.nan),
+        np.zeros((2, count if terms else 0)),
+        np.full(KEPT_TIMES, math.inf),
+        np.zeros((KEPT_TIMES, 10, terms)),
     )
 
 
-def _node_count(phase: float) -> int:
-    """Return how many nodes represent exp of a phase (or decay) of +-``phase`` within :data:`NODE_ERROR`."""
-    error, count = 2.0, 0
-    while count < 6 or (error > NODE_ERROR and count < MOST_NODES):
-        count += 1
-        error *= 0.5 * phase / count
-    return count
-
-
-def _lobatto(count: int) -> Array:
-    """Return Chebyshev nodes of the second kind on -1..1, rising."""
-    return np.asarray(-np.cos(math.pi * np.arange(count) / (count - 1)), dtype=np.float64)
-
-
-def _barycentric(count: int) -> Array:
-    """Return the barycentric weights of Chebyshev nodes of the second kind."""
-    weight = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
-    weight[[0, -1]] *= 0.5
-    return np.asarray(weight, dtype=np.float64)
+def _term_count(phase: float) -> int:
+    """Return how many terms of exp represent it at ``phase`` within :data:`SERIES_ERROR`; 0 beyond the most."""
+    term = 1.0
+    for count in range(1, MOST_TERMS + 1):
+        term *= phase / count
+        if count > phase and term / (1.0 - phase / (count + 1)) < SERIES_ERROR:
+            return max(count, 6)
+    return 0
 
 
 def current_rows(current: CurrentProfile | None, depth: float) -> Array:
@@ -285,7 +291,7 @@ def pack(
     """
     tables = law_tables(cage.law, cage.net, kinematic_viscosity)
     arm = max(math.hypot(*cage.extent), 2.0 * float(np.abs(cage.floats.points).max())) / 2.0
-    nodes = node_rows(waves, arm + 0.5 * cage.floats.diameter + math.hypot(*cage.centre), water.depth)
+    series = series_rows(waves, arm + 0.5 * cage.floats.diameter + math.hypot(*cage.centre), stretching)
     body = np.array([cage.mass, cage.inertia, cage.mass * water.gravity, 0.0, 1.0, -1.0, *damping])
     return Packed(
         spheres=sphere_rows(cage),
@@ -300,8 +306,9 @@ def pack(
         normal_table=tables[0],
         tangential_table=tables[1],
         table_axis=tables[2],
-        node_x=nodes[0],
-        node_z=nodes[1],
-        travel=nodes[2],
-        depth_parts=nodes[3],
+        series=series[0],
+        centre=series[1],
+        depth_parts=series[2],
+        summed_at=series[3],
+        summed=series[4],
     )

@@ -373,8 +373,8 @@ def test_water_in_the_kernel_is_that_of_the_sea(seed):
             assert work[:5] == pytest.approx(wanted, rel=1e-9, abs=1e-12)
 
 
-def test_irregular_seas_between_nodes_are_those_summed_at_every_part():
-    """Forces on a cage in 200 waves, interpolated between nodes, against a sum at every float, patch and rod."""
+def test_irregular_seas_from_their_series_are_those_summed_at_every_part():
+    """Forces on a cage in 200 waves, from the series about it, against a sum at every float, patch and rod."""
     rng = np.random.default_rng(8)
     cage = random_cage(rng)
     size = size_of(cage)
@@ -389,10 +389,8 @@ def test_irregular_seas_between_nodes_are_those_summed_at_every_part():
         free = free_floating(cage, water, NU)
         for stretching in ("constant", "wheeler"):
             packed = pack(cage, (), water, NU, waves=waves, stretching=stretching)
-            none = np.zeros((2, 0))
-            direct = packed._replace(
-                node_x=none, node_z=none, travel=np.zeros((2, 0, 0)), depth_parts=np.zeros((2, 0, 0))
-            )
+            assert packed.summed.shape[2] > 0
+            direct = packed._replace(summed=np.zeros((16, 10, 0)))
             gaps, sizes = [], []
             for _ in range(30):
                 state = np.concatenate([free.place, np.zeros(3)])
