@@ -255,7 +255,7 @@ class ExplicitRun:
         good = kernel.march(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([self.network.water.density, self.network.water.gravity]),
-            (not self.flow.steady, self._near_surface(), self.water, rate, self.time),
+            (not self.flow.steady, self.water, rate, self.time),
             self.driving,
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first),

@@ -29,6 +29,8 @@ Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 #: Energy from nowhere, as a part of the energy that went through the network: what is called good, and what stops a
 #: run.
 ENERGY_TOLERANCE, ENERGY_STOP = 0.02, 0.25
+#: Longest time over which step, drag and nearness of the surface are taken as they were at its start [s].
+LONGEST_LOOK = 1.0
 
 
 def _rows(duration: float, output_step: float) -> tuple[int, float]:
@@ -164,9 +166,10 @@ def simulate(
         bars,
     )
     run.first_row(saved)
-    per_chunk = max(1, rows // 20)
-    if not flow.steady:
-        per_chunk = max(1, min(per_chunk, int(flow.update_interval / interval + 1e-9)))
+    look = LONGEST_LOOK if flow.steady else min(LONGEST_LOOK, flow.update_interval)
+    per_chunk = max(1, min(rows // 20, int(look / interval + 1e-9)))
+    # rows further apart than that are marched in parts
+    parts = max(1, math.ceil(interval / look - 1e-9))
     status: RunStatus = "converged"
     done, message, steps, smallest = 0, "", 0, math.inf
     sound, fastest = start, _fastest(network, run)
@@ -176,7 +179,7 @@ def simulate(
         while done < rows:
             count = min(per_chunk, rows - done)
             sound = run.state()
-            good = run.advance(count, 1 + done, interval, step, saved)
+            good = _advance(run, count, 1 + done, interval, parts, step, saved)
             steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else steps + good * round(interval / run.step)
             smallest = min(smallest, run.step)
             energy = saved[3][: 1 + done + good]
@@ -214,6 +217,32 @@ def simulate(
         message,
         throughput,
     )  # type: ignore[arg-type]
+
+
+def _advance(
+    run: ExplicitRun | ImplicitRun,
+    rows: int,
+    first: int,
+    interval: float,
+    parts: int,
+    step: float | None,
+    saved: tuple[np.ndarray, ...],
+) -> int:
+    """March rows, each in so many parts that the water is known well enough; return how many were good."""
+    if parts == 1:
+        return run.advance(rows, first, interval, step, saved)
+    places, pulls, peaks, energy, nodes, bars = saved
+    scratch = tuple(np.empty((2, *array.shape[1:])) for array in (places, pulls, peaks, energy))
+    for row in range(first, first + rows):
+        highest = np.full(bars.size, -np.inf)
+        for _ in range(parts):
+            if run.advance(1, 1, interval / parts, step, (*scratch, nodes, bars)) < 1:
+                return row - first
+            highest = np.maximum(highest, scratch[2][1])
+        for array, part in zip((places, pulls, peaks, energy), scratch, strict=True):
+            array[row] = part[1]
+        peaks[row] = highest
+    return rows
 
 
 def _fastest(network: Network, run: ExplicitRun | ImplicitRun) -> float:

@@ -87,6 +87,13 @@ def _reaches(time: Array, tension: Array, first: int, last: int, level: float) -
     return float(time[first])
 
 
+def _with_peaks(time: Array, tension: Array, peaks: Array) -> tuple[Array, Array]:
+    """Return the record with a point in the middle of every two rows whose peak between stands over both."""
+    over = np.flatnonzero(peaks[1:] > np.maximum(tension[1:], tension[:-1])) + 1
+    middle = 0.5 * (time[over - 1] + time[over])
+    return np.insert(time, over, middle), np.insert(tension, over, peaks[over])
+
+
 def find_snaps(
     time: ArrayLike, tension: ArrayLike, *, slack_level: float, threshold: float, peaks: ArrayLike | None = None
 ) -> SnapRecord:
@@ -105,8 +112,7 @@ def find_snaps(
         A contact with a higher peak is a snap [N].
     peaks : array_like, optional
         Highest tension since the row before (:attr:`moyai.flexible.result.History.tension_peak`), so that no peak is
-        lost between
-        rows.
+        lost between rows: one that stands over both is put in their middle, also when the line is slack at both.
 
     Raises
     ------
@@ -127,6 +133,7 @@ def find_snaps(
             path="slack_level",
             allowed="0 <= level <= threshold",
         )
+    t, pull = _with_peaks(t, pull, most)
     loose = pull <= slack_level
     turns = np.flatnonzero(np.diff(loose.astype(np.int8)))
     begin = float(t[0])
@@ -143,9 +150,8 @@ def find_snaps(
     for when, before, row in taut_from:
         ends = [j for j in turns if j > row and not loose[j]]
         last = int(ends[0]) if ends else t.size - 1
-        place = row + 1 + int(np.argmax(most[row + 1 : last + 1]))
-        highest = float(most[place])
         top = row + 1 + int(np.argmax(pull[row + 1 : last + 1]))
+        highest = float(pull[top])
         rise = _reaches(t, pull, row, top, 0.9 * pull[top]) - _reaches(t, pull, row, top, 0.1 * pull[top])
-        contacts.append(Contact(when, before, highest, float(t[place]), rise, highest > threshold))
+        contacts.append(Contact(when, before, highest, float(t[top]), rise, highest > threshold))
     return SnapRecord(slack_level, threshold, np.array(slack).reshape(-1, 2), tuple(contacts))
