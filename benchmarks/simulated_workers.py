@@ -29,6 +29,7 @@ from distributed.comm import CommClosedError, connect, listen
 from distributed.protocol import to_serialize
 from distributed.versions import get_versions
 
+from moyai.study import on_dask
 from moyai.study.ledger import Record
 
 SETTINGS = {"distributed.comm.timeouts.connect": "120s", "distributed.comm.timeouts.tcp": "300s"}
@@ -124,9 +125,11 @@ class SimulatedWorker:
     def _finish(self, started: float) -> None:
         """Say that the case is done."""
         task, self.running = self.running, None
-        # As the adapter submits it: the common task, the case, the name of the flag, the pause between two questions
-        index = task["run_spec"].args[1].index
-        self.data[task["key"]] = replace(self.record, index=index)
+        # As the adapter submits it: what all cases have in common, the case
+        study, case = task["run_spec"].args
+        record = replace(self.record, index=case.index)
+        self.data[task["key"]] = record
+        self._say({"op": "log-event", "topic": study.name, "msg": (case.index, on_dask._packed(record))})
         self._say(
             {
                 "op": "task-finished", "key": task["key"], "run_id": task["run_id"], "status": "OK", "nbytes": 10_000,

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import uuid
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import lru_cache
 from itertools import islice
 from typing import Any
 
@@ -20,6 +23,8 @@ _ASK = 1.0
 _ASKS = 100.0
 """Every task asks the scheduler once a second whether the study was stopped; many of them more rarely, so that no more
 than a hundred questions come a second."""
+_POST = 100_000
+"""Bytes of a packed record above which it is fetched from its worker instead of being posted by the scheduler."""
 
 
 def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator[Record]:
@@ -44,46 +49,83 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
     with _client(on) as client:
         from distributed import Event, as_completed
 
-        cancel = Event(f"moyai-cancel-{uuid.uuid4().hex[:12]}", client=client)
-        # To every worker: the scheduler gives cases first to workers that hold what they need
-        shared = client.scatter(task, broadcast=True, hash=False)
-        waiting = iter(cases)
-        jobs: dict[str, Combination] = {}
-
+        name = f"moyai-{uuid.uuid4().hex[:12]}"
+        cancel = Event(f"{name}-cancel", client=client)
         threads = max(1, sum(client.nthreads().values()))
         room, pause = _FLIGHT * threads, max(_ASK, threads / _ASKS)
+        # In every case, not scattered: cases that hang on common data crowd onto the workers that hold them, and
+        # each worker would have to be brought a copy by a connection of its own before the first case
+        study = _Study(_packed(task), name, pause)
+        waiting = iter(cases)
+        jobs: dict[Any, Combination] = {}
+        posted: dict[int, bytes] = {}
+        client.subscribe_topic(name, lambda event: posted.__setitem__(*event[1]))
 
-        def submit(combination: Combination) -> Any:
-            future = client.submit(_run, shared, combination, cancel.name, pause, pure=False, retries=0)
-            jobs[future.key] = combination
-            return future
+        def submit(count: int) -> list[Any]:
+            chosen = list(islice(waiting, count))
+            if not chosen:
+                return []
+            # One graph for all of them, one group: the scheduler keeps those that no worker has room for itself
+            keys = [(name, case.index) for case in chosen]
+            jobs.update(zip(keys, chosen, strict=True))
+            return list(client.map(_run, [study] * len(chosen), chosen, key=keys, pure=False, retries=0))
 
-        futures = as_completed([submit(case) for case in islice(waiting, room)], loop=client.loop)
+        futures = as_completed(submit(room), loop=client.loop)
         try:
             for ready in futures.batches():
                 # No more than one a worker at once, so that little is lost when this process ends meanwhile
                 for start in range(0, len(ready), threads):
                     batch = ready[start : start + threads]
-                    following = [submit(case) for case in islice(waiting, len(batch))]
-                    futures.update(following)
-                    yield from _records(client, [(future, jobs.pop(future.key)) for future in batch])
+                    futures.update(submit(len(batch)))
+                    yield from _records(client, [(future, jobs.pop(future.key)) for future in batch], posted)
         finally:
             # Cancelling a future does not stop a task that runs: the tasks look at this flag
-            if jobs:
-                try:
+            try:
+                if jobs:
                     cancel.set()
                     client.cancel(list(jobs), force=True)
-                except Exception:
-                    # The scheduler itself may be gone; there is nothing left to cancel then
-                    pass
+                client.unsubscribe_topic(name)
+            except Exception:
+                # The scheduler itself may be gone; there is nothing left to cancel then
+                pass
 
 
-def _records(client: Any, ended: list[tuple[Any, Combination]]) -> Iterator[Record]:
-    """Fetch the records of cases that ended in one go, since every question to the scheduler takes its way there."""
-    finished = {future.key: future for future, _ in ended if future.status == "finished"}
-    found = client.gather(finished, errors="skip") if finished else {}
+@dataclass(frozen=True)
+class _Study:
+    """What goes to the workers with every case: the packed task, the name of the run, the pause between questions."""
+
+    packed: bytes
+    name: str
+    pause: float
+
+
+def _packed(item: Any) -> bytes:
+    from distributed.protocol import pickle
+
+    return zlib.compress(pickle.dumps(item), 1)
+
+
+def _unpacked(packed: bytes) -> Any:
+    from distributed.protocol import pickle
+
+    return pickle.loads(zlib.decompress(packed))
+
+
+@lru_cache(maxsize=4)
+def _task(packed: bytes) -> Task:
+    """Return the task, unpacked once a worker."""
+    task = _unpacked(packed)
+    assert isinstance(task, Task)
+    return task
+
+
+def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int, bytes]) -> Iterator[Record]:
+    """Return the records of cases that ended: as posted, and what did not come by post from the workers themselves."""
+    missing = [future for future, case in ended if future.status == "finished" and case.index not in posted]
+    found = client.gather({future.key: future for future in missing}, errors="skip") if missing else {}
     for future, combination in ended:
-        record = found.get(future.key)
+        packed = posted.pop(combination.index, None)
+        record = found.get(future.key) if packed is None else _unpacked(packed)
         if record is not None:
             yield record
         elif future.status != "finished":
@@ -91,14 +133,30 @@ def _records(client: Any, ended: list[tuple[Any, Combination]]) -> Iterator[Reco
         future.release()
 
 
-def _run(task: Task, combination: Combination, flag: str, pause: float = _ASK) -> Record | None:
+def _run(study: _Study, combination: Combination) -> Record | None:
     """Run one case on a worker of the cluster."""
     import os
 
     # One thread a task, whatever the cluster's environment says; read by numpy only where it is not loaded yet
     for name in THREADS:
         os.environ.setdefault(name, "1")
-    return run_case(task, combination, _flag(flag, pause))
+    record = run_case(_task(study.packed), combination, _flag(f"{study.name}-cancel", study.pause))
+    if record is not None:
+        _post(study.name, record)
+    return record
+
+
+def _post(name: str, record: Record) -> None:
+    """Send a record on the stream that the worker has to the scheduler anyway, which hands it on at once.
+
+    To fetch results from a thousand workers costs a connection to each of them; only what is too large for the post,
+    or got lost in it, is fetched.
+    """
+    from distributed import get_worker
+
+    packed = _packed(record)
+    if len(packed) <= _POST:
+        get_worker().log_event(name, (record.index, packed))
 
 
 def _flag(name: str, pause: float) -> Any:
