@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,10 +15,13 @@ from moyai.case.schema_network import NetworkCase
 from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
+    from moyai.flexible.motion import Motion
     from moyai.network.model import NetworkProblem
 
 #: Nodes with which a case still answers in a sitting, and rows of results that a run may reasonably have.
 _MANY_NODES, _MANY_ROWS = 20_000, 2_000_000
+#: Longest run [s], two days: motions are tabulated over the whole run.
+_LONGEST_RUN = 172_800.0
 
 
 def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
@@ -243,7 +247,20 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
     for _, level in problem.environment.water_levels:
         try:
             for plan in run_plans(problem, problem.environment.water_at(level)):
-                motions_of(problem, plan.duration)
+                if plan.duration > _LONGEST_RUN:
+                    findings.fault(
+                        ("settings", "duration"), f"the run '{plan.name}' of {plan.duration:g} s never ends",
+                        allowed=f"at most {_LONGEST_RUN:g} s", remedy="run shorter pieces",
+                    )  # fmt: skip
+                    return
+                if plan.output_step > plan.duration:
+                    findings.fault(
+                        ("settings", "output_step"),
+                        f"rows every {plan.output_step:g} s leave nothing of the run '{plan.name}'",
+                        allowed=f"at most {plan.duration:g} s",
+                    )  # fmt: skip
+                    return
+                _check_depth(problem, level, motions_of(problem, plan.duration), findings)
                 if plan.duration / plan.output_step > _MANY_ROWS:
                     findings.fault(
                         ("settings", "output_step"),
@@ -259,6 +276,25 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
                 path = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
             findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
             return
+
+
+def _check_depth(problem: NetworkProblem, level: float, motions: Mapping[str, Motion], findings: Findings) -> None:
+    """Refuse motions that drive a point under the bed."""
+    from moyai.network.assembly import assemble
+
+    network = assemble(problem, level).network
+    bed = -problem.environment.water_at(level).depth
+    for point in problem.points:
+        if point.kind != "driven" or not point.motion:
+            continue
+        lowest = float(network.nodes.position[network.points[point.name], 2])
+        lowest += float(motions[point.motion].displacement[:, 2].min())
+        if lowest < bed * (1.0 + 1e-9):
+            findings.fault(
+                ("structure", "points", point.name, "motion"),
+                f"the motion '{point.motion}' drives '{point.name}' down to z = {lowest:.4g} m above still water",
+                allowed=f"at least {bed:.4g} m, the bed",
+            )  # fmt: skip
 
 
 def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Findings) -> None:

@@ -145,6 +145,8 @@ def run(
     else:
         history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options)
     progress(plan.name, 1.0, 1.0)
+    if history.status == "not_converged":
+        history = sound_rows(history)
     series, frames = _series(assembly, plan, history), _frames(plan, history)
     if coupled is not None:
         series, frames = _with_bodies(series, frames, coupled)
@@ -176,6 +178,14 @@ def run(
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
         tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks),
     )  # fmt: skip
+
+
+def sound_rows(history: History) -> History:
+    """Return a run that blew up without what came after its last good state: no peak may be told from there."""
+    good = int(np.count_nonzero(history.time <= last_good_state(history).time * (1.0 + 1e-12)))
+    rows = ("time", "position", "tension", "tension_peak", "kinetic_energy", "elastic_energy", "work")
+    cut = {name: getattr(history, name)[: max(good, 1)] for name in rows}
+    return replace(history, **cut)
 
 
 def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:

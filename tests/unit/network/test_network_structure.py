@@ -332,16 +332,16 @@ analyses: [statics]
 
 
 def test_loads_on_points_hold_what_a_snap_pulls_between_two_rows(tmp_path):
-    """Rows 25 times as far apart must not lose the peak at the ends of the line, nor the pull on the anchor."""
+    """Rows ten times as far apart must not lose the peak at the ends of the line, nor the pull on the anchor."""
     found = {}
-    for rows in ("20 ms", "0.5 s"):
+    for rows in ("20 ms", "0.2 s"):
         settings = f"{{duration: 12 s, skip: 8 s, output_step: {rows}}}"
-        result = run(problem_of(line_case(length="45.2 m", analyses="[dynamic]", settings=settings), tmp_path))
+        result = run(problem_of(line_case(analyses="[dynamic]", settings=settings), tmp_path))
         summary = result.tree["SWL/dynamic"].to_dataset(inherit=False).isel(run=0)
         found[rows] = summary
         assert float(summary["load_peak"].sel(point="anchor")) == pytest.approx(float(summary["start_peak"][0]), 1e-9)
         assert float(summary["peak"][0]) >= float(summary["end_peak"][0])
-    fine, coarse = found["20 ms"], found["0.5 s"]
+    fine, coarse = found["20 ms"], found["0.2 s"]
     for key in ("peak", "start_peak", "end_peak", "load_peak", "load_horizontal"):
         np.testing.assert_allclose(coarse[key], fine[key], rtol=2e-2, err_msg=key)
     assert any(notice.code == "rows-too-far-apart" for notice in result.notices)
