@@ -65,7 +65,7 @@ def regular(stiffness: float, tolerance: float) -> dict[str, object]:
 
 
 def irregular(periods: int) -> dict[str, object]:
-    """Time an irregular sea of 200 waves summed into a series; difference from a sum at every part over five periods."""
+    """Time an irregular sea of 200 waves summed into a series; difference from a sum at every part over 5 periods."""
     cage = model_cage()
     lines = taut_lines(cage)
     sea = IrregularSea("sea", jonswap(0.02, 1.2, 3.3), duration=periods * 1.2, seed=1)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from moyai.cage.rigid_kernel import Packed
 from moyai.cage.rigid_lines import CageLine
 from moyai.cage.rigid_parts import RigidCage
+from moyai.cage.rigid_wake import shelter
 from moyai.morison.net_law import Net, NetLaw
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
@@ -285,11 +286,13 @@ def pack(
         Time over which the waves grow [s].
     stretching : {"constant", "wheeler"}
     wake : ndarray or None
-        Share of the current at every patch.
+        Share of the current at every patch; by the law of the cage when absent.
     damping : tuple of float
         Linear damping of sway, heave and rotation, only for the search of rest.
     """
     tables = law_tables(cage.law, cage.net, kinematic_viscosity)
+    if wake is None and current is not None:
+        wake = shelter(cage, current, water, kinematic_viscosity)
     arm = max(math.hypot(*cage.extent), 2.0 * float(np.abs(cage.floats.points).max())) / 2.0
     series = series_rows(waves, arm + 0.5 * cage.floats.diameter + math.hypot(*cage.centre), stretching)
     body = np.array([cage.mass, cage.inertia, cage.mass * water.gravity, 0.0, 1.0, -1.0, *damping])

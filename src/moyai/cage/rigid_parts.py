@@ -247,6 +247,8 @@ class RigidCage:
         Length along x, width and height, for drawings and attachment points [m].
     outline : str
         ``box`` or ``cylinder``.
+    wake : {"none", "loland", "cheng"}
+        Law by which the upstream wall shelters the net behind it from the current.
 
     Raises
     ------
@@ -267,6 +269,7 @@ class RigidCage:
     extent: tuple[float, float, float]
     weights: tuple[PointWeight, ...] = ()
     outline: str = "box"
+    wake: str = "none"
 
     def __post_init__(self) -> None:
         _not_negative(self, "net_mass", "net_volume", "net_added_mass", "rod_drag", "rod_added_mass")

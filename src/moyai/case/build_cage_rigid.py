@@ -175,6 +175,7 @@ def cage_of(unit: schema.RigidCageStructure, patches: int) -> RigidCage:
             for n, entry in enumerate(unit.sinkers)
         ),
         outline=shape.kind,
+        wake=net.wake,
     )
 
 

@@ -60,8 +60,8 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
         findings.raised(error, ("structure",))
         return
     _check_parts(model, problem, findings)
-    _check_rest(problem, findings)
-    _check_waves(problem, findings)
+    if _check_rest(problem, findings):
+        _check_waves(problem, findings)
 
 
 def _check_analyses(model: schema.CageCase, findings: Findings) -> None:
@@ -72,13 +72,22 @@ def _check_analyses(model: schema.CageCase, findings: Findings) -> None:
             f"'{needs[0]}' needs waves",
             remedy="give 'waves', or leave it out",
         )
-    if "sensitivity" in model.analyses and model.structure.mooring is None:
+    if "sensitivity" in model.analyses and len(model.settings.rigid.stiffnesses) == 1:
+        findings.fault(
+            ("settings", "rigid", "stiffnesses"),
+            "one stiffness shows no sensitivity",
+            allowed="at least 2 stiffnesses",
+            remedy="give another, or leave 'stiffnesses' out",
+        )
+    # a faulty mooring is left out for these checks, but the file has one
+    moored = "mooring" in findings.document.data["structure"]
+    if "sensitivity" in model.analyses and not moored:
         findings.fault(
             ("analyses", model.analyses.index("sensitivity")),
             "'sensitivity' varies the stiffness of lines, and the cage has none",
             remedy="give 'structure.mooring', or leave it out",
         )
-    if model.structure.mooring is None and model.structure.equations == "literal":
+    if not moored and model.structure.equations == "literal":
         findings.warn(
             ("structure", "equations"),
             "the literal equations hold no restoring force: without lines the cage leaves its place",
@@ -117,8 +126,8 @@ def _check_parts(model: schema.CageCase, problem: RigidCageProblem, findings: Fi
         )
 
 
-def _check_rest(problem: RigidCageProblem, findings: Findings) -> None:
-    """Try to lay the cage at rest at every water level."""
+def _check_rest(problem: RigidCageProblem, findings: Findings) -> bool:
+    """Try to lay the cage at rest at every water level; ``False`` where the current does not suit the model."""
     from moyai.cage.rigid_checks import level_notices
     from moyai.cage.rigid_setup import at_level, lines_of
     from moyai.cage.rigid_statics import free_floating, rest_with_lines
@@ -129,7 +138,7 @@ def _check_rest(problem: RigidCageProblem, findings: Findings) -> None:
         current_along(problem, problem.environment.water)
     except InputError as error:
         findings.raised(error, ("current",))
-        return
+        return False
     try:
         lines = lines_of(problem)
         for name, level in problem.environment.water_levels:
@@ -148,14 +157,20 @@ def _check_rest(problem: RigidCageProblem, findings: Findings) -> None:
         findings.raised(error, ("structure", "mooring"))
     except ConvergenceError as error:
         findings.fault(("structure", "mooring"), error.fault.message, remedy=error.fault.remedy)
+    return True
 
 
 def _check_waves(problem: RigidCageProblem, findings: Findings) -> None:
     """Try to make every wave, and hold the speeds it brings against the range of the net law."""
-    from moyai.cage.rigid_waves import waves_of
+    from moyai.cage.rigid_waves import current_along, waves_of
     from moyai.sea.states import IrregularSea
 
     said: set[str] = set()
+    if not problem.seas and problem.plans and problem.environment.current is not None:
+        speed = abs(current_along(problem, problem.environment.water))
+        for notice in problem.cage.law.check(problem.cage.net, (speed, speed), problem.kinematic_viscosity):
+            if notice.code == "net-reynolds-range":
+                findings.warn(("current",), notice.message, remedy=notice.remedy)
     for index, sea in enumerate(problem.seas):
         short = replace(sea, duration=10.0 * float(sea.spectrum.peak_period)) if isinstance(sea, IrregularSea) else sea
         for _, level in problem.environment.water_levels:
@@ -167,7 +182,9 @@ def _check_waves(problem: RigidCageProblem, findings: Findings) -> None:
                 path = ("current",) if "current" in fault.path else wave_path(findings, index)
                 findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
                 break
-            speed = max(math.pi * wave.height / wave.period for wave in waves)
+            # a moored cage meets the current too
+            flow = abs(current_along(problem, water)) if problem.plans else 0.0
+            speed = flow + max(math.pi * wave.height / wave.period for wave in waves)
             slow = min(math.pi * wave.height / wave.period for wave in waves)
             for notice in problem.cage.law.check(problem.cage.net, (0.3 * slow, speed), problem.kinematic_viscosity):
                 if notice.code == "net-reynolds-range" and notice.message not in said:

@@ -37,6 +37,9 @@ def _body(problem: RigidCageProblem, name: str, level: float) -> Iterator[Number
     mass, volume, force = ("g", "cm3", "gf") if small else ("kg", "m3", "N")
     yield Number("Cage", name, "mass in air without floats", cage.mass_without_floats, mass)
     yield Number("Cage", name, "solid volume of net, frame, weights", cage.solid_volume, volume)
+    frame = sum(rod.volume for rod in cage.rods)
+    if frame > 0.0:
+        yield Number("Cage", name, "density of the frame", sum(rod.mass for rod in cage.rods) / frame, "kg/m3")
     yield Number("Cage", name, "volume of the floats", cage.float_volume, volume)
     yield Number("Cage", name, "weight in water without floats", submerged_weight(cage, water), force)
     yield Number("Cage", name, "reserve of buoyancy", reserve_buoyancy(cage, water), force)

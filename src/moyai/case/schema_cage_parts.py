@@ -96,6 +96,11 @@ class RigidNet(Block):
     )
     added_mass: NonNegativeNumber = Field(default=1.0, description="C_a of twine. Default: 1.")
     drag: NetDrag = Field(description="Drag law.")
+    wake: Literal["none", "loland", "cheng"] = Field(
+        default="none",
+        description="Shelter behind the upstream wall from the current (not from waves). loland: r = 1 - 0.46 C_D. "
+        "Default: none.",
+    )
 
 
 class RigidFrame(Block):

@@ -485,3 +485,41 @@ def test_rest_obeys_archimedes(seed):
     # symmetric stiffness at rest: forces of still water and lines have a potential
     matrix = stiffness_at(pack(cage, lines, water, NU), rest.place, size_of(cage))
     assert np.abs(matrix - matrix.T).max() < 1e-5 * np.abs(matrix).max()
+
+
+def test_net_behind_the_upstream_wall_misses_part_of_the_current():
+    """Drag of a still box in a current: upstream wall, sheltered wall and walls along the flow, each by hand."""
+    rng = np.random.default_rng(23)
+    length, width, height = rng.uniform(0.5, 2.0, 3)
+    law = net_law("matsubara")
+    base = replace(
+        random_cage(rng),
+        patches=box_patches(length, width, height, ("sides",), 4),
+        law=law,
+        rods=(),
+        weights=(),
+        extent=(length, width, height),
+        outline="box",
+    )
+    water = Water(20.0, 1000.0, 9.81)
+
+    def drag(angle, speed):
+        return 500.0 * speed**2 * float(law.coefficients(angle, speed, base.net, NU)[0])
+
+    wall, half_side, across, along = width * height, length * height, 0.0, 0.5 * math.pi
+    for sense in (1.0, -1.0):
+        speed = rng.uniform(0.3, 0.8)
+        behind = speed * (1.0 - 0.46 * float(law.coefficients(0.0, speed, base.net, NU)[0]))
+        found = []
+        for wake in ("none", "loland"):
+            packed = pack(
+                replace(base, wake=wake), (), water, NU, current=uniform(speed, 0.0 if sense > 0 else math.pi)
+            )
+            packed = packed._replace(spheres=packed.spheres[:0].copy())
+            force, mass, work = np.empty(3), np.empty((3, 3)), np.empty(6)
+            kernel.loads(packed, 0.0, np.array([0.0, -10.0, 0, 0, 0, 0]), np.zeros(0), force, mass, work)
+            found.append(sense * force[0])
+        assert found[0] == pytest.approx(2.0 * (wall * drag(across, speed) + half_side * drag(along, speed)), rel=2e-3)
+        sheltered = wall * drag(across, behind) + half_side * drag(along, behind)
+        assert found[1] == pytest.approx(0.5 * found[0] + sheltered, rel=2e-3)
+        assert found[1] < 0.95 * found[0]

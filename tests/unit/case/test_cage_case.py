@@ -85,8 +85,23 @@ SLIPS = {
         ("# settings:\n#   rigid: {periods: 40, settled_periods: 20,", "settings:\n  rigid: {periods: 10, settled_periods: 20,"),
         "exceed the 10 periods",
     ),
+    "one stiffness": (("# settings:\n#   rigid: {", "settings:\n  rigid: {stiffnesses: [1 kN/m]} # {"), "at least 2"),
     "oblique current": (("# current: {speed: 0.05 m/s, heading_deg: 0}", "current: {speed: 0.05 m/s, heading_deg: 90}"), "along x"),
 }  # fmt: skip
+
+
+def test_a_misspelt_mooring_is_not_also_called_missing():
+    found = faults(("kind: crossed_top", "kind: crossed_bottom"))
+    assert len(found) == 1 and "crossed_bottom" in found[0]
+
+
+def test_reynolds_number_counts_the_current():
+    """Twine of 5 mm: Re = 413 by the waves alone, 1900 with a current of 0.34 m/s; 1800 is the largest that was towed."""
+    net = (("twine_diameter: 0.45 mm", "twine_diameter: 5 mm"), (MESH, "mesh_pitch: 44 mm"), (PULL, "length: 3 m"))
+    assert not any("above 1800" in str(fault) for fault in case(*net).warnings)
+    flow = ("# current: {speed: 0.05 m/s, heading_deg: 0}", "current: {speed: 0.34 m/s, heading_deg: 0}")
+    found = case(*net, flow)
+    assert any("above 1800" in str(fault) for fault in found.warnings), found.warnings
 
 
 @pytest.mark.parametrize("slip", SLIPS)
