@@ -130,6 +130,12 @@ def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int
             yield record
         elif future.status != "finished":
             yield Record(combination.index, "failed", f"the cluster gave it up: {future.exception()}", 0.0, {})
+    # All of them in the client's own thread: from here each would wake it up once
+    client.loop.add_callback(_release, [future for future, _ in ended])
+
+
+def _release(futures: list[Any]) -> None:
+    for future in futures:
         future.release()
 
 

@@ -143,7 +143,8 @@ def _groups(study: Study, known: dict[int, Record]) -> dict[str, xr.Dataset]:
             first.setdefault(name, item)
             for dim, given in item["labels"].items():
                 mine = labels.setdefault((_group(name), dim), [])
-                mine.extend(label for label in given if label not in mine)
+                if given != mine:
+                    mine.extend(label for label in given if label not in mine)
     gathered: dict[str, dict[str, Any]] = {}
     coordinates: dict[str, dict[str, Any]] = {}
     for name, item in first.items():
@@ -189,7 +190,8 @@ def _length(known: dict[int, Record], name: str, place: int) -> int:
 def _place(target: np.ndarray, index: int, item: dict[str, Any], labels: list[list[Any] | None]) -> None:
     """Put a case's values where their labels stand."""
     values = np.asarray(item["values"], dtype=float)
-    if values.ndim == 0:
+    same = all(known is None or item["labels"].get(dim) == known for dim, known in zip(item["dims"], labels))
+    if values.ndim == 0 or (same and values.shape == target.shape[1:]):
         target[index] = values
         return
     rows = []
