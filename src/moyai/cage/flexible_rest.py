@@ -163,15 +163,18 @@ def collar_forces(model: FlexibleCage, rest: CageRest, position: Array, tension:
     return out
 
 
-def ring_shape(cage: CageParts, position: Array) -> tuple[Array, float, float]:
+def ring_shape(cage: CageParts, position: Array, built: Array) -> tuple[Array, float, float]:
     """Return the mean place of the collar (3), its ovality and its largest height out of its plane [m].
 
-    Ovality is the largest less the smallest diameter across opposite knots over their mean [-].
+    Ovality is the largest less the smallest diameter across opposite knots over their mean [-], each diameter over
+    that as built (places of all nodes ``built``): a square has none before it is pulled out of shape.
     """
     ring = position[cage.collar[0]]
     middle = ring.mean(axis=0)
     half = len(ring) // 2
+    drawn = built[cage.collar[0]]
     across = np.linalg.norm(ring[:half] - ring[half : 2 * half], axis=1)
+    across = across / np.linalg.norm(drawn[:half] - drawn[half : 2 * half], axis=1)
     _, _, axes = np.linalg.svd(ring - middle)
     warp = np.abs((ring - middle) @ axes[2])
     return middle, float((across.max() - across.min()) / across.mean()), float(warp.max())

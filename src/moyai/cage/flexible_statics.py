@@ -17,6 +17,17 @@ from moyai.cage.flexible_variables import described
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Worst of all currents: name, and what it is the worst of
+_WORST = {
+    "worst_volume_share": "volume_share",
+    "worst_net_deflection": "net_deflection",
+    "worst_tension": "tension_largest",
+    "worst_utilisation": "utilisation",
+    "worst_anchor_pull": "anchor_pull",
+    "worst_anchor_uplift": "anchor_uplift",
+    "worst_collar_stress": "collar_stress_largest",
+}
+
 
 def cage_dataset(model: FlexibleCage, built: CageNetwork) -> xr.Dataset:
     """Return what a cage is: mesh, parts, masses."""
@@ -129,7 +140,7 @@ def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, re
         position = rest.state.position
         split, pull = horizontal_balance(rest)
         total = float(split.sum(axis=0) @ along)
-        shapes = [ring_shape(cage, position) for cage in built.cages]
+        shapes = [ring_shape(cage, position, built.network.nodes.position) for cage in built.cages]
         far, lift = deflection(built, position, calm)
         missing = float(np.linalg.norm(pull[:2] - split[:, :2].sum(axis=0)))
         add(
@@ -162,13 +173,28 @@ def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, re
             for key in ("stress", "axial", "in_plane", "out_of_plane", "torsion")
         },
     }  # fmt: skip
+    anchors = [part.name for part in built.lines if part.kind == "anchor"]
+    # a study keeps what stands over labels alone: the worst of all currents
+    worst = {
+        name: (
+            ends[key],
+            np.array(columns[key]).min(axis=0) if key == "volume_share" else np.array(columns[key]).max(axis=0),
+        )
+        for name, key in _WORST.items()
+        if key in columns and key in ends
+    }
     return described(
         xr.Dataset(
-            {key: (("current", *ends.get(key, ())), np.array(values)) for key, values in columns.items()},
+            {
+                **{key: (("current", *ends.get(key, ())), np.array(values)) for key, values in columns.items()},
+                **worst,
+                "worst_drag": ((), float(np.array(columns["total_drag"]).max())),
+            },
             coords={
                 "current_speed": ("current", np.array(speeds)), "part": list(PARTS), "axis": ["x", "y", "z"],
                 "horizontal": ["x", "y"], "cage": [cage.name for cage in built.cages],
                 "line": [part.name for part in built.lines],
+                **({"anchor": anchors} if built.anchors.size else {}),
             },
             attrs={"heading": heading},
         )

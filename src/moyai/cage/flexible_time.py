@@ -109,7 +109,12 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
     steady = time >= run.ramp - 1e-9
     if steady.sum() < 4:
         steady = np.ones_like(steady)
-    shapes = np.array([[ring_shape(cage, place)[0] for cage in built.cages] for place in history.position])
+    shapes = np.array(
+        [
+            [ring_shape(cage, place, built.network.nodes.position)[0] for cage in built.cages]
+            for place in history.position
+        ]
+    )
     volume = np.stack([cage.volume(history.position) / cage.rest_volume for cage in built.cages], axis=1)
     rows = np.unique(np.linspace(int(np.argmax(steady)), len(time) - 1, _DRAG_ROWS).astype(np.int64))
     drag = _drag_rows(run, rows)

@@ -124,7 +124,9 @@ def sea_dataset(problem: RigidCageProblem, water: Water, runs: list[Run], lines:
     def pulls(name: str) -> tuple[tuple[str, str, str], np.ndarray]:
         return ("wave", "line", "end"), np.array([getattr(run.numbers, name) for run in runs])
 
-    ranges = np.array([run.numbers.range for run in runs])
+    # of a random sea the significant range, four deviations: a mean over peak periods would be a third less
+    regular = waves[0].regular
+    ranges = np.array([run.numbers.range if regular else 4.0 * run.numbers.deviation for run in runs])
     data = {
         "wavelength": ("wave", np.array([wave.wavelength for wave in waves])),
         "orbit_ratio": ("wave", ratio),

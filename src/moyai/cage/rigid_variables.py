@@ -50,7 +50,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "orbit_ratio": ("1", "horizontal over vertical axis of the water's orbit at the surface, coth kh"),
     "range": ("m", "mean range of the motion from crest to trough (roll in rad)"),
     "largest_range": ("m", "largest range within a wave period (roll in rad)"),
-    "range_ratio": ("1", "mean range over the wave height (sway, heave)"),
+    "range_ratio": (
+        "1",
+        "mean range over the wave height, in random seas four deviations over the significant height (sway, heave)",
+    ),
     "mean": ("m", "mean of the motion from rest (roll in rad)"),
     "maximum": ("m", "largest value from rest (roll in rad)"),
     "minimum": ("m", "smallest value from rest (roll in rad)"),

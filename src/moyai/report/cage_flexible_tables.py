@@ -63,7 +63,8 @@ def current_table(level: Level) -> Table | None:
         columns.append(Column("collar, stress", list(stress.max(axis=1)), "Pa"))
     return Table(
         key(level, "currents"), "At rest in each current", in_one_unit(columns),
-        note="Offsets and deflections from still water. Ovality: largest less smallest diameter over their mean.",
+        note="Offsets and deflections from still water. Ovality: largest less smallest diameter over their "
+        "mean, each over that as built.",
     )  # fmt: skip
 
 

@@ -138,7 +138,9 @@ def _governing_motions(levels: tuple[Level, ...]) -> list[KeyFigure]:
             ratio, turned = sea.array("range_ratio", "wave", "translation"), sea.array("range", "wave", "mode")
             if ratio is None or turned is None:
                 continue
-            for n, label in enumerate(("sway range / H", "heave range / H")):
+            regular = str(sea.attributes.get("kind", "regular")) == "regular"
+            for n, name in enumerate(("sway", "heave")):
+                label = f"{name} range / H" if regular else f"{name} 4σ / Hs"
                 at = int(np.argmax(ratio[:, n]))
                 value = float(ratio[at, n])
                 if value > best.get(label, (-1.0, ""))[0]:

@@ -153,7 +153,7 @@ def motion_table(level: Level, sea: Group) -> Table | None:
     columns = _waves(sea)
     regular = str(sea.attributes.get("kind", "regular")) == "regular"
     for n, name in enumerate(("sway", "heave")):
-        columns.append(Column(f"{name} range / H", list(ratio[:, n])))
+        columns.append(Column(f"{name} range / H" if regular else f"{name} 4σ / Hs", list(ratio[:, n])))
     turned = sea.array("range", "wave", "mode")
     top, low = sea.array("maximum", "wave", mode="roll"), sea.array("minimum", "wave", mode="roll")
     mean = sea.array("mean", "wave", "mode")
@@ -187,7 +187,9 @@ def motion_table(level: Level, sea: Group) -> Table | None:
         f"Motions: {sea.name}",
         tuple(columns),
         note="Centre of gravity; ranges are means over wave periods, drift within a period taken out. Water orbit: "
-        "at still water, coth kh.",
+        "at still water, coth kh."
+        if regular
+        else "Centre of gravity; rotation ±: half the mean range over peak periods. σ: standard deviation.",
     )
 
 

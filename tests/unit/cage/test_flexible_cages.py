@@ -263,7 +263,10 @@ def test_a_floating_cage_weighs_what_floats_it() -> None:
 def test_collar_elastic_and_rigid() -> None:
     _, soft = at_sea(0.6)
     _, hard = at_sea(0.6, rigid=True)
-    oval = [ring_shape(rest.built.cages[0], rest.state.position)[1] for rest in (soft, hard)]
+    oval = [
+        ring_shape(rest.built.cages[0], rest.state.position, rest.built.network.nodes.position)[1]
+        for rest in (soft, hard)
+    ]
     assert oval[0] > 1e-3 and oval[1] < 0.05 * oval[0]
     assert drag(hard)[0] == pytest.approx(drag(soft)[0], rel=0.05)
 
@@ -331,6 +334,11 @@ def test_a_shape_of_four_sides_is_symmetric() -> None:
     rest = solve_rest(model, build_cage(model), uniform(0.4, 0.0))
     force = drag(rest)
     assert abs(force[1]) < 2e-3 * force[0]
+    # the diagonal of a square is no ovality
+    place = rest.built.network.nodes.position
+    collar = rest.built.cages[0]
+    assert ring_shape(collar, place, place)[1] < 1e-12
+    assert 0.0 < ring_shape(collar, rest.state.position, place)[1] < 0.1
 
 
 @pytest.mark.parametrize(

@@ -169,6 +169,11 @@ def test_other_shapes_lines_seas_and_levels_run(shape, tmp_path):
     level = result.tree["LWL"]
     sea = level["waves/sea"].to_dataset()
     assert float(sea["deviation"].sel(mode="heave")[0]) == pytest.approx(0.005, rel=0.5)
+    # in a random sea ranges are four deviations over the significant height
+    assert float(sea["range_ratio"].sel(translation="heave")[0]) == pytest.approx(
+        4.0 * float(sea["deviation"].sel(mode="heave")[0]) / 0.02, rel=1e-12
+    )
+    assert float(sea["range_ratio"].sel(translation="heave")[0]) > 0.5
     run_of = level["time/regular/wave 1"].to_dataset()
     pull = run_of["tension"].sel(line="west")
     taut = pull.sel(end="cage") > 0.05

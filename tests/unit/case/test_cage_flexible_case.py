@@ -162,6 +162,17 @@ def test_a_case_runs_to_its_report(tmp_path):
     share = statics["volume_share"].values[:, 0]
     assert share[0] == pytest.approx(1.0, abs=0.1) and share[0] > share[1] > share[2] > 0.5
     assert float(statics["total_drag"][2]) > 3.0 * float(statics["total_drag"][1])
+    # the worst of all currents stands over labels alone: a study keeps it
+    for name, key in (
+        ("tension", "tension_largest"),
+        ("anchor_pull", "anchor_pull"),
+        ("collar_stress", "collar_stress_largest"),
+    ):
+        worst = statics[f"worst_{name}"]
+        assert "current" not in worst.dims and worst.dims[0] in statics.coords
+        assert np.array_equal(worst.values, statics[key].values.max(axis=0))
+    assert float(statics["worst_volume_share"][0]) == share.min()
+    assert float(statics["worst_drag"]) == float(statics["total_drag"].max())
     sea = result.tree["SWL/time/regular/wave 1"].ds
     assert np.isfinite(sea["line_tension"].values).all() and float(sea["tension_maximum"].max()) > 1e3
     for group in (statics, sea, result.tree["SWL/cage"].ds):
