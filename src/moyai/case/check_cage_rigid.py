@@ -81,13 +81,15 @@ def _check_analyses(model: schema.CageCase, findings: Findings) -> None:
         )
     # a faulty mooring is left out for these checks, but the file has one
     moored = "mooring" in findings.document.data["structure"]
+    unit = model.structure
+    assert isinstance(unit, schema.RigidCageStructure)
     if "sensitivity" in model.analyses and not moored:
         findings.fault(
             ("analyses", model.analyses.index("sensitivity")),
             "'sensitivity' varies the stiffness of lines, and the cage has none",
             remedy="give 'structure.mooring', or leave it out",
         )
-    if not moored and model.structure.equations == "literal":
+    if not moored and unit.equations == "literal":
         findings.warn(
             ("structure", "equations"),
             "the literal equations hold no restoring force: without lines the cage leaves its place",
