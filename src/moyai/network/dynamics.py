@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 
 #: Values that a run may hold in memory, and those of the frames that it keeps.
 MOST_VALUES, MOST_FRAME_VALUES = 80_000_000, 6_000_000
+#: Highest tension over that at the ends of its line, from which a run says that it stands inside.
+INSIDE = 1.2
 #: Loads on points in the summary, in the order of the measures of :func:`moyai.network.rest.highest_pulls`.
 LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
 
@@ -156,6 +158,7 @@ def run(
     snaps = _snaps(problem, series)
     governing, worst = _governing(assembly, history, problem.settings.skip)
     sensitivity, notices = None, [*history.notices, *_run_notices(problem, history, plan, snaps)]
+    notices += _inside(assembly, series, governing, worst)
     if problem.settings.sensitivity and history.status == "converged" and worst >= 0 and earlier is None:
         try:
             if coupled is not None:
@@ -397,6 +400,31 @@ def _run_notices(
                    problem.settings.skip, plan.duration, "warning", "lower settings.skip")
         )  # fmt: skip
     return notices
+
+
+def _inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> list[Notice]:
+    """Say when the highest tension stands inside a line whose ends bear much less."""
+    if name not in assembly.lines:
+        return []
+    time = series["time"].values
+    own = series.sel(line=name).isel(time=time >= time[0] + series.attrs["skip"])
+    peak = float(np.nanmax(own["line_tension"]))
+    ends = [float(np.nanmax(own[key])) for key in ("start_highest", "end_highest")]
+    if not peak > INSIDE * max(ends):
+        return []
+    strand = assembly.lines[name]
+    lengths = assembly.network.bars.length[strand.bars]
+    row = int(np.flatnonzero(strand.bars == bar)[0])
+    place = float(np.sum(lengths[:row]) + 0.5 * lengths[row])
+    return [
+        Notice(
+            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
+            f"is pulled straight or falls on the bed: {peak:.4g} N there, {ends[0]:.4g} N at its start and "
+            f"{ends[1]:.4g} N at its end", peak, INSIDE * max(ends), "warning",
+            "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
+            "see settings.sensitivity",
+        )
+    ]  # fmt: skip
 
 
 def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run], rest: Array | None) -> xr.Dataset:

@@ -82,6 +82,10 @@ def _subtitle(levels: tuple[NetworkLevel, ...]) -> str:
     return " · ".join(part for part in parts if part)
 
 
+#: Highest tension over that at the ends of the line, from which the report tells both.
+INSIDE = 1.2
+
+
 def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Governing | None) -> tuple[Block, ...]:
     if governing is None:
         return _rest_summary(levels)
@@ -95,6 +99,13 @@ def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Govern
         KeyFigure("highest tension", format_quantity(governing.peak, "N", 4), where),
         _worth(error, effect),
     ]
+    ends = [dynamic.value(key, run=run.name, line=governing.line) for key in ("start_peak", "end_peak")]
+    if governing.peak > INSIDE * max(ends):
+        at = "start" if ends[0] >= ends[1] else "end"
+        items.append(
+            KeyFigure("highest at its ends", format_quantity(max(ends), "N", 4),
+                      f"at its {at}; the highest tension stands inside the line", judgement="caution")
+        )  # fmt: skip
     use = dynamic.value("utilisation", run=run.name, line=governing.line)
     if math.isfinite(use):
         judgement = "bad" if use > 1.0 else "caution" if use > 0.6 else "good"
@@ -128,7 +139,9 @@ def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Govern
 def _worth(error: float, effect: float) -> KeyFigure:
     if not math.isfinite(error):
         return KeyFigure("worth of the peak", "not asked for", "settings.sensitivity: true")
-    judgement = "good" if error <= 0.02 else "caution" if error <= 0.1 else "bad"
+    # a peak that hangs on a viscosity nobody knows is worth no more than one that hangs on the mesh
+    doubt = max(error, 0.2 * effect) if math.isfinite(effect) else error
+    judgement = "good" if doubt <= 0.02 else "caution" if doubt <= 0.1 else "bad"
     return KeyFigure(
         "worth of the peak", f"± {format_percent(error)}",
         f"half the step and half the bars; viscosity halved or doubled moves it by {format_percent(effect)}",

@@ -345,3 +345,37 @@ def test_loads_on_points_hold_what_a_snap_pulls_between_two_rows(tmp_path):
     for key in ("peak", "start_peak", "end_peak", "load_peak", "load_horizontal"):
         np.testing.assert_allclose(coarse[key], fine[key], rtol=2e-2, err_msg=key)
     assert any(notice.code == "rows-too-far-apart" for notice in result.notices)
+
+
+def test_a_peak_inside_a_line_is_told_apart_from_its_ends(tmp_path):
+    """Chain that a small buoy lifts and drops on the bed: what its nodes bear there is no load of anchor or buoy."""
+    text = """moyai: 1
+title: Chain on a bed
+site: {water_depth: 12 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+waves: {kind: regular, name: waves, height: 2 m, period: 6 s, heading_deg: 0}
+structure:
+  kind: network
+  bed: {stiffness: 3e5 Pa/m, damping: 3e4 Pa s/m, friction: 0.5}
+  line_types:
+    chain: {catalogue: studless_chain_R3, diameter: 20 mm, damping_ratio: 0.3}
+    rope: {diameter: 24 mm, mass: 0.45 kg/m, axial_stiffness: 200 kN, viscosity: 1 kN s, drag_normal: 1.2,
+           drag_tangential: 0.06, added_mass_normal: 1}
+  points:
+    anchor: {kind: fixed, position: [0, 0, bed]}
+    buoy: {kind: sphere, position: [6 m, 0, 0], diameter: 0.9 m, mass: 120 kg, drag_coefficient: 0.5,
+           added_mass_coefficient: 0.5}
+  lines:
+    line:
+      start: anchor
+      end: buoy
+      parts: [{type: chain, length: 4 m, segments: 8}, {type: rope, length: 12 m, segments: 12}]
+analyses: [dynamic]
+settings: {duration: 20 s, skip: 8 s}
+"""
+    result = run(problem_of(text, tmp_path))
+    summary = result.tree["SWL/dynamic"].to_dataset(inherit=False).isel(run=0, line=0)
+    ends = max(float(summary["start_peak"]), float(summary["end_peak"]))
+    assert float(summary["peak"]) > 1.2 * ends
+    notice = next(notice for notice in result.notices if notice.code == "peak-inside")
+    assert notice.value == pytest.approx(float(summary["peak"]))
+    assert float(notice.message.split(" m from")[0].split()[-1]) < 4.0  # within the chain
