@@ -85,6 +85,14 @@ def used(process: psutil.Process) -> float:
     return float(times.user + times.system)
 
 
+def share_of_a_core() -> float:
+    """Return which part of a core a busy thread gets here now: 1 on an idle machine."""
+    wall, cpu = time.perf_counter(), time.process_time()
+    while time.perf_counter() - wall < 2.0:
+        pass
+    return (time.process_time() - cpu) / (time.perf_counter() - wall)
+
+
 def measure(count: int, lengths: list[float], rounds: int, record: Path, folder: Path) -> None:
     """Print what so many workers cost the centre, idle and at work."""
     from distributed import Client
@@ -121,12 +129,13 @@ def at_work(
 ) -> None:
     """Run a study and print what a case cost."""
     study = study_of(folder, 40, math.ceil(wanted / 40))
+    share = share_of_a_core()
     cases, before = len(study.cases), used(centre)
     wall, ours = timed(study, trivial, 1, on=client)
     theirs = used(centre) - before
     line = {
         "what": "cases through the scheduler", "workers": count, "seconds_a_case": seconds, "cases": cases,
-        "wall_s": wall, "cases_a_second": cases / wall,
+        "wall_s": wall, "cases_a_second": cases / wall, "share_of_a_core_for_a_busy_thread": share,
         # The heartbeats go on beside; they are told on their own
         "scheduler_ms_a_case": 1e3 * max(theirs - idle * wall, 0.0) / cases, "client_ms_a_case": 1e3 * ours / cases,
         "memory_of_the_scheduler_gb": centre.memory_info().rss / 1e9,

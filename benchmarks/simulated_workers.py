@@ -129,7 +129,7 @@ class SimulatedWorker:
         study, case = task["run_spec"].args
         record = replace(self.record, index=case.index)
         self.data[task["key"]] = record
-        self._say({"op": "log-event", "topic": study.name, "msg": (case.index, on_dask._packed(record))})
+        self._say({"op": "log-event", "topic": study.name, "msg": (case.index, on_dask._letter(record))})
         self._say(
             {
                 "op": "task-finished", "key": task["key"], "run_id": task["run_id"], "status": "OK", "nbytes": 10_000,

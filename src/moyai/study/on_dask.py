@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import uuid
 import zlib
 from collections.abc import Iterator
@@ -24,7 +25,7 @@ _ASKS = 100.0
 """Every task asks the scheduler once a second whether the study was stopped; many of them more rarely, so that no more
 than a hundred questions come a second."""
 _POST = 100_000
-"""Bytes of a packed record above which it is fetched from its worker instead of being posted by the scheduler."""
+"""Bytes of a record above which it is fetched from its worker instead of being posted by the scheduler."""
 
 
 def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator[Record]:
@@ -99,22 +100,17 @@ class _Study:
     pause: float
 
 
-def _packed(item: Any) -> bytes:
-    from distributed.protocol import pickle
+def _packed(task: Task) -> bytes:
+    # As dask does it: by value, too, what workers cannot import
+    from distributed.protocol.pickle import dumps
 
-    return zlib.compress(pickle.dumps(item), 1)
-
-
-def _unpacked(packed: bytes) -> Any:
-    from distributed.protocol import pickle
-
-    return pickle.loads(zlib.decompress(packed))
+    return zlib.compress(dumps(task), 1)
 
 
 @lru_cache(maxsize=4)
 def _task(packed: bytes) -> Task:
     """Return the task, unpacked once a worker."""
-    task = _unpacked(packed)
+    task = pickle.loads(zlib.decompress(packed))
     assert isinstance(task, Task)
     return task
 
@@ -124,8 +120,8 @@ def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int
     missing = [future for future, case in ended if future.status == "finished" and case.index not in posted]
     found = client.gather({future.key: future for future in missing}, errors="skip") if missing else {}
     for future, combination in ended:
-        packed = posted.pop(combination.index, None)
-        record = found.get(future.key) if packed is None else _unpacked(packed)
+        letter = posted.pop(combination.index, None)
+        record = found.get(future.key) if letter is None else pickle.loads(letter)
         if record is not None:
             yield record
         elif future.status != "finished":
@@ -160,9 +156,14 @@ def _post(name: str, record: Record) -> None:
     """
     from distributed import get_worker
 
-    packed = _packed(record)
-    if len(packed) <= _POST:
-        get_worker().log_event(name, (record.index, packed))
+    letter = _letter(record)
+    if len(letter) <= _POST:
+        get_worker().log_event(name, (record.index, letter))
+
+
+def _letter(record: Record) -> bytes:
+    """Return a record as it is posted: not compressed, since a thousand workers pack, but one process unpacks."""
+    return pickle.dumps(record)
 
 
 def _flag(name: str, pause: float) -> Any:
