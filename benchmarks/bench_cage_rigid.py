@@ -111,5 +111,11 @@ def patches() -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    for line in (regular(2000.0, 1e-6), regular(2000.0, 1e-5), regular(30000.0, 1e-5), irregular(60), patches()):
-        print(json.dumps(line), flush=True)
+    for case in (
+        lambda: regular(2000.0, 1e-6),
+        lambda: regular(2000.0, 1e-5),
+        lambda: regular(30000.0, 1e-5),
+        lambda: irregular(60),
+        patches,
+    ):
+        print(json.dumps(case()), flush=True)

@@ -19,7 +19,7 @@ from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block, QuantityOf
 from moyai.case.yaml_reader import KeyPath, dotted, parse_yaml
 from moyai.core.errors import CaseError, InputError
-from moyai.core.quantities import Kind, parse_quantity
+from moyai.core.quantities import VISCOSITY, Kind, parse_quantity
 from moyai.design.similarity import Scale, ScaledQuantity
 from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_materials import Figures, equivalents
@@ -275,6 +275,9 @@ def _scaled(leaf: _Leaf, scale: Scale, from_model: bool) -> ScaledQuantity | Non
         unit, value = quantity.unit.symbol or leaf.kind.unit, float(quantity.number)
     else:
         unit, value = leaf.kind.unit, float(leaf.data)
+    if leaf.kind == VISCOSITY:
+        # that of the water in either size: the Reynolds number is not kept, and the table of numbers says so
+        return None
     if scale.ratio(unit) == 1.0 or value == 0.0:
         return None
     return _both(dotted(leaf.path), value, unit, scale, from_model)
