@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
@@ -51,10 +52,12 @@ def drag_figure(level: Level) -> Figure | None:
     series = [Series("all parts", x, factor * total, 0, 0, style="line+points")]
     for k, name in enumerate(statics.labels("part")):
         if np.abs(split[:, k]).max() > 0.002 * np.abs(total).max():
-            series.append(Series(name, x, factor * split[:, k], 0, k + 1, style="line+points"))
+            # the palette ends after the sum and six parts
+            dash: Literal["solid", "dot"] = "dot" if k >= 6 else "solid"
+            series.append(Series(name, x, factor * split[:, k], 0, k + 1, style="line+points", dash=dash))
     first = int(np.argmax(speed > 0.0))
     square = total[first] * (speed / speed[first]) ** 2
-    series.append(Series("growing as the square", x, factor * square, 0, 8, dash="dash", faint=True))
+    series.append(Series("growing as the square", x, factor * square, 0, 0, dash="dash", faint=True))
     moving = speed > 0.0
     area = total[moving] / speed[moving] ** 2
     series.append(
