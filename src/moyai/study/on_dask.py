@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import pickle
 import uuid
 import zlib
@@ -72,6 +73,9 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
             return list(client.map(_run, [study] * len(chosen), chosen, key=keys, pure=False, retries=0))
 
         futures = as_completed(submit(room), loop=client.loop)
+        # Records are many small objects, kept: each time their number has grown by a quarter, everything that was
+        # imported would be searched for garbage too, which takes longer than to read them
+        gc.freeze()
         try:
             for ready in futures.batches():
                 # No more than one a worker at once, so that little is lost when this process ends meanwhile
@@ -80,6 +84,7 @@ def run_on_dask(task: Task, cases: tuple[Combination, ...], on: Any) -> Iterator
                     futures.update(submit(len(batch)))
                     yield from _records(client, [(future, jobs.pop(future.key)) for future in batch], posted)
         finally:
+            gc.unfreeze()
             # Cancelling a future does not stop a task that runs: the tasks look at this flag
             try:
                 if jobs:
