@@ -590,16 +590,6 @@ def _touching(A: Any, count: int, level: float, ahead: float) -> bool:
     return lowest - 2.0 * ahead * fastest < level + 1e-3
 
 
-@njit(cache=True, error_model="numpy", fastmath=FAST)
-def _at_surface(A: Any, count: int, radius: float) -> bool:
-    """Whether any node, with the thickest bar around it, stands over the lowest place of the surface."""
-    top, low = -1e300, 1e300
-    for i in range(count):
-        top = max(top, A[Z + i])
-        low = min(low, A[ETA + i])
-    return top + radius > low
-
-
 @njit(cache=True, error_model="numpy")
 def _node_force(A: Any, node: int, axis: int) -> float:
     """Return the force of bars and hinges on a node (without the loads)."""
@@ -624,7 +614,7 @@ def march(
 ) -> int:  # fmt: skip
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
-    ``waves`` is (water moves, water at the start (7, n), its rate, time of the start); ``timing`` is
+    ``waves`` is (water moves, part may be dry, water at the start (7, n), its rate, time of the start); ``timing`` is
     (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0
     work
     of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
@@ -636,7 +626,7 @@ def march(
     count, spine = sizes[0], sizes[1]
     driven, rest, tables, table_start, table_step = driving
     level, friction, has_bed = bed
-    moving, water, water_rate, water_time = waves
+    moving, surface, water, water_rate, water_time = waves
     start, step, per_load, per_row, rows, first_row = timing
     places, pulls, peaks, energy, keep_nodes, keep_bars = saved
     table, triangles, _, _, sheet_peak = sheets
@@ -648,8 +638,6 @@ def march(
     loose = runs.shape[0] > 0 or hinges.shape[0] > 0 or screened or ringed or cloth
     moved, drawn = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3))
     keep = np.empty((3, count))
-    # once more after all is under water, so that no bar stays partly dry
-    thickest, was_dry = np.max(A[RADIUS : RADIUS + ROW]), True
     for row in range(rows):
         for part in range(per_row):
             index = (row * per_row + part) * per_load
@@ -659,9 +647,7 @@ def march(
                     for i in range(water.shape[1]):
                         A[WU + r * ROW + i] = water[r, i] + (now - water_time) * water_rate[r, i]
             turning = kinetic_energy(A, count) + block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
-            dry = _at_surface(A, count, thickest)
-            loads(A, sizes, runs, attached, fluid[0], fluid[1], dry or was_dry, moving, per_load * step, sheets)
-            was_dry = dry
+            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, per_load * step, sheets)
             if screened:
                 screens(A, count, panels, 0.5 * fluid[0], screen, per_load * step, step)
             if dense:

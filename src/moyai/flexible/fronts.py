@@ -30,7 +30,7 @@ def front_notices(
     time, bars, tension : ndarray
         Rows, kept bars and their tensions as in :class:`moyai.flexible.result.History`.
     exact : bool
-        Whether the run went at the pace of the wave (``safety=1``).
+        Whether the run went at the pace of the wave (``safety=1`` and rows that whole steps fill).
     """
     if time.size < 3 or exact:
         return ()
@@ -56,7 +56,8 @@ def front_notices(
                     rows * interval,
                     travel,
                     "information",
-                    "equal bars and safety=1 carry the wave front without error; hold the peak against a finer mesh",
+                    "equal bars and safety=1, with rows that whole steps of the wave along a bar fill, carry the front "
+                    "without error; hold the peak against a finer mesh",
                     "one-dimensional wave equation, central differences at Courant number 1",
                 )
             )

@@ -75,13 +75,19 @@ class Motion:
         duration, step, start : float
             Range and spacing [s]; about a two-hundredth of the shortest period keeps the table exact to 1e-8.
         """
-        if not (duration > 0.0 and step > 0.0):
+        if not (0.0 < duration < math.inf and 0.0 < step < math.inf):
             raise InputError(
                 f"a motion over {duration:g} s in steps of {step:g} s", path="motion.duration", allowed="greater than 0"
             )
         count = math.ceil(duration / step - 1e-9) + 1
         time: Array = np.asarray(start + step * np.arange(-2, count + 2), dtype=np.float64)
-        values = np.asarray(displacement(time), dtype=np.float64).reshape(count + 4, 3)
+        values = np.asarray(displacement(time), dtype=np.float64)
+        if values.shape != (count + 4, 3):
+            raise InputError(
+                f"the function of a motion returns shape {values.shape} for {count + 4} times",
+                path="motion.displacement",
+                allowed=f"({count + 4}, 3)",
+            )
         rate = (8.0 * (values[3:-1] - values[1:-3]) - (values[4:] - values[:-4])) / (12.0 * step)
         return cls(start, step, values[2:-2], rate)
 
@@ -106,9 +112,9 @@ class Motion:
         period, duration, ramp, start : float
             [s].
         """
-        if not (period > 0.0 and ramp >= 0.0):
+        if not (0.0 < period < math.inf and 0.0 < duration < math.inf and ramp >= 0.0):
             raise InputError(
-                f"a harmonic motion of period {period:g} s and ramp {ramp:g} s",
+                f"a harmonic motion of period {period:g} s over {duration:g} s with a ramp of {ramp:g} s",
                 path="motion.period",
                 allowed="greater than 0",
             )
@@ -143,12 +149,22 @@ class Motion:
         from scipy.interpolate import CubicSpline
 
         given, values = np.asarray(time, dtype=np.float64), np.asarray(displacement, dtype=np.float64)
-        if given.ndim != 1 or given.size < 2 or not np.all(np.diff(given) > 0.0) or values.shape != (given.size, 3):
+        rising = given.ndim == 1 and given.size >= 2 and bool(np.all(np.diff(given) > 0.0))
+        if not rising or values.shape != (given.size, 3) or not np.isfinite(given).all():
             raise InputError(
                 "a table of motion needs rising times and three displacements each",
                 path="motion.time",
                 allowed="rising",
             )
+        if not np.isfinite(values).all():
+            row = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
+            raise InputError(
+                f"displacement at t = {given[row]:g} s is not finite",
+                path="motion.displacement",
+                allowed="finite numbers",
+            )
+        if step is not None and not 0.0 < step < math.inf:
+            raise InputError(f"step of a motion is {step:g} s", path="motion.step", allowed="greater than 0")
         wanted = float(np.min(np.diff(given))) if step is None else step
         count = max(1, round((given[-1] - given[0]) / wanted))
         wanted = (given[-1] - given[0]) / count

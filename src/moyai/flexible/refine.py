@@ -19,14 +19,15 @@ def refined(network: Network, factor: int, state: State | None = None) -> tuple[
     Raises
     ------
     InputError
-        For a factor below 1, and for a network with sheets or sections of added mass, which a builder has to mesh.
+        For a factor below 1, and for a network with sheets, net panels, rings or sections of added mass, which a
+        builder has to mesh.
     """
     if factor < 1:
         raise InputError(f"a mesh refined {factor} times", path="factor", allowed="1 or more")
-    if network.sheets is not None or network.blocks is not None:
+    if network.sheets is not None or network.blocks is not None or network.panels is not None or network.rings:
         raise InputError(
-            "sheets and sections of added mass are not refined here",
-            path="network.sheets",
+            "sheets, net panels, rings and sections of added mass are not refined here",
+            path="network",
             allowed="bars alone",
             remedy="build the network again with twice the cells",
         )

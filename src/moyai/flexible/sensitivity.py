@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -43,12 +44,18 @@ class PeakSensitivity:
     @property
     def discretisation_error(self) -> float:
         """Relative change with step and mesh together: what the number is worth, apart from viscosity."""
-        return abs(self.half_step / self.peak - 1.0) + abs(self.double_mesh / self.peak - 1.0)
+        return self._change(self.half_step) + self._change(self.double_mesh)
 
     @property
     def viscosity_effect(self) -> float:
         """Largest relative change when the viscosity is halved or doubled."""
-        return max(abs(self.half_viscosity / self.peak - 1.0), abs(self.double_viscosity / self.peak - 1.0))
+        return max(self._change(self.half_viscosity), self._change(self.double_viscosity))
+
+    def _change(self, other: float) -> float:
+        """Return the relative change of the peak; of a bar that stays slack none, or all."""
+        if self.peak == 0.0:
+            return 0.0 if other == 0.0 else math.inf
+        return abs(other / self.peak - 1.0)
 
     def notices(self, limit: float = 0.02) -> tuple[Notice, ...]:
         """Tell when the peak moves by more than ``limit`` with the discretisation."""
@@ -111,7 +118,11 @@ def peak_sensitivity(
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in network.strands)
 
     def peak(which: str, mesh: Network, begin: State | None, number: int, **more: Any) -> tuple[float, float]:
-        history = simulate(mesh, motions, start=begin, keep_nodes=[0], keep_bars=[number], **{**options, **more})
+        chosen_options = {**options, **more, "keep_nodes": [0], "keep_bars": [number]}
+        history = simulate(mesh, motions, start=begin, **chosen_options)
+        if mesh is not network and any(notice.code == "step-not-stable" for notice in history.notices):
+            # a step given by hand need not suit a finer mesh or more viscosity
+            history = simulate(mesh, motions, start=begin, **{**chosen_options, "step": None})
         if history.status != "converged":
             raise ConvergenceError(f"run with {which}: {history.message}", path="sensitivity")
         chosen = history.time >= history.time[0] + after
@@ -122,7 +133,9 @@ def peak_sensitivity(
     half, _ = peak("half the step", network, start, bar, step=0.5 * step)
     progress("sensitivity", 2, 5)
     finer, state = refined(network, 2, start)
-    mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0))
+    # a step given by hand is as long as the given mesh bears at most
+    shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
+    mesh, _ = peak("half the mesh", finer, state, 2 * bar + (1 if last else 0), **shorter)
     progress("sensitivity", 3, 5)
     less, _ = peak("half the viscosity", with_viscosity(network, 0.5), start, bar)
     progress("sensitivity", 4, 5)

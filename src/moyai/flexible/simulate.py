@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
-from moyai.core.validity import IdentityCheck
+from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
@@ -63,6 +63,24 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
         if name not in network.motion_names:
             raise InputError(
                 f"no point follows a motion {name!r}", path="motions", allowed=", ".join(network.motion_names) or "none"
+            )
+
+
+def _check_start(network: Network, start: State) -> None:
+    for name in ("position", "velocity"):
+        values = np.asarray(getattr(start, name))
+        if values.shape != (len(network.nodes), 3):
+            raise InputError(
+                f"{name} of the start has shape {values.shape}",
+                path=f"start.{name}",
+                allowed=f"({len(network.nodes)}, 3), a state of this network",
+            )
+        if not np.isfinite(values).all():
+            node = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
+            raise InputError(
+                f"{name} of {name_of_node(network, node)} at the start is not finite",
+                path=f"start.{name}",
+                allowed="finite numbers",
             )
 
 
@@ -151,6 +169,9 @@ def simulate(
         raise InputError(f"step is {step:g} s", path="step", allowed="greater than 0")
     if safety is not None and not 0.0 < safety <= 1.0:
         raise InputError(f"safety is {safety:g}", path="safety", allowed="above 0, at most 1")
+    if load_steps < 1:
+        raise InputError(f"load_steps is {load_steps}", path="load_steps", allowed="1 or more")
+    _check_start(network, start)
     nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
     run: ExplicitRun | ImplicitRun
     if method == "explicit":
@@ -168,8 +189,8 @@ def simulate(
     run.first_row(saved)
     look = LONGEST_LOOK if flow.steady else min(LONGEST_LOOK, flow.update_interval)
     per_chunk = max(1, min(rows // 20, int(look / interval + 1e-9)))
-    # rows further apart than that are marched in parts
-    parts = max(1, math.ceil(interval / look - 1e-9))
+    # rows further apart than that are marched in parts, but for the pace of the wave: whole steps fill its rows
+    parts = 1 if flow.steady and safety == 1.0 else max(1, math.ceil(interval / look - 1e-9))
     status: RunStatus = "converged"
     done, message, steps, smallest = 0, "", 0, math.inf
     sound, fastest = start, _fastest(network, run)
@@ -198,6 +219,9 @@ def simulate(
             progress("network", done * interval, duration)
     except KeyboardInterrupt:
         status, message = "interrupted", f"interrupted at t = {start.time + done * interval:g} s"
+        if abs(run.time - start.time - done * interval) < 1e-9 * max(1.0, abs(run.time)):
+            # between two chunks: all that was marched is good
+            sound = run.state()
     if status == "converged":
         sound = run.state()
     elif state_file is not None:
@@ -340,6 +364,41 @@ def _history(
             np.asarray(np.arange(last) * interval, dtype=np.float64),
             saved[5],
             saved[1][:last],
-            getattr(run, "safety", None) == 1.0,
-        ),
+            _at_wave_pace(run),
+        )
+        + _doubts(run, check, status),
     )
+
+
+def _at_wave_pace(run: ExplicitRun | ImplicitRun) -> bool:
+    """Whether the steps were those of the elastic wave; rows that no whole number of them fills make them shorter."""
+    return isinstance(run, ExplicitRun) and run.safety == 1.0 and run.step >= 0.99 * _limit(run)
+
+
+def _doubts(run: ExplicitRun | ImplicitRun, check: IdentityCheck, status: RunStatus) -> tuple[Notice, ...]:
+    """Return what makes the peaks of a run that came to its end doubtful."""
+    found = []
+    overstep = getattr(run, "overstep", 0.0)
+    if overstep > 1.0 + 1e-9:
+        found.append(
+            Notice(
+                "step-not-stable",
+                f"the step of {run.step:.4g} s is {overstep:.3g} times what the network bears: peaks may be wrong",
+                overstep,
+                1.0,
+                "warning",
+                "leave the step out, or give a shorter one",
+            )
+        )
+    if status == "converged" and check.value > check.tolerance:
+        found.append(
+            Notice(
+                "energy-from-nowhere",
+                f"{100.0 * check.value:.3g} % of the energy came from nowhere; peaks may be too high",
+                check.value,
+                check.tolerance,
+                "warning",
+                "give a smaller safety or step, more viscosity, or an implicit method with a smaller tolerance",
+            )
+        )
+    return tuple(found)

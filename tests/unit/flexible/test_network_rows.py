@@ -1,12 +1,20 @@
 """Coarse rows of the result must not make the run itself coarse, nor lose what happens between them."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType
+from moyai.flexible.panels import NetPanels, PanelLaw
+from moyai.flexible.refine import refined
+from moyai.flexible.result import State
+from moyai.flexible.sensitivity import peak_sensitivity
 from moyai.flexible.simulate import simulate
 from moyai.flexible.snap import find_snaps
 from moyai.flexible.statics import solve_equilibrium
@@ -78,3 +86,57 @@ def test_a_snap_between_two_slack_rows_is_found():
     assert [contact.peak for contact in record.snaps] == [1000.0, 800.0]
     assert record.snaps[0].time == pytest.approx(0.6, abs=1e-3)
     assert record.slack_time == pytest.approx(1.9 - 0.1 - 0.2, abs=0.01)
+
+
+def _snatched(segments=8):
+    """A slack rope in a vacuum that its top draws taut."""
+    builder = NetworkBuilder(Water(math.inf, 1e-9, 9.81))
+    builder.fixed("bottom", (0.0, 0.0, -100.0))
+    builder.driven("top", (0.0, 0.0, -80.2))
+    kind = BarType("rope", 2.0, 2e5, 0.03, viscosity=200.0)
+    builder.line("rope", "bottom", "top", kind, length=20.0, segments=segments)
+    return builder.build(), {"top": Motion.harmonic((0.0, 0.0, 0.8), 3.0, duration=4.0)}
+
+
+def test_a_step_that_is_too_long_is_told_even_when_the_run_ends():
+    network, motions = _snatched()
+    sound = simulate(network, motions, duration=3.0, output_step=0.05)
+    assert not [notice for notice in sound.notices if notice.code == "step-not-stable"]
+    bold = simulate(network, motions, duration=3.0, output_step=0.05, step=1.3 * sound.step)
+    told = [notice for notice in bold.notices if notice.code == "step-not-stable"]
+    assert len(told) == 1 and told[0].severity == "warning" and told[0].value > 1.0
+
+
+def test_sensitivity_bears_a_step_given_by_hand():
+    network, motions = _snatched()
+    sound = simulate(network, motions, duration=1.5, output_step=0.05)
+    free = peak_sensitivity(network, motions, bar=7, duration=1.5, output_step=0.05)
+    hand = peak_sensitivity(network, motions, bar=7, duration=1.5, output_step=0.05, step=sound.step, keep_bars=[0])
+    assert hand.peak == pytest.approx(free.peak, rel=1e-9)
+    assert hand.double_mesh == pytest.approx(free.double_mesh, rel=0.02)
+    assert hand.double_viscosity == pytest.approx(free.double_viscosity, rel=0.02)
+
+
+def test_rows_that_whole_steps_do_not_fill_do_not_hide_a_wave_front():
+    water = Water(math.inf, 1e-9, 1e-12)
+    builder = NetworkBuilder(water)
+    builder.fixed("end", (0.0, 0.0, -500.0))
+    builder.free("mass", (10.0, 0.0, -500.0), mass=20.0)
+    kind = BarType("string", 1.0, 1e4, 1e-9)
+    builder.line("string", "end", "mass", kind, length=10.0, segments=50, shape="straight")
+    network = builder.build()
+    velocity = np.zeros((len(network.nodes), 3))
+    velocity[network.point("mass"), 0] = 0.1
+    start = State(0.0, network.nodes.position.copy(), velocity)
+    codes = []
+    for output_step in (0.004, 0.005):
+        history = simulate(network, duration=0.3, output_step=output_step, start=start, safety=1.0, keep_bars=[0])
+        codes.append([notice.code for notice in history.notices])
+    assert codes == [[], ["wave-front"]]
+
+
+def test_net_panels_and_rings_are_not_lost_on_a_finer_mesh():
+    network, _ = _snatched()
+    panels = NetPanels(np.array([[0, 1, 2, -1]]), (PanelLaw.tabulate("still", lambda a, s: (0.0 * a, 0.0 * a)),))
+    with pytest.raises(InputError, match="not refined"):
+        refined(replace(network, panels=panels), 2)
