@@ -78,6 +78,44 @@ def test_a_killed_worker_costs_no_case_and_no_bit(cluster, tmp_path, monkeypatch
     )
 
 
+PONTOON = """\
+moyai: 1
+study:
+  title: the pontoon itself
+  base: {base}
+  set: {{analyses: [frequency], site.water_levels: {{SWL: 0 m}}}}
+  variations:
+    - grid: {{'waves[design storm].significant_height': [0.4 m, 0.7 m]}}
+    - seeds: {{path: 'waves[design storm].seed', count: 2}}
+"""
+
+
+@pytest.mark.parametrize("by_post", [True, False])
+def test_the_pontoon_itself_has_the_same_bits_on_a_cluster(cluster, tmp_path, monkeypatch, by_post):
+    from moyai.cli.runner import run
+
+    client, _ = cluster
+    if by_post:
+        monkeypatch.setattr(client, "gather", None)
+    else:
+        # What is too large for the post, or gets lost in it, is fetched
+        monkeypatch.setattr(client, "subscribe_topic", lambda name, handler: None)
+        monkeypatch.setattr(client, "unsubscribe_topic", lambda name: None)
+    path = tmp_path / "study.yaml"
+    path.write_text(PONTOON.format(base=Path(__file__).parents[3] / "examples" / "pontoon.yaml"), encoding="utf-8")
+    study = load_study(path)
+    on_cluster = run_study(study, tmp_path / "cluster", run, workers=1, on=client)
+    here = run_study(study, tmp_path / "here", run, workers=1)
+    numbers = 0
+    for node in here.tree.subtree:
+        for name, variable in node.data_vars.items():
+            if variable.dtype == float:
+                other = on_cluster.tree[node.path][name].values
+                assert np.array_equal(variable.values.view(np.int64), other.view(np.int64)), name
+                numbers += variable.size
+    assert numbers > 500
+
+
 def test_nobody_at_the_address_says_how_to_start_a_scheduler(tmp_path, monkeypatch):
     monkeypatch.setattr("moyai.study.on_dask._CONNECT", 1.0)
     study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=1))
