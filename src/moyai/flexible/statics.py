@@ -14,7 +14,7 @@ from moyai.core.errors import ConvergenceError
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
-from moyai.flexible.network import Network
+from moyai.flexible.network import FREE, Network
 from moyai.flexible.relaxation import Attempt, Relaxation
 from moyai.flexible.result import State
 
@@ -64,6 +64,19 @@ class Equilibrium:
     found: str = "direct"
 
 
+def _apart(network: Network, place: Array) -> Array:
+    """Move free nodes that share their place with the other end of a bar: a bar of no length points nowhere."""
+    bars = network.bars
+    gap = np.linalg.norm(place[bars.end] - place[bars.start], axis=1)
+    close = np.flatnonzero(gap < 1e-6 * bars.length)
+    if close.size:
+        nodes = np.unique(np.concatenate([bars.start[close], bars.end[close]]))
+        nodes = nodes[network.nodes.kind[nodes] == FREE]
+        aside = np.random.default_rng(1).normal(0.0, 0.3 * float(np.mean(bars.length[close])), (nodes.size, 3))
+        place[nodes] += np.where(network.nodes.held[nodes], 0.0, aside)
+    return place
+
+
 def solve_equilibrium(
     network: Network,
     *,
@@ -109,6 +122,7 @@ def solve_equilibrium(
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0
     place[fixed] = network.nodes.position[fixed]
+    place = _apart(network, place)
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
     problem = Relaxation(network, calm, time)
     if most_steps is None:

@@ -140,3 +140,16 @@ def test_net_panels_and_rings_are_not_lost_on_a_finer_mesh():
     panels = NetPanels(np.array([[0, 1, 2, -1]]), (PanelLaw.tabulate("still", lambda a, s: (0.0 * a, 0.0 * a)),))
     with pytest.raises(InputError, match="not refined"):
         refined(replace(network, panels=panels), 2)
+
+
+@pytest.mark.parametrize("heap", [(5.0, 0.0, -20.0), (60.0, 0.0, -1.0)])
+def test_rest_is_found_from_nodes_that_all_lie_at_one_point(heap):
+    def rest(shape):
+        builder = NetworkBuilder(Water(60.0, 1025.0, 9.81))
+        builder.fixed("one", (0.0, 0.0, -50.0))
+        builder.fixed("two", (60.0, 0.0, -1.0))
+        chain = BarType("chain", 50.0, 2e8, 0.08)
+        builder.line("chain", "one", "two", chain, length=100.0, segments=30, shape=shape)
+        return solve_equilibrium(builder.build())
+
+    assert rest(np.tile(heap, (29, 1))).tension == pytest.approx(rest("catenary").tension, rel=1e-5)
