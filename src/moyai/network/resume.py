@@ -91,6 +91,11 @@ def earlier_run(result: Result, level: str, run: str, nodes: int) -> Earlier | N
         return None
     tree: Any = result.tree
     series, frames = tree[path].to_dataset(inherit=False), tree[f"{path}/frames"].to_dataset(inherit=False)
+    if "highest_load" not in series:
+        raise InputError(
+            f"the run '{run}' of the earlier result lacks what runs hold today", path="settings.resume",
+            remedy="run it from its start",
+        )  # fmt: skip
     position, velocity = frames["final_position"].values, frames["final_velocity"].values
     if position.shape != (nodes, 3):
         raise InputError(
