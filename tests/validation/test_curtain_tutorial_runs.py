@@ -44,8 +44,16 @@ def test_mistakes_of_the_curtain_tutorial_are_told(tmp_path):
 
 
 def test_record_of_the_curtain_tutorial_is_understood(tmp_path):
-    case, record = (block for block in blocks("yaml"))
+    case, record, _ = (block for block in blocks("yaml"))
     file = tmp_path / "dredging.yaml"
     file.write_text(case + record, encoding="utf-8")
     with pytest.raises(CaseError, match=r"there is no file 'record.csv'"):
         load_case(file)
+
+
+def test_span_in_motion_of_the_curtain_tutorial_is_understood(tmp_path):
+    case, _, motion = (block for block in blocks("yaml"))
+    file = tmp_path / "dredging.yaml"
+    with_motion = case.replace("limits]", "limits, dynamic]").rstrip("\n") + "\n" + motion
+    file.write_text(with_motion, encoding="utf-8")
+    assert "dynamic" in load_case(file).document.analyses
