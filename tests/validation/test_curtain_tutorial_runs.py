@@ -56,4 +56,4 @@ def test_span_in_motion_of_the_curtain_tutorial_is_understood(tmp_path):
     file = tmp_path / "dredging.yaml"
     with_motion = case.replace("limits]", "limits, dynamic]").rstrip("\n") + "\n" + motion
     file.write_text(with_motion, encoding="utf-8")
-    assert "dynamic" in load_case(file).document.analyses
+    assert "dynamic" in load_case(file).model.analyses
