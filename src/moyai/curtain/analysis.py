@@ -138,6 +138,8 @@ def _level_steps(
         )
         collected.checks.extend(moved.checks)
         collected.notices.extend(moved.notices)
+        if moved.interrupted:
+            raise KeyboardInterrupt
         yield
     if not {"statics", "impact", "waves", "anchor_loads", "limits"} & set(settings.analyses):
         return

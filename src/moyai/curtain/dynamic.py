@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 
 #: Rows of a result, at most.
 MOST_ROWS = 20000
+#: Part of the energy of a span that viscosity may take in a period: a snap loses some per cent, crumpling much more.
+MOST_VISCOUS = 0.3
 #: Slack level and threshold of a snap where none is given, over the highest tension and the mean of what is taut.
 _SLACK_SHARE, _SNAP_FACTOR = 0.01, 2.0
 
@@ -255,6 +257,8 @@ def span_sensitivity(run: DynamicRun, **arguments: object) -> Sensitivity:
     ------
     ConvergenceError
         When one of the runs had to stop.
+    KeyboardInterrupt
+        When the user stopped one.
     """
     built, history = run.built, run.history
     mesh = built.mesh
@@ -266,6 +270,8 @@ def span_sensitivity(run: DynamicRun, **arguments: object) -> Sensitivity:
 
     def peak(which: str, trial: Mesh, step: float | None = None) -> float:
         found = run_span(built.span, trial, **{**arguments, "step": step})  # type: ignore[arg-type]
+        if found.history.status == "interrupted":
+            raise KeyboardInterrupt
         if found.history.status != "converged":
             raise ConvergenceError(f"run with {which}: {found.history.message}", path="sensitivity")
         return found.peak("both")[0]
@@ -281,17 +287,32 @@ def span_sensitivity(run: DynamicRun, **arguments: object) -> Sensitivity:
 
 
 def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
-    """Return the energy check of a run: kinetic and elastic energy against work, over what went through."""
+    """Return the energy checks of a run: what came from nowhere, and what viscosity had to take.
+
+    The second finds cloth that crumples in the mesh: turning sections then feed it and viscosity eats it, so that the
+    sum balances while the peaks are those of the mesh.
+    """
     history = run.history
     total = history.kinetic_energy + history.elastic_energy
-    through = max(float(total.max()), float(np.max(np.abs(history.work))), 1e-300)
+    stored = max(float(total.max()), 1e-300)
+    through = max(stored, float(np.max(np.abs(history.work))))
     gained = float(np.max(history.energy_balance))
+    # in every period of waves as much as the span ever holds may pass
+    waves = run.flow.waves
+    length = float(history.time[-1] - history.time[0])
+    passes = 1.0 if waves is None else max(1.0, length * float(np.max(waves.omega)) / (2.0 * math.pi))
     return (
         IdentityCheck(
             f"{place}: energy of the span",
             max(gained, 0.0) / through,
             0.01,
             "energy beyond the work done, over the energy that went through; viscosity can only take",
+        ),
+        IdentityCheck(
+            f"{place}: energy that viscosity took",
+            max(-float(np.min(history.energy_balance)), 0.0) / (stored * passes),
+            MOST_VISCOUS,
+            "over the highest energy of the span and the periods run; more is cloth that crumples in the mesh",
         ),
     )
 

@@ -167,9 +167,13 @@ class Mesh:
     skirt_damping_time : float or None
         [s]; None: the same of the skirt.
     convective : bool
-        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`), for the snap of a
-        taut span. In waves the cloth gathers, and these forces, which act on the light cloth itself, may blow it up:
-        leave them off there.
+        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`). In waves the cloth
+        gathers, and these forces, which act on the light cloth itself, blow it up unless ``normal_reach`` spans its
+        folds.
+    normal_reach : float
+        Distance along the cable, to either side of a section, over which its normal is taken [m]; 0: to the neighbours.
+        Folds shorter than a part of the draught move no water of their own, but they turn the normals between
+        neighbours at every step, and with them the added mass.
     """
 
     along: int
@@ -177,8 +181,11 @@ class Mesh:
     cable_viscosity: float | None = None
     skirt_damping_time: float | None = None
     convective: bool = True
+    normal_reach: float = 0.0
 
     def __post_init__(self) -> None:
+        if not (math.isfinite(self.normal_reach) and self.normal_reach >= 0.0):
+            raise InputError(f"normal_reach is {self.normal_reach:g}", path="mesh.normal_reach", allowed="0 or more")
         if self.along < 4 or self.down < 2:
             raise InputError(
                 f"a mesh of {self.along} x {self.down} cells",
@@ -299,7 +306,7 @@ def build_span(
     network = Network(
         nodes, bars, water if weight else replace(water, gravity=_TIGHT), strands=strands,
         points={"mid-span": int(grid[along // 2, 0])}, sheets=sheets,
-        blocks=_blocks(grid, arc, section, nodes, mesh.convective),
+        blocks=_blocks(grid, arc, section, nodes, mesh),
     )  # fmt: skip
     return CurtainNetwork(span, mesh, network, State(0.0, place, velocity), grid, section)
 
@@ -447,21 +454,26 @@ def _bars(
     return bars, tuple(strands)
 
 
-def _blocks(grid: IntArray, arc: Array, section: SectionMesh, nodes: Nodes, convective: bool) -> MassBlocks:
+def _blocks(grid: IntArray, arc: Array, section: SectionMesh, nodes: Nodes, mesh: Mesh) -> MassBlocks:
     """Return the sections that can move, each with the added mass of its part of the span."""
     chosen, guides, share = [], [], []
+    lengths, last = np.diff(arc), grid.shape[0] - 1
+    # at least past the neighbours, and a sixth of the span at most, so that the normals still follow its shape
+    reach = 1
+    if mesh.normal_reach > 0.0:
+        reach = max(2, min(round(mesh.normal_reach / float(np.mean(lengths))), last // 6))
     for row in range(grid.shape[0]):
         column = grid[row]
         if np.any(nodes.kind[column] == FIXED):
             continue
-        inner = 0 < row < grid.shape[0] - 1
-        before, behind = (grid[row - 1], grid[row + 1]) if inner else (grid[0], grid[-1])
+        inner = 0 < row < last
+        wide = min(reach, row, last - row)
+        before, behind = (grid[row - wide], grid[row + wide]) if inner else (grid[0], grid[-1])
         chosen.append(column)
         guides.append(np.stack([before, behind], axis=1))
-        lengths = np.diff(arc)
         share.append(0.5 * (lengths[row - 1] + lengths[row]) if inner else 0.5 * lengths[0])
     matrices = np.asarray(share)[:, None, None] * section.added_mass
-    return MassBlocks(np.array(chosen), np.array(guides), matrices, convective)
+    return MassBlocks(np.array(chosen), np.array(guides), matrices, mesh.convective)
 
 
 __all__ = ["MESH_DAMPING", "AnchoredSupport", "CurtainNetwork", "CurtainSpan", "Mesh", "build_span"]

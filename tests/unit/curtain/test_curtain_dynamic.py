@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 
 import moyai
 from moyai.core.errors import CaseError, InputError
-from moyai.curtain.dynamic import DynamicRun, run_span, span_sensitivity
+from moyai.curtain.dynamic import DynamicRun, run_checks, run_span, span_sensitivity
 from moyai.curtain.dynamic_cable import dynamic_cable
 from moyai.curtain.dynamic_model import AnchoredSupport, CurtainSpan, Mesh, build_span
 from moyai.curtain.dynamic_section import section_mesh
@@ -284,3 +285,81 @@ def test_case_faults(tmp_path: Path, old: str, new: str, words: str) -> None:
     assert old in CASE
     with pytest.raises((CaseError, InputError), match=words):
         moyai.run(moyai.load_case(write(tmp_path, CASE.replace(old, new))))
+
+
+def test_current_dies_down_to_the_statics_of_the_same_case(tmp_path: Path) -> None:
+    """Held toe: the tensions that a long run in the current ends at are those of `statics`, which solves another model.
+
+    Statics takes one section for the whole span; the span's sections near the supports hang steeper.
+    """
+    text = CASE.replace("heading_deg: 20", "heading_deg: 0").replace("[dynamic]", "[statics, dynamic]")
+    text = text.replace(
+        "cells_along: 8, cells_down: 4",
+        "cells_along: 12, cells_down: 4, duration: 60 s, start: at_rest, sensitivity: false",
+    )
+    result = moyai.run(moyai.load_case(write(tmp_path, text)))
+    assert result.status == "converged", result.message
+    rest = result.tree["/SWL/statics"].to_dataset().sel(drag_case="given")
+    run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
+    late = run.isel(time=run["time"].values > 50.0)
+    ends = late["tension_peak"].mean("time").values
+    assert float(late["both_tension"].std()) < 0.01 * float(late["both_tension"].mean())
+    assert ends[0] == pytest.approx(float(rest["upper_tension"]), rel=0.06)
+    assert ends[1] == pytest.approx(float(rest["lower_tension"]), rel=0.06)
+    assert float(late["mid_span_x"].mean()) == pytest.approx(float(rest["sag"]), rel=0.05)
+
+
+def test_waves_fold_the_cloth_but_not_its_added_mass(tmp_path: Path) -> None:
+    """Light cloth in waves, all forces of turning sections: energy is kept, nothing is left out, little is eaten."""
+    text = CASE.replace(
+        "structure:", "waves: {name: swell, kind: regular, height: 0.8 m, periods: [5 s], heading_deg: 0}\nstructure:"
+    )
+    text = text.replace(
+        "cells_along: 8, cells_down: 4", "cells_along: 16, cells_down: 4, analysed_periods: 1, sensitivity: false"
+    )
+    result = moyai.run(moyai.load_case(write(tmp_path, text)))
+    assert result.status == "converged", result.message
+    assert not [notice for notice in result.notices if notice.code == "dynamic-turning"]
+    taken = next(check for check in result.checks if "viscosity" in check.name)
+    assert 0.0 < taken.value < 0.05
+
+
+def test_crumpling_fails_the_energy_check() -> None:
+    run = run_span(
+        CurtainSpan(**BASE),
+        Mesh(8, 4),
+        FLUME,
+        duration=0.1,
+        output_step=0.01,
+        speed=0.3,
+        weight=False,
+        deep=True,  # type: ignore[arg-type]
+    )
+    assert all(check.passed for check in run_checks(run, "here"))
+    history = run.history
+    eaten = replace(run, history=replace(history, work=history.work + np.linspace(0.0, 10.0, history.work.size)))
+    assert [check.passed for check in run_checks(eaten, "here")] == [True, False]
+
+
+@pytest.mark.parametrize("part", [0.3, 1.3])
+def test_a_stopped_run_is_kept(tmp_path: Path, part: float) -> None:
+    """Ctrl-C keeps what the run has reached, and the whole run where it comes in the first sensitivity run."""
+    runs = [0.0, 0.0]
+
+    def stop(what: str, done: float, total: float) -> None:
+        if what != "network":
+            return
+        share = done / total
+        if share < runs[1]:
+            runs[0] += 1.0
+        runs[1] = share
+        if runs[0] + share > part:
+            raise KeyboardInterrupt
+
+    result = moyai.run(moyai.load_case(write(tmp_path, CASE)), stop)
+    assert result.status == "interrupted"
+    table = result.tree["/SWL/dynamic"].to_dataset()
+    run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
+    assert run.attrs["status"] == ("interrupted" if part < 1.0 else "converged")
+    assert run.sizes["time"] > 100 and float(table["both_peak"][0]) >= 0.0
+    assert any(notice.code == "dynamic-interrupted" for notice in result.notices)
