@@ -17,8 +17,9 @@ import pytest
 from moyai.coupled.rest import find_rest
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.flow import Flow
-from moyai.interop.moordyn_deck import DeckOption, write_deck
+from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_network import to_deck
+from moyai.interop.moordyn_records import DeckOption
 
 pytestmark = pytest.mark.peer
 

@@ -48,20 +48,15 @@ def end_tension(network, history, last=True):
 
 
 RUNS_HERE = (
-    "BeamSimplySupported.txt", "WD0050_Chain.txt", "WD0200_Chain.txt", "cabledyn_shared_anchor/moordyn.txt",
-    "lines.txt", "lowe_and_langley_2006/line.txt", "openfast_output/TestInput.MD.dat", "pendulum.txt",
-    "polyester/simple.txt", "tripod.txt", "wavekin_current_1.txt", "wavekin_wave_1.txt",
+    "BeamSimplySupported.txt", "BodiesAndRods.dat", "body_tests/bodyDrag.txt", "body_tests/pinnedBody.txt",
+    "cabledyn_shared_anchor/moordyn.txt", "lines.txt", "local_euler/complex_system.txt",
+    "lowe_and_langley_2006/line.txt", "openfast_output/TestInput.MD.dat", "pendulum.txt", "polyester/simple.txt",
+    "riser/riser.txt", "RodHanging.txt", "RodPinnedFloating.txt", "tripod.txt", "wavekin_current_1.txt",
+    "wavekin_wave_1.txt", "WD0050_Chain.txt", "WD0200_Chain.txt",
 )  # fmt: skip
 REFUSED = {
     "3D_seafloor/hanging_lines.txt": ((50, "not flat"), (55, "elevations on a grid")),
-    "BodiesAndRods.dat": ((12, "bodies"), (16, "rods"), (24, "Body1"), (33, "Body1")),
-    "RodHanging.txt": ((12, "rods"), (24, "R1A"), (25, "R1B")),
-    "RodPinnedFloating.txt": ((9, "rods"), (0, "LINE TYPES is missing")),
-    "body_tests/bodyDrag.txt": ((3, "tbd"), (6, "bodies"), (13, "Body1")),
-    "body_tests/pinnedBody.txt": ((10, "bodies"), (14, "rods")),
-    "local_euler/complex_system.txt": ((15, "bodies"), (19, "rods"), (31, "Body1"), (42, "R4B")),
     "polyester/visco.txt": ((5, "depends on rate"),),
-    "riser/riser.txt": ((14, "bodies"), (18, "rods"), (29, "Body1")),
     "seafloor.txt": ((23, "no file"),),
     "syrope/quadratic_wc/line.txt": ((5, "depends on rate"), (15, "SYROPE IC")),
     "viv/viv.txt": ((6, "vortex-induced"),),

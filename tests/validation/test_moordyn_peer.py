@@ -16,8 +16,9 @@ import numpy as np
 import pytest
 
 from moyai.flexible.statics import solve_equilibrium
-from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckOption, DeckPoint, MoorDynDeck, write_deck
+from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck, write_deck
 from moyai.interop.moordyn_network import line_name, to_deck, to_network
+from moyai.interop.moordyn_records import DeckOption
 
 pytestmark = pytest.mark.peer
 

@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 #: Force left over the largest force at work.
 TOLERANCE = 1e-8
 MOST_ROUNDS = 60
+#: Stiffness over the largest one below which it counts as none; pushes off a balance that would tip over.
+SLACK, MOST_TIPS = 1e-6, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +97,8 @@ def find_rest(
 ) -> CoupledRest:
     """Find the poses in which bodies and network rest under weight, buoyancy, pulls and steady current.
 
-    Newton's method on the poses, the network at rest for each; a body alone that nothing holds in a direction stays
-    where it is in that direction.
+    Newton's method on the poses, the network at rest for each, and down the energy where it is no bowl, so that a
+    balance on a tip is left; a body alone that nothing holds in a direction stays where it is in that direction.
 
     Parameters
     ----------
@@ -204,11 +206,25 @@ class _Search:
     def run(self, tolerance: float) -> CoupledRest:
         force = self.imbalance()
         longest = 0.25 * max(self.size, 0.02 * float(np.max(np.ptp(self.network.nodes.position, axis=0))))
+        tips = 0
         for _ in range(MOST_ROUNDS):
-            left = float(np.max(np.abs(force), initial=0.0))
-            if left <= tolerance * self.scale:
+            settled = float(np.max(np.abs(force), initial=0.0)) <= tolerance * self.scale
+            if settled and tips == MOST_TIPS:
                 break
             slope = self.jacobian(force)
+            values, shapes = np.linalg.eigh(-0.5 * (slope + slope.T))
+            none = SLACK * max(float(np.max(np.abs(values), initial=0.0)), self.scale / self.size)
+            loose = (values <= none) & (np.abs(shapes.T @ force) > tolerance * self.scale)
+            if np.any(loose) or np.any(values < -none):
+                if settled:
+                    # balanced on a tip: a push along the way it falls
+                    tips += 1
+                    self.move(0.1 * longest * shapes[:, 0])
+                    force = self.imbalance()
+                force = self._down(force, values, shapes, none, longest)
+                continue
+            if settled:
+                break
             # what nothing holds has no stiffness: the least step that balances the rest
             change = -np.linalg.lstsq(slope, force, rcond=1e-9)[0]
             change *= min(1.0, longest / max(float(np.max(np.abs(change))), 1e-300))
@@ -234,6 +250,22 @@ class _Search:
         bodies = {name: self._rested(self.bodies[name], carrier) for name, carrier in self.carriers.items()}
         state = State(0.0, rest.state.position, np.zeros_like(rest.state.position))
         return CoupledRest(network, state, bodies, rest.tension, left, self.solves)
+
+    def _down(self, force: Array, values: Array, shapes: Array, none: float, longest: float) -> Array:
+        """Move down the energy where it is no bowl, by Newton's step with all stiffness positive; return the force."""
+        push = shapes.T @ force
+        push[(np.abs(values) <= none) & (np.abs(push) <= TOLERANCE * self.scale)] = 0.0
+        change = shapes @ (push / np.maximum(np.abs(values), none))
+        change *= min(1.0, longest / max(float(np.max(np.abs(change))), 1e-300))
+        kept, state, part = self.keep(), self.state, 1.0
+        while True:
+            self.move(np.asarray(part * change, dtype=np.float64))
+            new = self.imbalance()
+            # the force along the way may fade and turn a little, not push back as hard
+            if float(new @ change) > -0.5 * float(force @ change) or part < 1e-3:
+                return new
+            self.back(kept)
+            self.state, part = state, 0.5 * part
 
     @staticmethod
     def _rested(body: RigidBody, carrier: RigidCarrier) -> RigidBody:

@@ -88,6 +88,9 @@ class RigidBody:
         Translations along site axes and rotations about body axes that may change.
     rest : (array_like (3,), float), optional
         Place of the origin [m] and yaw [rad] that ``stiffness`` counts from; those of the start when left out.
+    pin : array_like (3,), optional
+        Place in body axes that stays where it is at the start: the body only turns about it. Damping, stiffness and the
+        moments of the results then refer to this place, not to the centre of gravity.
 
     Raises
     ------
@@ -111,6 +114,7 @@ class RigidBody:
     force: ArrayLike = field(default_factory=lambda: np.zeros(6))
     free: tuple[bool, ...] = (True,) * 6
     rest: tuple[ArrayLike, float] | None = None
+    pin: ArrayLike | None = None
 
     def __post_init__(self) -> None:
         path = f"bodies.{self.name}"
@@ -143,6 +147,8 @@ class RigidBody:
         object.__setattr__(
             self, "linear_damping", _matrix(self.linear_damping, 6, f"{path}.linear_damping", positive=False)
         )
+        if self.pin is not None:
+            object.__setattr__(self, "pin", _vector(self.pin, 3, f"{path}.pin"))
         places = {name: _vector(place, 3, f"{path}.points.{name}") for name, place in self.points.items()}
         object.__setattr__(self, "points", places)
         if len(self.free) != 6:
@@ -153,6 +159,11 @@ class RigidBody:
                 path=f"{path}.lumps",
                 remedy="leave one of them out; lumps without volume may carry drag",
             )
+
+    @property
+    def pivot(self) -> Array:
+        """Place in body axes that the motion is told of: the pin, or the centre of gravity of a body without one."""
+        return np.asarray(self.centre_of_gravity if self.pin is None else self.pin, dtype=float)
 
     @property
     def rest_pose(self) -> tuple[Array, float]:
@@ -229,7 +240,7 @@ class RigidCarrier:
     def __init__(self, body: RigidBody, water: Water, flow: Flow, time: float = 0.0) -> None:
         self.body, self.water, self.flow, self.time = body, water, flow, time
         self.points, self.copies = tuple(body.points), np.ones(len(body.points))
-        centre = np.asarray(body.centre_of_gravity)
+        centre = body.pivot
         self.arms = np.array([np.asarray(body.points[name]) - centre for name in self.points]).reshape(-1, 3)
         self.lumps = (body.lumps or no_lumps()).arrays(centre)
         self.state, self.states_of_memory = np.zeros(13), np.zeros(0, np.complex128)
@@ -237,6 +248,15 @@ class RigidCarrier:
         loads = body.loads
         rigid = np.zeros((6, 6))
         rigid[:3, :3], rigid[3:, 3:] = body.mass * np.eye(3), body.inertia
+        free = np.array(body.free, dtype=np.float64)
+        weight = np.array([0.0, 0.0, -body.mass * water.gravity])
+        # the weight of a pinned body pulls at an arm of its own
+        self._own_arms, self._own_pulls = np.zeros((0, 3)), np.zeros((0, 3))
+        if body.pin is not None:
+            arm = np.asarray(body.centre_of_gravity) - centre
+            rigid[3:, 3:] += body.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+            self._own_arms, self._own_pulls = arm[None], weight[None]
+            free[:3] = 0.0
         radiated, inputs, outputs = np.zeros((6, 6)), np.zeros((0, 6), np.complex128), np.zeros((6, 0), np.complex128)
         self.poles = np.zeros(0, np.complex128)
         rest_place, rest_yaw = body.rest_pose
@@ -244,7 +264,8 @@ class RigidCarrier:
         rest = np.array([*(np.asarray(rest_place) + upright @ centre), rest_yaw])
         stiffness, linear = np.array(body.stiffness), np.array(body.linear_damping)
         constant = np.array(body.force)
-        constant[2] -= body.mass * water.gravity
+        if body.pin is None:
+            constant[:3] += weight
         self.excitation = None
         if loads is not None:
             found = loads.about(centre, np.asarray(body.position))
@@ -258,7 +279,7 @@ class RigidCarrier:
             self.states_of_memory = np.zeros(self.poles.size, np.complex128)
         self._body = (
             rigid, about(np.asarray(body.added_mass), centre), np.ascontiguousarray(radiated), linear,
-            np.array(body.quadratic_damping), stiffness, rest, constant, np.array(body.free, dtype=np.float64),
+            np.array(body.quadratic_damping), stiffness, rest, constant, free,
         )  # fmt: skip
         self._memory = (np.ascontiguousarray(inputs), np.ascontiguousarray(outputs))
         self._fluid = np.array([water.density, water.gravity])
@@ -273,7 +294,7 @@ class RigidCarrier:
         """Put the origin at ``position`` [m] with a rotation matrix; ``velocity`` of the centre of gravity and spin in
         site axes [m/s, rad/s]."""
         turn, speed = np.asarray(rotation, dtype=float), np.asarray(velocity, dtype=float)
-        self.state[:3] = np.asarray(position, dtype=float) + turn @ np.asarray(self.body.centre_of_gravity)
+        self.state[:3] = np.asarray(position, dtype=float) + turn @ self.body.pivot
         self.state[3:7] = quaternion_of(turn)
         self.state[7:10], self.state[10:13] = speed[:3], turn.T @ speed[3:]
         self._guess = None
@@ -288,7 +309,7 @@ class RigidCarrier:
     @property
     def position(self) -> Array:
         """Place of the origin of the body axes [m]."""
-        return self.state[:3] - self.rotation @ np.asarray(self.body.centre_of_gravity)
+        return self.state[:3] - self.rotation @ self.body.pivot
 
     @property
     def velocity(self) -> Array:
@@ -413,12 +434,19 @@ class RigidCarrier:
             self._weights[key] = exponential_weights(self.poles, h)
         new, states = np.empty(13), np.empty_like(self.states_of_memory)
         kernel.step(
-            self.state, self.states_of_memory, h, self._body, self.lumps, water, self._fluid, external, self.arms,
-            np.ascontiguousarray(reaction, dtype=np.float64).reshape(2, -1, 3), self._weights[key], *self._memory,
+            self.state, self.states_of_memory, h, self._body, self.lumps, water, self._fluid, external,
+            *self._pulled(np.asarray(reaction, dtype=np.float64).reshape(2, -1, 3)), self._weights[key], *self._memory,
             new, states,
         )  # fmt: skip
         self._tried, self._guess = (new, states, end), (end, new.copy())
         return self._points_of(new)
+
+    def _pulled(self, reaction: Array) -> tuple[Array, Array]:
+        """Return arms and reaction (2, points, 3) with those of the body's own."""
+        if not len(self._own_arms):
+            return self.arms, np.ascontiguousarray(reaction)
+        own = np.stack([self._own_pulls, np.zeros_like(self._own_pulls)])
+        return np.concatenate([self.arms, self._own_arms]), np.concatenate([reaction, own], axis=1)
 
     def accept(self) -> None:
         """Keep the last tried step."""
@@ -440,13 +468,13 @@ class RigidCarrier:
         kernel.points_of(state, arms, place, _)
         water = calm.at(time, np.ascontiguousarray(place.T))
         water[3:7] = 0.0
+        arms, reaction = self._pulled(np.stack([pulls, np.zeros_like(pulls)]))
         huge = 1e12
         heavy = (huge * np.eye(6), np.zeros((6, 6)), np.zeros((6, 6)), *self._body[3:])
         result = np.empty(6)
         lumps = (*self.lumps[:5], np.zeros_like(self.lumps[5]))
         kernel.acceleration(
-            state, heavy, lumps, water, self._fluid, np.zeros(6), np.zeros(6), self.arms,
-            np.ascontiguousarray(pulls), result,
+            state, heavy, lumps, water, self._fluid, np.zeros(6), np.zeros(6), arms, reaction[0], result,
         )  # fmt: skip
         result[3:] = self.rotation @ result[3:]
         return huge * result

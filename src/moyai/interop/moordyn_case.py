@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from moyai.core.errors import InputError
-from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck, StiffnessTable
+from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_network import line_name, point_name, to_deck, water_of
+from moyai.interop.moordyn_records import StiffnessTable
 from moyai.interop.textfiles import read_lines
 
 if TYPE_CHECKING:
@@ -59,6 +60,12 @@ def case_text(
         When the deck gives no depth, its current turns over the height, or a motion is given for a point that is not
         coupled.
     """
+    if deck.bodies or deck.rods:
+        raise InputError(
+            f"{deck.source or 'the deck'} has bodies or rods whose parts no case file can hold",
+            path="bodies" if deck.bodies else "rods",
+            remedy="run the deck from Python: read_deck, to_system, find_rest, simulate_coupled",
+        )
     water = water_of(deck)
     motions = motions or {}
     coupled = [point.number for point in deck.points if point.kind == "coupled"]
@@ -94,7 +101,7 @@ def case_text(
     lines += [_point(point, point.number in motions) for point in deck.points]
     lines.append("  lines:")
     lines += [
-        f"    {line_name(line.number)}: {{start: {point_name(line.start)}, end: {point_name(line.end)}, "
+        f"    {line_name(line.number)}: {{start: {point_name(int(line.start))}, end: {point_name(int(line.end))}, "
         f"type: {_word(line.line_type)}, length: {_number(line.length)}, segments: {line.segments}}}"
         for line in deck.lines
     ]

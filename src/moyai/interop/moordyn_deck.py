@@ -12,30 +12,13 @@ from pathlib import Path
 from typing import Literal
 
 from moyai.core.errors import InputError
+from moyai.interop.moordyn_bodies import DeckBody, DeckRod, DeckRodType, attachment_word
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrent, DeckOption, StiffnessTable
 
-PointKind = Literal["fixed", "coupled", "free"]
+PointKind = Literal["fixed", "coupled", "free", "body"]
 
 #: Options that the file format gives a value when they are left out (manual of MoorDyn v2).
 FORMAT_DEFAULTS = {"g": 9.80665, "WtrDnsty": 1025.0, "kBot": 3.0e6, "cBot": 3.0e5, "FrictionCoefficient": 0.0}
-
-
-@dataclass(frozen=True)
-class StiffnessTable:
-    """Tension over strain, from a file that a line type names in place of EA.
-
-    Parameters
-    ----------
-    strain : tuple of float
-        Rising from 0 [-].
-    tension : tuple of float
-        Rising from 0 [N].
-    file : str
-        Name of the file, beside the deck.
-    """
-
-    strain: tuple[float, ...]
-    tension: tuple[float, ...]
-    file: str
 
 
 @dataclass(frozen=True)
@@ -83,16 +66,18 @@ class DeckPoint:
     ----------
     number : int
         Its ID.
-    kind : {"fixed", "coupled", "free"}
-        What moves it: nothing, a prescribed motion, its forces.
+    kind : {"fixed", "coupled", "free", "body"}
+        What moves it: nothing, a prescribed motion, its forces, the body that carries it.
     position : (float, float, float)
-        Start [m].
+        Start [m]; in body axes on a body.
     mass, volume, drag_area : float
         [kg], [m3], [m2].
     added_mass_coefficient : float
         On the volume [-].
     line : int
         Line of the file.
+    body : int
+        The body that carries it, 0 for none.
     """
 
     number: int
@@ -103,6 +88,7 @@ class DeckPoint:
     drag_area: float
     added_mass_coefficient: float
     line: int = field(default=0, compare=False)
+    body: int = 0
 
 
 @dataclass(frozen=True)
@@ -115,8 +101,8 @@ class DeckLine:
         Its ID.
     line_type : str
         Name of a line type.
-    start, end : int
-        IDs of the points at its ends A and B.
+    start, end : int or str
+        IDs of the points at its ends A and B, or ends of rods such as ``R1A``.
     length : float
         Unstretched [m].
     segments : int
@@ -129,47 +115,12 @@ class DeckLine:
 
     number: int
     line_type: str
-    start: int
-    end: int
+    start: int | str
+    end: int | str
     length: float
     segments: int
     outputs: str = "-"
     line: int = field(default=0, compare=False)
-
-
-@dataclass(frozen=True)
-class DeckOption:
-    """A row of OPTIONS.
-
-    Parameters
-    ----------
-    key : str
-        In the spelling of MoorDyn v2.
-    value : float or str
-        As the file has it.
-    line : int
-        Line of the file.
-    """
-
-    key: str
-    value: float | str
-    line: int = field(default=0, compare=False)
-
-
-@dataclass(frozen=True)
-class DeckCurrent:
-    """Steady current over the height, from ``current_profile.txt`` beside the deck.
-
-    Parameters
-    ----------
-    z : tuple of float
-        Heights [m], rising.
-    velocity : tuple of (float, float)
-        Horizontal components at them [m/s].
-    """
-
-    z: tuple[float, ...]
-    velocity: tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
@@ -188,6 +139,8 @@ class MoorDynDeck:
         When the option Currents is 1.
     seafloor_depth : float, optional
         Depth of a flat grid of depths [m].
+    rod_types, bodies, rods : tuple
+        Rows of ROD TYPES, BODIES and RODS.
     title : str
         Line that describes the deck.
     source : str
@@ -203,6 +156,9 @@ class MoorDynDeck:
     outputs: tuple[str, ...] = ()
     current: DeckCurrent | None = None
     seafloor_depth: float | None = None
+    rod_types: tuple[DeckRodType, ...] = ()
+    bodies: tuple[DeckBody, ...] = ()
+    rods: tuple[DeckRod, ...] = ()
     title: str = field(default="", compare=False)
     source: str = field(default="", compare=False)
     notes: tuple[str, ...] = field(default=(), compare=False)
@@ -243,9 +199,6 @@ class MoorDynDeck:
         )
 
 
-_KIND_NAMES: dict[PointKind, str] = {"fixed": "Fixed", "coupled": "Coupled", "free": "Free"}
-
-
 def _title(name: str) -> str:
     return f"---------------------- {name} ".ljust(100, "-")
 
@@ -263,6 +216,45 @@ def _columns(names: str, units: str, rows: Iterable[Iterable[str]]) -> list[str]
     return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
 
 
+def _body_sections(deck: MoorDynDeck) -> list[str]:
+    """Return the sections ROD TYPES, BODIES and RODS of a deck that has them."""
+    text: list[str] = []
+    if deck.rod_types:
+        rows: list[Iterable[str]] = [
+            (
+                t.name, *map(_digits, (t.diameter, t.mass_per_length, t.drag_normal, t.added_mass_normal)),
+                _digits(t.drag_end), _digits(t.added_mass_end),
+            )
+            for t in deck.rod_types
+        ]  # fmt: skip
+        names, units = "TypeName Diam Mass/m Cd Ca CdEnd CaEnd", "(name) (m) (kg/m) (-) (-) (-) (-)"
+        text += [_title("ROD TYPES"), *_columns(names, units, rows)]
+    if deck.bodies:
+        rows = [
+            (
+                str(b.number), attachment_word(b.kind, 0), *map(_digits, (*b.position, *b.angles, b.mass)),
+                "|".join(map(_digits, b.centre)), "|".join(map(_digits, b.inertia)), _digits(b.volume),
+                "|".join(map(_digits, b.drag_area)), "|".join(map(_digits, b.added_mass)),
+            )
+            for b in deck.bodies
+        ]  # fmt: skip
+        names = "ID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG* I* Volume CdA* Ca*"
+        units = "(#) (-) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)"
+        text += [_title("BODIES"), *_columns(names, units, rows)]
+    if deck.rods:
+        rows = [
+            (
+                str(r.number), r.rod_type, attachment_word(r.kind, r.body), *map(_digits, (*r.start, *r.end)),
+                str(r.segments), r.outputs,
+            )
+            for r in deck.rods
+        ]  # fmt: skip
+        names = "ID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs RodOutputs"
+        units = "(#) (name) (#/key) (m) (m) (m) (m) (m) (m) (-) (-)"
+        text += [_title("RODS"), *_columns(names, units, rows)]
+    return text
+
+
 def deck_text(deck: MoorDynDeck) -> str:
     """Return the text of a MoorDyn v2 input file; every number keeps all its digits."""
     kinds = [
@@ -276,8 +268,8 @@ def deck_text(deck: MoorDynDeck) -> str:
     ]  # fmt: skip
     points = [
         (
-            str(p.number), _KIND_NAMES[p.kind], *map(_digits, p.position), _digits(p.mass), _digits(p.volume),
-            _digits(p.drag_area), _digits(p.added_mass_coefficient),
+            str(p.number), attachment_word(p.kind, p.body), *map(_digits, p.position), _digits(p.mass),
+            _digits(p.volume), _digits(p.drag_area), _digits(p.added_mass_coefficient),
         )
         for p in deck.points
     ]  # fmt: skip
@@ -294,6 +286,7 @@ def deck_text(deck: MoorDynDeck) -> str:
             "(name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)",
             kinds,
         ),
+        *_body_sections(deck),
         _title("POINTS"),
         *_columns("ID Type X Y Z Mass Volume CdA Ca", "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)", points),
         _title("LINES"),
@@ -351,7 +344,3 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
         heading = ["--- MoorDyn steady currents File", "Water currents", "z (m), ux (m/s), uy (m/s), uz (m/s)"]
         (place.parent / CURRENT_FILE).write_text("\n".join([*heading, *rows, ""]), encoding="utf-8")
     return place
-
-
-#: Name that MoorDyn gives the profile of a steady current, beside the deck.
-CURRENT_FILE = "current_profile.txt"

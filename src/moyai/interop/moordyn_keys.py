@@ -16,6 +16,14 @@ SECTIONS = {
     "LINES": "lines",
     "LINE PROPERTIES": "lines",
     "LINE LIST": "lines",
+    "ROD TYPES": "rod types",
+    "ROD DICTIONARY": "rod types",
+    "RODS": "rods",
+    "ROD LIST": "rods",
+    "ROD PROPERTIES": "rods",
+    "BODIES": "bodies",
+    "BODY LIST": "bodies",
+    "BODY PROPERTIES": "bodies",
     "OPTIONS": "options",
     "SOLVER OPTIONS": "options",
     "OUTPUTS": "outputs",
@@ -24,14 +32,6 @@ SECTIONS = {
 
 #: Sections whose rows this reader refuses, and why.
 REFUSED_SECTIONS = {
-    "ROD TYPES": "",
-    "ROD DICTIONARY": "",
-    "RODS": "rods are not read",
-    "ROD LIST": "rods are not read",
-    "ROD PROPERTIES": "rods are not read",
-    "BODIES": "bodies are not read",
-    "BODY LIST": "bodies are not read",
-    "BODY PROPERTIES": "bodies are not read",
     "FAILURE": "failing lines are not read",
     "CONTROL": "lines of controlled length are not read",
     "EXTERNAL LOADS": "external loads are not read",
@@ -51,7 +51,7 @@ LINE_TYPE_COLUMNS = {
     "ca": "added_mass_normal", "can": "added_mass_normal",
     "cdax": "drag_axial", "cdt": "drag_axial",
     "caax": "added_mass_axial", "cat": "added_mass_axial",
-    "cl": "lift", "df": "lift_range", "cf": "lift_frequency",
+    "tbd": "unused", "cl": "lift", "df": "lift_range", "cf": "lift_frequency",
 }  # fmt: skip
 POINT_COLUMNS = {
     "id": "number", "node": "number", "point": "number", "connection": "number",
@@ -80,9 +80,10 @@ LINE_TYPE_ORDER = (
 
 #: Columns that a section may go without (version 1 had no bending stiffness, OUTPUTS flags may be left out).
 MAY_MISS = {
-    "line types": {"bending_stiffness", "lift", "lift_range", "lift_frequency"},
+    "line types": {"unused", "bending_stiffness", "lift", "lift_range", "lift_frequency"},
     "points": {"force x", "force y", "force z"},
     "lines": {"outputs"},
+    "rods": {"outputs"},
 }
 
 POINT_KINDS = {

@@ -14,6 +14,7 @@ What differs between the two models, and how it is met:
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -25,14 +26,16 @@ from moyai.flexible.network import DRIVEN, FIXED, BarType, Bed, Network, RopeCur
 from moyai.interop.moordyn_deck import (
     DeckLine,
     DeckLineType,
-    DeckOption,
     DeckPoint,
     MoorDynDeck,
     PointKind,
-    StiffnessTable,
 )
+from moyai.interop.moordyn_records import DeckOption, StiffnessTable
 from moyai.sea.current import table as current_table
 from moyai.sea.water import Water
+
+#: Density that stands for no water at all [kg/m3].
+TRACE = 1e-9
 
 
 def point_name(number: int) -> str:
@@ -59,7 +62,9 @@ def water_of(deck: MoorDynDeck) -> Water:
             f"{deck.source or 'the deck'} gives no water depth", path="WtrDpth", remedy="pass the water to to_network"
         )
     density, gravity = deck.number("WtrDnsty"), deck.number("g")
-    return Water(depth, density if density is not None else math.nan, gravity if gravity is not None else math.nan)
+    # a deck without water is run in a trace of it
+    thin = TRACE if density == 0.0 else density
+    return Water(depth, thin if thin is not None else math.nan, gravity if gravity is not None else math.nan)
 
 
 def flow_of(deck: MoorDynDeck) -> Flow:
@@ -131,32 +136,56 @@ def to_network(deck: MoorDynDeck, *, water: Water | None = None, segments: int |
     InputError
         No depth; a network that :class:`moyai.flexible.network.Network` refuses.
     """
+    if deck.bodies or deck.rods:
+        raise InputError(
+            f"{deck.source or 'the deck'} has bodies or rods, which are more than a network",
+            path="bodies" if deck.bodies else "rods", remedy="to_system of moyai.interop.moordyn_system gives both",
+        )  # fmt: skip
     site = water or water_of(deck)
-    stiffness, damping, friction = (deck.number(key) or 0.0 for key in ("kBot", "cBot", "FrictionCoefficient"))
-    builder = NetworkBuilder(
-        site, Bed(-site.depth, stiffness, damping, friction) if math.isfinite(site.depth) else None
-    )
+    builder = builder_of(deck, site)
     for point in deck.points:
-        name = point_name(point.number)
-        if point.kind == "fixed":
-            builder.fixed(name, point.position)
-        elif point.kind == "coupled":
-            builder.driven(name, point.position)
-        else:
-            builder.free(
-                name, point.position, mass=point.mass, volume=point.volume, drag_area=point.drag_area,
-                added_mass=point.added_mass_coefficient * site.density * point.volume,
-            )  # fmt: skip
+        add_point(builder, point, site)
+    add_lines(builder, deck, segments)
+    return builder.build()
+
+
+def builder_of(deck: MoorDynDeck, site: Water) -> NetworkBuilder:
+    """Return the builder of the network of a deck, with its bed."""
+    stiffness, damping, friction = (deck.number(key) or 0.0 for key in ("kBot", "cBot", "FrictionCoefficient"))
+    bed = Bed(-site.depth, stiffness, damping, friction) if math.isfinite(site.depth) else None
+    return NetworkBuilder(site, bed)
+
+
+def add_point(builder: NetworkBuilder, point: DeckPoint, site: Water) -> None:
+    """Add a point of a deck that no body carries."""
+    name = point_name(point.number)
+    if point.kind == "fixed":
+        builder.fixed(name, point.position)
+    elif point.kind == "coupled":
+        builder.driven(name, point.position)
+    else:
+        builder.free(
+            name, point.position, mass=point.mass, volume=point.volume, drag_area=point.drag_area,
+            added_mass=point.added_mass_coefficient * site.density * point.volume,
+        )  # fmt: skip
+
+
+def add_lines(
+    builder: NetworkBuilder,
+    deck: MoorDynDeck,
+    segments: int | None,
+    name_of: Callable[[int | str], str] = lambda end: point_name(int(end)),
+) -> None:
+    """Add the lines of a deck; ``name_of`` gives the point of the network at an end of a line."""
     made: dict[tuple[str, float], BarType] = {}
     for line in deck.lines:
         own = line.length / line.segments
         if (line.line_type, own) not in made:
             made[line.line_type, own] = bar_type(deck.line_type(line.line_type), own)
         builder.line(
-            line_name(line.number), point_name(line.start), point_name(line.end), made[line.line_type, own],
+            line_name(line.number), name_of(line.start), name_of(line.end), made[line.line_type, own],
             length=line.length, segments=segments or line.segments,
         )  # fmt: skip
-    return builder.build()
 
 
 def to_deck(network: Network, *, title: str = "") -> MoorDynDeck:

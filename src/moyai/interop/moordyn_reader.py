@@ -15,14 +15,19 @@ from typing import Any
 
 from moyai.core.errors import CaseError
 from moyai.interop import moordyn_keys as keys
-from moyai.interop.moordyn_deck import (
-    CURRENT_FILE,
-    DeckLine,
-    DeckLineType,
-    DeckOption,
-    DeckPoint,
-    MoorDynDeck,
+from moyai.interop.moordyn_bodies import (
+    BODY_COLUMNS,
+    ROD_COLUMNS,
+    ROD_TYPE_COLUMNS,
+    DeckBody,
+    DeckRod,
+    body_number,
+    read_bodies,
+    read_rod_types,
+    read_rods,
 )
+from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, read_current, read_flat_depth, read_stiffness
 from moyai.interop.textfiles import parse_number, read_lines
 
@@ -78,6 +83,8 @@ def _table(
 ) -> tuple[list[str], list[Row]]:
     """Return the columns and the rows of a section: names, units, then rows."""
     if section not in sections:
+        if section not in ("line types", "points", "lines") or "rods" in sections or "bodies" in sections:
+            return [], []
         faults.add(0, f"section {section.upper()} is missing", path=section)
         return [], []
     top, body = sections[section]
@@ -89,7 +96,9 @@ def _table(
     head, units = body[0], body[1]
     names: list[str] = []
     for word in _tokens(head[1]):
-        column = columns.get(word.lower())
+        # the third angle of a body has the name of its second coordinate
+        second = section == "bodies" and word.lower() == "y0" and "y" in names
+        column = "yaw" if second else columns.get(word.lower())
         if column is None:
             faults.add(
                 head[0], f"unknown column {word!r}", ", ".join(columns), _suggest(word.lower(), columns), section
@@ -125,6 +134,8 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
             faults.add(
                 row.line, "vortex-induced vibration (Cl, dF, cF) is not read", "0 or no such column", path="lift"
             )
+        if parse_number(row.cells.get("unused", "0")) != 0.0:
+            faults.add(row.line, "the column 'tbd' has no meaning", "0", path="tbd")
         name = row.cells.get("name", "")
         if any(kind.name == name for kind in found):
             faults.add(row.line, f"two line types are named {name!r}", path="line types")
@@ -149,16 +160,22 @@ def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults)
     return tuple(found)
 
 
-def _points(rows: list[Row], faults: Faults) -> tuple[DeckPoint, ...]:
+def _points(rows: list[Row], bodies: tuple[DeckBody, ...], faults: Faults) -> tuple[DeckPoint, ...]:
     found: list[DeckPoint] = []
+    known = [body.number for body in bodies]
     for row in rows:
         word = row.cells.get("kind", "")
-        kind = keys.POINT_KINDS.get(word.lower())
-        if kind is None:
-            hung = re.match(r"(body|b|rod|r|turbine|t)\d", word.lower())
+        body = body_number(word)
+        kind = "body" if body else keys.POINT_KINDS.get(word.lower())
+        if body and body not in known:
             faults.add(
-                row.line, f"type of point is {word!r}" + (": points on bodies and rods are not read" if hung else ""),
-                "Fixed, Coupled (Vessel), Free", _suggest(word.lower(), keys.POINT_KINDS), "points",
+                row.line, f"the point is on body {body}, which is not there", ", ".join(map(str, known)) or "none"
+            )
+        if kind is None:
+            hung = re.match(r"(rod|r|turbine|t)\d", word.lower())
+            faults.add(
+                row.line, f"type of point is {word!r}" + (": points on rods and turbines are not read" if hung else ""),
+                "Fixed, Coupled (Vessel), Free, Body1 ...", _suggest(word.lower(), keys.POINT_KINDS), "points",
             )  # fmt: skip
         for axis in ("force x", "force y", "force z"):
             if parse_number(row.cells.get(axis, "0")) != 0.0:
@@ -171,12 +188,18 @@ def _points(rows: list[Row], faults: Faults) -> tuple[DeckPoint, ...]:
             faults.number(row, key, least=0.0) for key in ("mass", "volume", "drag_area", "added_mass_coefficient")
         )
         choice: Any = kind or "fixed"
-        found.append(DeckPoint(number, choice, (place[0], place[1], place[2]), mass, volume, area, added, row.line))
+        found.append(
+            DeckPoint(number, choice, (place[0], place[1], place[2]), mass, volume, area, added, row.line, body)
+        )
     return tuple(found)
 
 
 def _lines(
-    rows: list[Row], kinds: tuple[DeckLineType, ...], points: tuple[DeckPoint, ...], faults: Faults
+    rows: list[Row],
+    kinds: tuple[DeckLineType, ...],
+    points: tuple[DeckPoint, ...],
+    rods: tuple[DeckRod, ...],
+    faults: Faults,
 ) -> tuple[DeckLine, ...]:
     found: list[DeckLine] = []
     known = [point.number for point in points]
@@ -188,12 +211,18 @@ def _lines(
         types = [kind.name for kind in kinds]
         if name not in types:
             faults.add(row.line, f"no line type {name!r}", ", ".join(types), _suggest(name, types), "line_type")
-        ends = []
+        ends: list[int | str] = []
         for key in ("start", "end"):
             text = row.cells.get(key, "")
-            if re.match(r"[rR]\d+[abAB]$", text):
-                faults.add(row.line, f"{key} is {text!r}: lines on rods are not read", "the ID of a point", path=key)
-                ends.append(0)
+            on_rod = re.fullmatch(r"(?:rod|r)(\d+)([ab])", text.lower())
+            if on_rod:
+                ends.append(f"R{on_rod[1]}{on_rod[2].upper()}")
+                there = [rod.number for rod in rods]
+                if int(on_rod[1]) not in there:
+                    faults.add(
+                        row.line, f"{key} is on rod {on_rod[1]}, which is not there",
+                        ", ".join(map(str, there)) or "none", path=key,
+                    )  # fmt: skip
                 continue
             end = faults.whole(row, key)
             if end and end not in known:
@@ -269,7 +298,7 @@ def _check_site(deck: MoorDynDeck, faults: Faults) -> None:
     depth = deck.seafloor_depth if deck.seafloor_depth is not None else deck.number("WtrDpth")
     held = {end for line in deck.lines for end in (line.start, line.end)}
     for point in deck.points:
-        if depth is not None and point.kind != "fixed" and point.position[2] < -1.02 * depth:
+        if depth is not None and point.kind not in ("fixed", "body") and point.position[2] < -1.02 * depth:
             faults.add(
                 point.line, f"point {point.number} at z = {point.position[2]:g} m is under the bed",
                 f"{-depth:g} or more", path="points",
@@ -296,8 +325,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     InputError
         When the file is absent or empty.
     CaseError
-        All faults at once, each with its line: missing and unknown sections, columns, options; rods, bodies, failures
-        and other parts of the format that have no counterpart here; numbers out of range; points and line types that
+        All faults at once, each with its line: missing and unknown sections, columns, options; failures and other
+        parts of the format that have no counterpart here; numbers out of range; points and line types that
         are not there.
     """
     place = Path(path)
@@ -315,8 +344,11 @@ def read_deck(path: str | Path) -> MoorDynDeck:
             f"line {kind_rows[0].line - 2 if kind_rows else 0}: the columns of LINE TYPES stand in another order than "
             "MoorDyn v2 takes them; they are read by their headings"
         )
-    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults)[1], faults)
-    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults)[1], kinds, points, faults)
+    rod_types = read_rod_types(_table("rod types", sections, ROD_TYPE_COLUMNS, faults)[1], faults)
+    bodies = read_bodies(_table("bodies", sections, BODY_COLUMNS, faults)[1], faults)
+    rods = read_rods(_table("rods", sections, ROD_COLUMNS, faults)[1], rod_types, bodies, faults)
+    points = _points(_table("points", sections, keys.POINT_COLUMNS, faults)[1], bodies, faults)
+    rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults)[1], kinds, points, rods, faults)
     options = _options(sections.get("options", (0, []))[1], faults, notes)
     _check_option_values(options, faults)
     current, depth = None, None
@@ -329,7 +361,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     outputs = outputs[: outputs.index("END")] if "END" in outputs else outputs
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
     deck = MoorDynDeck(
-        kinds, points, rows, options, tuple(outputs), current, depth, title, place.name, tuple(notes)
+        kinds, points, rows, options, tuple(outputs), current, depth, rod_types, bodies, rods, title, place.name,
+        tuple(notes),
     )  # fmt: skip
     _check_site(deck, faults)
     if faults.found:

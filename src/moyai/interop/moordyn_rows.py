@@ -9,7 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from moyai.core.errors import Fault
-from moyai.interop.moordyn_deck import CURRENT_FILE, DeckCurrent, DeckOption, StiffnessTable
+from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrent, DeckOption, StiffnessTable
 from moyai.interop.textfiles import parse_number, read_lines
 
 

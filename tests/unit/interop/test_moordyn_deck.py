@@ -3,9 +3,9 @@
 import pytest
 
 from moyai.core.errors import CaseError, InputError
-from moyai.interop.moordyn_deck import StiffnessTable
 from moyai.interop.moordyn_output import read_output
 from moyai.interop.moordyn_reader import read_deck
+from moyai.interop.moordyn_records import StiffnessTable
 
 VERSION_2 = """\
 --------------------- MoorDyn Input File ------------------------------------
@@ -125,14 +125,14 @@ def test_line_ends_and_foreign_letters(tmp_path):
         ("2     chain      7        2 ", "2     chain      7        5 ", 17, ("point 5", "1, 2, 7")),
         ("2     chain      7        2 ", "2     chain      7        7 ", 17, ("starts and ends at point 7",)),
         ("2     chain      7        2 ", "1     chain      7        2 ", 17, ("two lines have the ID 1",)),
-        ("2     chain      7        2 ", "2     chain      R1A      2 ", 17, ("rods are not read",)),
+        ("2     chain      7        2 ", "2     chain      R1A      2 ", 17, ("rod 1, which is not there",)),
         ("70.0      14 ", "-70.0     14 ", 17, ("length is -70", "greater than 0")),
         ("70.0      14 ", "70.0      0 ", 17, ("segments is '0'",)),
         ("70.0      14 ", "70.0      1.5 ", 17, ("segments is '1.5'",)),
         ("70.0      14      -", "70.0      14      -   9", 17, ("8 columns", "7: ID LineType")),
         ("7     Free ", "2     Free ", 12, ("two points have the ID 2",)),
         ("7     Free ", "7     Fre ", 12, ("type of point is 'Fre'", "did you mean 'free'")),
-        ("7     Free ", "7     Body1 ", 12, ("points on bodies and rods",)),
+        ("7     Free ", "7     Body1 ", 12, ("on body 1, which is not there",)),
         ("1.0     -35.0   500 ", "1.0     -45.0   500 ", 12, ("under the bed",)),
         ("500    0.1 ", "-500   0.1 ", 12, ("mass is -500", "0 or more")),
         ("500    0.1     0.4    0.5", "500    0.1     0.4", 12, ("8 columns", "9: ID Type")),
@@ -168,12 +168,6 @@ def test_all_mistakes_at_once_in_the_order_of_the_file(tmp_path):
     text = VERSION_2.replace("5.1e8 ", "-1 ").replace("500    0.1 ", "x    0.1 ").replace("dtM  ", "dtMM  ")
     faults = faults_of(tmp_path, text)
     assert [fault.line for fault in faults] == [6, 12, 19]
-
-
-def test_rods_and_bodies_are_named(tmp_path):
-    rods = "--- RODS ---\nID RodType Attachment Xa Ya Za Xb Yb Zb\n(#) (-) (-)\n1 can Fixed 0 0 0 1 0 0\n"
-    text = VERSION_2.replace("---------------------- LINES", f"{rods}---------------------- LINES")
-    assert [fault.message for fault in faults_of(tmp_path, text)] == ["section RODS with 1 row(s): rods are not read"]
 
 
 def test_empty_and_absent_files(tmp_path):

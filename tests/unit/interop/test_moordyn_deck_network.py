@@ -10,18 +10,10 @@ from moyai.core.errors import CaseError, InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.network import DRIVEN, FIXED, FREE, BarType, Bed, RopeCurve
 from moyai.flexible.statics import solve_equilibrium
-from moyai.interop.moordyn_deck import (
-    DeckCurrent,
-    DeckLine,
-    DeckLineType,
-    DeckOption,
-    DeckPoint,
-    MoorDynDeck,
-    StiffnessTable,
-    write_deck,
-)
+from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck, write_deck
 from moyai.interop.moordyn_network import flow_of, line_name, point_name, to_deck, to_network, water_of
 from moyai.interop.moordyn_reader import read_deck
+from moyai.interop.moordyn_records import DeckCurrent, DeckOption, StiffnessTable
 from moyai.mooring.catenary import solve_catenary
 from moyai.sea.water import Water
 
