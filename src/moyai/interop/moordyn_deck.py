@@ -6,7 +6,7 @@ Read with :func:`moyai.interop.moordyn_reader.read_deck`; turned into a network 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -216,6 +216,24 @@ def _columns(names: str, units: str, rows: Iterable[Iterable[str]]) -> list[str]
     return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
 
 
+def _shortest(areas: tuple[float, ...]) -> str:
+    """Return six areas as two, along and about all axes, or three, the same along and about each, where they allow it.
+
+    MoorDyn 2.7.2 does not give the drag of six areas to a body that six equal ones describe.
+    """
+    along, about = areas[:3], areas[3:]
+    if len(set(along)) == len(set(about)) == 1:
+        areas = (along[0],) if along == about else (along[0], about[0])
+    elif along == about:
+        areas = along
+    return "|".join(map(_digits, areas))
+
+
+def _section(name: str, names: str, units: str, rows: Sequence[Iterable[str]], keep: bool) -> list[str]:
+    """Return a section; nothing for one without rows, unless it is to be kept."""
+    return [_title(name), *_columns(names, units, rows)] if rows or keep else []
+
+
 def _body_sections(deck: MoorDynDeck) -> list[str]:
     """Return the sections ROD TYPES, BODIES and RODS of a deck that has them."""
     text: list[str] = []
@@ -234,7 +252,7 @@ def _body_sections(deck: MoorDynDeck) -> list[str]:
             (
                 str(b.number), attachment_word(b.kind, 0), *map(_digits, (*b.position, *b.angles, b.mass)),
                 "|".join(map(_digits, b.centre)), "|".join(map(_digits, b.inertia)), _digits(b.volume),
-                "|".join(map(_digits, b.drag_area)), "|".join(map(_digits, b.added_mass)),
+                _shortest(b.drag_area), "|".join(map(_digits, b.added_mass)),
             )
             for b in deck.bodies
         ]  # fmt: skip
@@ -277,20 +295,29 @@ def deck_text(deck: MoorDynDeck) -> str:
         (str(n.number), n.line_type, str(n.start), str(n.end), _digits(n.length), str(n.segments), n.outputs)
         for n in deck.lines
     ]
+    # MoorDyn takes no empty sections, and needs none of these three beside bodies or rods
+    keep = not (deck.bodies or deck.rods)
     text = [
         _title("MoorDyn Input File"),
         deck.title or "moored lines",
-        _title("LINE TYPES"),
-        *_columns(
+        *_section(
+            "LINE TYPES",
             "TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx",
             "(name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)",
             kinds,
+            keep,
         ),
         *_body_sections(deck),
-        _title("POINTS"),
-        *_columns("ID Type X Y Z Mass Volume CdA Ca", "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)", points),
-        _title("LINES"),
-        *_columns("ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs", "(#) (name) (#) (#) (m) (-) (-)", lines),
+        *_section(
+            "POINTS", "ID Type X Y Z Mass Volume CdA Ca", "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)", points, keep
+        ),
+        *_section(
+            "LINES",
+            "ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs",
+            "(#) (name) (#) (#) (m) (-) (-)",
+            lines,
+            keep,
+        ),
         _title("OPTIONS"),
         *[f"{o.value if isinstance(o.value, str) else _digits(o.value):<24}{o.key}" for o in deck.options],
     ]
