@@ -49,7 +49,11 @@ def test_signals_end_a_long_run_with_a_partial_result(case_file, tmp_path, numbe
     case_file.write_text(text, encoding="utf-8")
     out = tmp_path / "out"
     command = [sys.executable, "-m", "moyai.cli.main", "run", str(case_file), "--output", str(out), "--no-report"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ))
+    # a suite that runs in the background of a shell hands down interrupts as ignored
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ),
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
     deadline = time.monotonic() + 120.0
     while not out.exists() and time.monotonic() < deadline:
         time.sleep(0.1)
