@@ -241,3 +241,12 @@ def test_figures_show_first_what_varies_from_case_to_case(tmp_path):
 def test_a_rose_bridges_no_wide_gap_between_headings(degrees, order, closed):
     found, shut = study_drawings._round(np.array(degrees))
     assert [degrees[at] for at in found] == order and shut is closed
+
+
+def test_a_watched_response_that_no_case_keeps_is_told(tmp_path):
+    for watch, told in (("SWL/tension", []), ("SWL/tensoin", ["watch-not-kept"])):
+        folder = tmp_path / watch[-3:]
+        folder.mkdir()
+        study = load_study(study_cases.write_text(folder, GRID, watch=watch))
+        result = assess(study, run_study(study, folder / "out", study_cases.fast_case, workers=1), None)
+        assert [notice.code for notice in result.notices if notice.code.startswith("watch")] == told
