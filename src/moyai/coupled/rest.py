@@ -237,6 +237,8 @@ class _Search:
                 self.back(kept)
                 self.state, part = state, 0.5 * part
             force = new
+        # the slope was taken beside the rest: network and bodies are put back together
+        force = self.imbalance()
         left = float(np.max(np.abs(force), initial=0.0)) / self.scale
         if not left <= max(tolerance, 1e-6):
             worst = list(self.bodies)[int(np.argmax(np.abs(force))) // 6]
