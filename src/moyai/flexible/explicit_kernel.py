@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from moyai.flexible.mass_block_kernel import block_energy, block_loads, kick_blocks, set_frames
+from moyai.flexible.mass_block_kernel import STALE, block_energy, block_loads, kick_blocks, refresh_inverse, set_frames
 from moyai.flexible.panel_kernel import screen_loads
 from moyai.flexible.ring_kernel import ring_loads
 from moyai.flexible.sheet_kernel import sheet_energy, sheet_forces, sheet_loads
@@ -430,8 +430,9 @@ def kick_sections(A: Any, blocks: Any, push: float, level: float) -> None:
 @njit(cache=True, error_model="numpy")
 def section_loads(A: Any, blocks: Any, moving: bool, light: Any) -> None:
     """Turn the frames of dense mass blocks, add their loads, and take their nodes out of the kick of all nodes."""
-    nodes, guides, frames, added, _, _, own, whole = blocks
+    nodes, guides, frames, added, inverse, _, own, whole = blocks
     set_frames(nodes, guides, frames, A, X, ROW, whole)
+    refresh_inverse(nodes, frames, added, inverse, own, A, FREE_X, ROW, STALE)
     block_loads(nodes, guides, frames, added, A, U, WU, QX, ROW, moving, whole)
     for g in range(nodes.shape[0]):
         for i in range(nodes.shape[1]):

@@ -13,8 +13,14 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-#: What is known of each node of a block: cosine, sine, root of the stretch, and the first length of its cable [m].
-COS, SIN, ROOT, LENGTH = range(4)
+#: What is known of each node of a block: cosine, sine, root of the stretch, the first length of its cable [m], and what
+#: the own mass was multiplied with for the normal and for the vertical unknown when the inverse was last taken.
+COS, SIN, ROOT, LENGTH, FLAT, UPRIGHT, COLUMNS = range(7)
+#: Own mass that is missing in the inverse, over the whole mass, beyond which the inverse is taken again; the kick takes
+#: out what is missing to the first order, so that its square is left.
+STALE = 0.005
+#: Least part of the normal along the one axis on which a node is free.
+FACING = 1e-3
 
 
 @njit(cache=True, error_model="numpy")
@@ -28,6 +34,92 @@ def set_frames(nodes: Any, guides: Any, frames: Any, P: Any, p0: int, axis: int,
             if size > 0.0:
                 frames[g, i, COS], frames[g, i, SIN] = dx / size, dy / size
             frames[g, i, ROOT] = math.sqrt(max(size / frames[g, i, LENGTH], 1e-12)) if stretch else 1.0
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def _lever(c: float, s: float, r: float, mx: float, my: float) -> float:
+    """Return the local unknown per velocity: along the normal, or along the one horizontal axis that is free."""
+    if mx > 0.0 and my > 0.0:
+        return r
+    part = s if mx > 0.0 else -c
+    return r * math.copysign(max(abs(part), FACING), part)
+
+
+@njit(cache=True, error_model="numpy")
+def _inverse(whole: Any, moves: Any, out: Any) -> None:
+    """Write the inverse of a positive symmetric matrix over the unknowns that move, zero elsewhere.
+
+    ``whole`` is overwritten: Cholesky's factor, its inverse, and the product of that with its transpose.
+    """
+    size = whole.shape[0]
+    for i in range(size):
+        for j in range(i + 1):
+            out[i, j] = out[j, i] = 0.0
+        if moves[i] == 0.0:
+            for j in range(size):
+                whole[i, j] = whole[j, i] = 0.0
+            whole[i, i] = 1.0
+    for j in range(size):
+        for k in range(j):
+            part = whole[j, k]
+            if part != 0.0:
+                for i in range(j, size):
+                    whole[i, j] -= whole[i, k] * part
+        root = 1.0 / math.sqrt(whole[j, j])
+        for i in range(j, size):
+            whole[i, j] *= root
+    # the factor's inverse, row by row, over the factor
+    for i in range(size):
+        low = 1.0 / whole[i, i]
+        for j in range(i):
+            total = 0.0
+            for k in range(j, i):
+                total += whole[i, k] * whole[k, j]
+            out[i, j] = -low * total
+        for j in range(i):
+            whole[i, j] = out[i, j]
+        whole[i, i] = low
+    for i in range(size):
+        for j in range(i + 1):
+            total = 0.0
+            for k in range(i, size):
+                total += whole[k, i] * whole[k, j]
+            out[i, j] = out[j, i] = total
+        if moves[i] == 0.0:
+            out[i, i] = 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def refresh_inverse(
+    nodes: Any, frames: Any, added: Any, inverse: Any, own: Any, A: Any, free: int, axis: int, stale: float
+) -> None:  # fmt: skip
+    """Take the inverse of the whole mass of those sections anew in which it is out of date by more than ``stale``.
+
+    Local unknowns stretch with the section, the own mass does not: to a local unknown ``g`` times a velocity the own
+    mass counts over ``g`` squared.
+    """
+    count = nodes.shape[1]
+    whole, moves, share = np.empty((2 * count, 2 * count)), np.empty(2 * count), np.empty(2 * count)
+    for g in range(nodes.shape[0]):
+        late = False
+        for i in range(count):
+            at = free + nodes[g, i]
+            mx, my, mz = A[at], A[at + axis], A[at + 2 * axis]
+            r = frames[g, i, ROOT]
+            lever = _lever(frames[g, i, COS], frames[g, i, SIN], r, mx, my)
+            share[i], share[count + i] = 1.0 / (lever * lever), 1.0 / (r * r)
+            moves[i], moves[count + i] = max(mx, my), mz
+            late |= own[g, i] * abs(share[i] - frames[g, i, FLAT]) * inverse[g, i, i] > stale
+            late |= own[g, i] * abs(share[count + i] - frames[g, i, UPRIGHT]) * inverse[g, count + i, count + i] > stale
+        if not late:
+            continue
+        for i in range(2 * count):
+            for j in range(2 * count):
+                whole[i, j] = added[g, i, j]
+            whole[i, i] += own[g, i % count] * share[i]
+        _inverse(whole, moves, inverse[g])
+        for i in range(count):
+            frames[g, i, FLAT], frames[g, i, UPRIGHT] = share[i], share[count + i]
 
 
 @njit(cache=True, error_model="numpy")
@@ -57,24 +149,30 @@ def kick_blocks(
 
     ``force`` names the rows that hold the whole force of each node, ``free`` those that hold 1 where it may move.
     ``inverse`` is the inverse of the whole mass over the local unknowns, ``light`` that of each node along the cable,
-    ``own`` the mass of each node without water.
+    ``own`` the mass of each node without water. A node that is held along x or y moves by the force along the other
+    axis alone.
     """
     count = nodes.shape[1]
     f, kick, rest = np.empty(2 * count), np.empty(2 * count), np.empty(2 * count)
+    lever = np.empty(count)
     for g in range(nodes.shape[0]):
         for i in range(count):
-            at = force + nodes[g, i]
+            at, mobile = force + nodes[g, i], free + nodes[g, i]
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
-            f[i], f[count + i] = (s * A[at] - c * A[at + axis]) / r, A[at + 2 * axis] / r
+            mx, my = A[mobile], A[mobile + axis]
+            lever[i] = _lever(c, s, r, mx, my)
+            across = s * A[at] - c * A[at + axis] if mx > 0.0 and my > 0.0 else mx * A[at] + my * A[at + axis]
+            f[i], f[count + i] = across / lever[i], A[at + 2 * axis] / r
         for i in range(2 * count):
             row = 0.0
             for j in range(2 * count):
                 row += inverse[g, i, j] * f[j]
             kick[i] = push * row
-        # the own mass does not stretch with the section: one step of an iteration takes it out again
+        # what the section has stretched and turned since the inverse was taken: one step of an iteration
         for i in range(count):
-            more = own[g, i] * (1.0 / (frames[g, i, ROOT] * frames[g, i, ROOT]) - 1.0)
-            rest[i], rest[count + i] = more * kick[i], more * kick[count + i]
+            r = frames[g, i, ROOT]
+            rest[i] = own[g, i] * (1.0 / (lever[i] * lever[i]) - frames[g, i, FLAT]) * kick[i]
+            rest[count + i] = own[g, i] * (1.0 / (r * r) - frames[g, i, UPRIGHT]) * kick[count + i]
         for i in range(2 * count):
             row = 0.0
             for j in range(2 * count):
@@ -85,27 +183,39 @@ def kick_blocks(
         for i in range(count):
             at, to = force + nodes[g, i], vel + nodes[g, i]
             c, s, r = frames[g, i, COS], frames[g, i, SIN], frames[g, i, ROOT]
-            along = push * light[g, i] * (c * A[at] + s * A[at + axis])
             mobile = free + nodes[g, i]
-            A[to] += A[mobile] * (s * kick[i] / r + c * along)
-            A[to + axis] += A[mobile + axis] * (s * along - c * kick[i] / r)
+            mx, my = A[mobile], A[mobile + axis]
+            if mx > 0.0 and my > 0.0:
+                along = push * light[g, i] * (c * A[at] + s * A[at + axis])
+                A[to] += s * kick[i] / r + c * along
+                A[to + axis] += s * along - c * kick[i] / r
+            else:
+                A[to] += mx * kick[i] / lever[i]
+                A[to + axis] += my * kick[i] / lever[i]
             A[to + 2 * axis] += kick[count + i] / r
         for i in range(count):
             node = nodes[g, i]
             depth, w = level - A[place + 2 * axis + node], A[vel + 2 * axis + node]
             if depth <= push * w:
                 continue
-            share = inverse[g, count + i, count + i]
+            per = 1.0 / frames[g, i, ROOT]
+            share = per * per * inverse[g, count + i, count + i]
             grip = A[stiff + node] * push + A[damp + node]
             blow = push * (A[stiff + node] * depth - grip * w) / (1.0 + push * grip * share)
             if blow <= 0.0:
                 continue
             for j in range(count):
-                to = vel + nodes[g, j]
+                to, mobile = vel + nodes[g, j], free + nodes[g, j]
                 c, s = frames[g, j, COS], frames[g, j, SIN]
-                A[to] += s * inverse[g, j, count + i] * blow
-                A[to + axis] -= c * inverse[g, j, count + i] * blow
-                A[to + 2 * axis] += inverse[g, count + j, count + i] * blow
+                mx, my = A[mobile], A[mobile + axis]
+                turn = per * inverse[g, j, count + i] * blow / lever[j]
+                if mx > 0.0 and my > 0.0:
+                    A[to] += s * turn
+                    A[to + axis] -= c * turn
+                else:
+                    A[to] += mx * turn
+                    A[to + axis] += my * turn
+                A[to + 2 * axis] += per * inverse[g, count + j, count + i] * blow / frames[g, j, ROOT]
 
 
 @njit(cache=True, error_model="numpy")

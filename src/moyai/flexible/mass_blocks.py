@@ -90,8 +90,9 @@ class PackedBlocks:
     ----------
     nodes, guides : ndarray of int
         As in :class:`MassBlocks`.
-    frames : ndarray, shape (g, k, 4)
-        Directions, roots of the stretch and first lengths of the guides; the kernels turn them.
+    frames : ndarray, shape (g, k, 6)
+        Directions, roots of the stretch and first lengths of the guides, shares of the own mass in the inverse; the
+        kernels turn them.
     added, inverse : ndarray, shape (g, 2 k, 2 k)
         Added mass and inverse of the whole mass [kg], [1/kg]; zero rows where held.
     along : ndarray, shape (g, k)
@@ -114,8 +115,8 @@ def no_blocks(light: Array) -> PackedBlocks:
     """Return what a network without blocks hands to the kernels."""
     none = np.zeros((0, 0), dtype=np.int64)
     return PackedBlocks(
-        none, np.zeros((0, 0, 2), dtype=np.int64), np.zeros((0, 0, 4)), np.zeros((0, 0, 0)), np.zeros((0, 0, 0)),
-        np.zeros((0, 0)), light,
+        none, np.zeros((0, 0, 2), dtype=np.int64), np.zeros((0, 0, kernel.COLUMNS)), np.zeros((0, 0, 0)),
+        np.zeros((0, 0, 0)), np.zeros((0, 0)), light,
     )  # fmt: skip
 
 
@@ -139,7 +140,7 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
         return no_blocks(light)
     groups, count = blocks.nodes.shape
     position = np.ascontiguousarray(place, dtype=np.float64)
-    frames = np.zeros((groups, count, 4))
+    frames = np.zeros((groups, count, kernel.COLUMNS))
     way = position[:2, blocks.guides[..., 1]] - position[:2, blocks.guides[..., 0]]
     frames[..., kernel.LENGTH] = np.hypot(way[0], way[1])
     if np.any(frames[..., kernel.LENGTH] <= 0.0):
@@ -147,14 +148,10 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     kernel.set_frames(blocks.nodes, blocks.guides, frames, position.ravel(), 0, position.shape[1], False)
     light[2, blocks.nodes], light[3, blocks.nodes] = frames[..., kernel.SIN], -frames[..., kernel.COS]
     own = mass[blocks.nodes]
-    whole = blocks.added_mass + np.stack([np.diag(np.concatenate([row, row])) for row in own])
-    # a node that is free along one horizontal axis is taken to have its normal there
-    flat = np.maximum(free[0], free[1])
-    moves = np.concatenate([flat[blocks.nodes], free[2][blocks.nodes]], axis=1)
-    inverse = np.zeros_like(whole)
-    for g in range(groups):
-        chosen = np.flatnonzero(moves[g] > 0.0)
-        inverse[g][np.ix_(chosen, chosen)] = np.linalg.inv(whole[g][np.ix_(chosen, chosen)])
+    # in no state of the frames yet: taken at once
+    inverse = np.zeros_like(blocks.added_mass)
+    mobile = np.ascontiguousarray(free, dtype=np.float64).ravel()
+    kernel.refresh_inverse(blocks.nodes, frames, blocks.added_mass, inverse, own, mobile, 0, len(mass), -1.0)
     light[1, blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
     along = np.where(np.minimum(free[0], free[1])[blocks.nodes] > 0.0, 1.0 / own, 0.0)
     return PackedBlocks(
