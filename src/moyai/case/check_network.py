@@ -228,8 +228,6 @@ def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> Non
         findings.fault(("structure", "bed"), "a bed needs a finite water depth", remedy="remove 'bed'")
     if model.structure.bodies and settings.method not in ("auto", "explicit"):
         findings.fault(("settings", "method"), "networks with bodies run by explicit steps", allowed="auto, explicit")
-    if model.structure.bodies and settings.resume is not None:
-        findings.fault(("settings", "resume"), "runs with bodies do not go on from an earlier one", remedy="remove it")
     dynamic = "dynamic" in model.analyses
     if model.waves and not dynamic:
         findings.warn(("analyses",), "the waves are not used: they need the analysis 'dynamic'")

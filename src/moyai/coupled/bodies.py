@@ -13,10 +13,12 @@ from moyai.core.errors import InputError
 from moyai.coupled.joint import Joint
 from moyai.coupled.planar import PlanarBody, PlanarCarrier
 from moyai.coupled.rigid import RigidBody, RigidCarrier
+from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.stepping import carried_nodes
 from moyai.mooring.rotations import roll_pitch_yaw
+from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
 Body = RigidBody | PlanarBody
@@ -61,6 +63,46 @@ class BodyHistory:
         found = roll_pitch_yaw(self.rotation)
         found[:, 2] = np.unwrap(found[:, 2])
         return found
+
+
+@dataclass(frozen=True, eq=False)
+class BodyState:
+    """Where a rigid body is in its motion, for a run that goes on.
+
+    Parameters
+    ----------
+    motion : ndarray (13,)
+        Place of the centre of gravity [m], unit quaternion from body to site, velocity [m/s] in site axes, spin
+        [rad/s] in body axes.
+    memory : ndarray (poles,)
+        States of the radiation, none without coefficients.
+    """
+
+    motion: Array
+    memory: NDArray[np.complex128]
+
+    @classmethod
+    def of(cls, carrier: RigidCarrier) -> BodyState:
+        """Return the state of a body in motion."""
+        return cls(carrier.state.copy(), carrier.states_of_memory.copy())
+
+    def carrier(self, body: RigidBody, water: Water, flow: Flow, time: float) -> RigidCarrier:
+        """Return the body in motion from here.
+
+        Raises
+        ------
+        InputError
+            When the body has other coefficients than the one that was left in this state.
+        """
+        carrier = body.carrier(water, flow, time)
+        if self.memory.shape != carrier.states_of_memory.shape:
+            raise InputError(
+                f"body {body.name!r} was left with {self.memory.size} states of radiation, its coefficients have "
+                f"{carrier.states_of_memory.size}",
+                path=f"bodies.{body.name}", allowed="the same coefficients",
+            )  # fmt: skip
+        carrier.state[:], carrier.states_of_memory[:] = self.motion, self.memory
+        return carrier
 
 
 class BodyLog:
@@ -111,8 +153,11 @@ def check_points(
     extent = max(float(np.max(np.ptp(start.position, axis=0))), 1e-3)
     for name, body in bodies.items():
         if name in carriers:
-            continue
-        for point, place in body.points_at_start.items():
+            moving = carriers[name]
+            places = dict(zip(moving.points, moving.place_and_velocity()[0], strict=True))
+        else:
+            places = dict(body.points_at_start)
+        for point, place in places.items():
             there = start.position[nodes[point]]
             off = float(np.linalg.norm(there - place))
             if off > PLACE_TOLERANCE * extent:

@@ -14,9 +14,10 @@ from moyai.core.attachment import PointCarrier
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.coupled.bodies import Body, BodyHistory, BodyLog, check_points
+from moyai.coupled.bodies import Body, BodyHistory, BodyLog, BodyState, check_points
 from moyai.coupled.joint import Joint
 from moyai.coupled.pace import choose_body_step
+from moyai.coupled.rigid import RigidCarrier
 from moyai.flexible.explicit import LOAD_STEPS
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
@@ -48,7 +49,9 @@ class CoupledHistory:
     passes : float
         Runs of the network per step of the bodies, on average.
     final : State
-        Of the network at the end.
+        Of the network at the last row.
+    final_bodies : mapping of str to BodyState
+        Of the rigid bodies at the last row.
     status, message : str
     checks, notices : tuple
     """
@@ -60,6 +63,7 @@ class CoupledHistory:
     network_step: float
     passes: float
     final: State
+    final_bodies: Mapping[str, BodyState]
     status: Status
     message: str
     checks: tuple[IdentityCheck, ...] = ()
@@ -151,8 +155,26 @@ def simulate_coupled(
     )  # fmt: skip
     joint = Joint(list(moving.values()), stepped, tolerance, least=1e-3 * _least_weight(moving, network))
     logs = {name: BodyLog(bodies[name], moving[name]) for name in bodies}
-    status, message = _drive(joint, stepped, logs, start.time, interval, rows, per_row, network, progress)
-    return _history(joint, stepped, logs, interval / per_row, status, message, tuple(notices), network)
+    ending = _drive(joint, stepped, logs, start.time, interval, rows, per_row, network, progress)
+    return _history(joint, stepped, logs, interval / per_row, ending, tuple(notices))
+
+
+@dataclass
+class _Ending:
+    """How a run ended, and the last row that it may go on from."""
+
+    state: State
+    bodies: dict[str, BodyState]
+    status: Status = "converged"
+    message: str = ""
+
+    @classmethod
+    def at(cls, stepped: SteppedNetwork, logs: Mapping[str, BodyLog]) -> _Ending:
+        moving = {name: log.carrier for name, log in logs.items()}
+        return cls(
+            stepped.state(),
+            {name: BodyState.of(carrier) for name, carrier in moving.items() if isinstance(carrier, RigidCarrier)},
+        )
 
 
 def _drive(
@@ -165,14 +187,13 @@ def _drive(
     per_row: int,
     network: Network,
     progress: Progress,
-) -> tuple[Status, str]:
+) -> _Ending:
     """Take all steps; return how it ended."""
-    start = stepped.energy
+    start, ending = stepped.energy, _Ending.at(stepped, logs)
     throughput = 1e-12 * float(np.sum(network.bars.of_type("axial_stiffness") * network.bars.length)) + 1e-12
-    row = 0
+    for log in logs.values():
+        log.keep(joint)
     try:
-        for log in logs.values():
-            log.keep(joint)
         for row in range(1, rows + 1):
             for part in range(1, per_row + 1):
                 joint.advance(begin + (row - 1) * interval + part * interval / per_row)
@@ -184,16 +205,25 @@ def _drive(
             throughput = max(throughput, energy[0] + energy[1], abs(energy[2]), joint.work, kinetic)
             gain = (energy[0] + energy[1]) - (start[0] + start[1]) - (energy[2] - start[2])
             if not gain <= ENERGY_STOP * throughput:
-                return "not_converged", (
-                    f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
-                    "network; more viscosity of the bars or a smaller step calms it"
+                ending.status, ending.message = (
+                    "not_converged",
+                    (
+                        f"stopped at t = {begin + row * interval:g} s: energy of {gain:.3g} J came from nowhere in the "
+                        "network; more viscosity of the bars or a smaller step calms it"
+                    ),
                 )
+                return ending
+            # bodies and network of one instant, whatever interrupts the next step
+            ending = _Ending.at(stepped, logs)
             progress("bodies and network", row * interval, rows * interval)
     except KeyboardInterrupt:
-        return "interrupted", f"interrupted at t = {begin + row * interval:g} s"
+        ending.status, ending.message = "interrupted", f"interrupted at t = {ending.state.time:g} s"
     except ConvergenceError as error:
-        return "not_converged", f"stopped at t = {stepped.time:g} s: {error.fault.message}"
-    return "converged", ""
+        ending.status = "not_converged"
+        ending.message = f"stopped at t = {stepped.time:g} s: {error.fault.message}"
+        if error.fault.remedy:
+            ending.message += f"; {error.fault.remedy}"
+    return ending
 
 
 def _least_weight(carriers: Mapping[str, PointCarrier], network: Network) -> float:
@@ -207,10 +237,8 @@ def _history(
     stepped: SteppedNetwork,
     logs: Mapping[str, BodyLog],
     body_step: float,
-    status: Status,
-    message: str,
+    ending: _Ending,
     notices: tuple[Notice, ...],
-    network: Network,
 ) -> CoupledHistory:
     record = stepped.record()
     total = record.kinetic_energy + record.elastic_energy
@@ -238,9 +266,10 @@ def _history(
         body_step,
         stepped.smallest,
         joint.passes / max(joint.steps, 1),
-        stepped.state(),
-        status,
-        message,
+        ending.state,
+        ending.bodies,
+        ending.status,
+        ending.message,
         checks,
         notices,
     )

@@ -18,8 +18,8 @@ from moyai.flexible.network import DRIVEN, FIXED
 from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.network.assembly import Assembly, assemble
-from moyai.network.bodies import CoupledRest, rest_of
-from moyai.network.dynamics import Run, contacts_dataset, summary_dataset
+from moyai.network.bodies import CoupledRest, drawn_parts, rest_of
+from moyai.network.dynamics import Run
 from moyai.network.dynamics import run as run_through_time
 from moyai.network.model import NetworkProblem
 from moyai.network.rest import (
@@ -33,6 +33,7 @@ from moyai.network.rest import (
 )
 from moyai.network.resume import earlier_run, read_earlier
 from moyai.network.runs import run_plans, steady_flow
+from moyai.network.summary import contacts_dataset, summary_dataset
 from moyai.network.variables import labelled
 
 if TYPE_CHECKING:
@@ -179,6 +180,7 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
         )
         shapes = np.array([body.shape for body in problem.bodies], dtype=object)
         data["solid_shape"] = ("solid", shapes, {"units": "1", "long_name": "shape of the body"})
+        data |= drawn_parts(problem.bodies)
     out = labelled(xr.Dataset(data, coords={"axis": ["x", "y", "z"], "line": list(assembly.lines), "point": names}))
     bed = network.bed
     out.attrs |= {"bed": math.nan if bed is None else bed.level, "slack_level": problem.settings.slack_level}
@@ -364,8 +366,7 @@ def _result(problem: NetworkProblem, collected: _Collected) -> Result:
     if collected.interrupted:
         status = "interrupted"
         begun = any("/time/" in name for name in collected.groups)
-        # bodies keep no state to go on from
-        ahead = "; settings.resume goes on from its last state" if begun and not problem.bodies else ""
+        ahead = "; settings.resume goes on from its last state" if begun else ""
         message = f"{collected.interrupted}; what there was by then is kept{ahead}"
     root = xr.Dataset(
         attrs={

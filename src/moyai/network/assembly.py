@@ -83,6 +83,9 @@ def assemble(problem: NetworkProblem, level: float) -> Assembly:
     for line in problem.lines:
         pieces[line.name] = _add_line(builder, line, water)
     _check_ends(problem)
+    if not (problem.points or problem.nets or problem.sheets or any(plan.points for plan in problem.bodies)):
+        # bodies alone: a network has one point at least
+        builder.fixed("site", (0.0, 0.0, -water.depth if math.isfinite(water.depth) else 0.0))
     network = builder.build()
     network = _with_rows(network, problem, pieces)
     lines = {name: _joined(network, name, parts) for name, parts in pieces.items()}

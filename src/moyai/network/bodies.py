@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.errors import ConvergenceError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress
-from moyai.coupled.bodies import BodyHistory
+from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
+from moyai.coupled.bodies import BodyHistory, BodyState
 from moyai.coupled.hulls import box_hull, cylinder_hull
 from moyai.coupled.rest import CoupledRest, find_rest
 from moyai.coupled.rigid import RigidBody
@@ -21,6 +23,7 @@ from moyai.flexible.network import Network
 from moyai.flexible.refine import refined, with_viscosity
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water
 
 if TYPE_CHECKING:
@@ -32,16 +35,16 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class BodyPlan:
-    """A box or an upright cylinder that floats or hangs; its axes start at its middle.
+    """A box, an upright cylinder (their axes start at the middle), or an assembly of rods and volumes in its axes.
 
     Parameters
     ----------
     name : str
-    shape : {"box", "cylinder"}
+    shape : {"box", "cylinder", "assembly"}
     size : tuple of float
         Along its axes; of a cylinder diameter, diameter, height [m].
     mass : float
-        [kg].
+        Of an assembly without its parts [kg].
     inertia : tuple of float
         About the centre of gravity, roll, pitch, yaw [kg m2].
     centre_of_gravity : tuple of float
@@ -58,10 +61,16 @@ class BodyPlan:
         Along and about its axes [N s/m, N m s].
     free : tuple of bool
         Surge, sway, heave, roll, pitch, yaw.
+    parts : tuple of RodPart or VolumePart
+        Of an assembly.
+    pin : tuple of float, optional
+        Place in its axes that stays where it is at the start [m].
+    turning_drag : tuple of float
+        Drag coefficient times area times arm squared about its axes [m5].
     """
 
     name: str
-    shape: Literal["box", "cylinder"]
+    shape: Literal["box", "cylinder", "assembly"]
     size: Triple
     mass: float
     inertia: Triple
@@ -73,9 +82,20 @@ class BodyPlan:
     added_mass: Triple
     linear_damping: tuple[float, ...] = (0.0,) * 6
     free: tuple[bool, ...] = (True,) * 6
+    parts: tuple[RodPart | VolumePart, ...] = ()
+    pin: Triple | None = None
+    turning_drag: Triple = (0.0, 0.0, 0.0)
 
     def body(self, water: Water) -> RigidBody:
-        """Return the body of :mod:`moyai.coupled`."""
+        """Return the body of :mod:`moyai.coupled`.
+
+        Raises
+        ------
+        InputError
+            For an assembly without mass or inertia, and for rods that lean from its axes.
+        """
+        if self.shape == "assembly":
+            return self._assembled(water)
         bottom = -0.5 * self.size[2]
         if self.shape == "box":
             lumps = box_hull(
@@ -89,8 +109,48 @@ class BodyPlan:
         return RigidBody(
             self.name, self.mass, np.array(self.inertia), np.array(self.centre_of_gravity), np.array(self.position),
             np.array(self.rotation), dict(self.points), lumps, linear_damping=np.array(self.linear_damping),
-            free=self.free,
+            free=self.free, pin=self.pin,
         )  # fmt: skip
+
+    def _assembled(self, water: Water) -> RigidBody:
+        made = BodyAssembly(water.density)
+        made.add_mass(self.mass, self.centre_of_gravity, np.diag(self.inertia))
+        for part in self.parts:
+            made.add(part, self.name)
+        turning = 0.5 * water.density * np.array(self.turning_drag)
+        return made.body(
+            self.name, self.position, rotation_matrix(self.rotation),
+            {name: np.array(place) for name, place in self.points.items()},
+            linear_damping=np.array(self.linear_damping), quadratic_damping=np.concatenate([np.zeros(3), turning]),
+            free=self.free, pin=self.pin,
+        )  # fmt: skip
+
+
+def drawn_parts(bodies: Sequence[BodyPlan]) -> dict[str, tuple[Any, ...]]:
+    """Return rods and volumes of assembled bodies as cylinders from end to end, for drawing."""
+    rows: list[tuple[int, list[float], list[float], float]] = []
+    for number, body in enumerate(bodies):
+        for part in body.parts:
+            if isinstance(part, RodPart):
+                rows.append((number, list(part.start), list(part.end), part.diameter))
+            elif part.volume > 0.0:
+                # a volume as the cylinder that is as high as it is broad
+                x, y, z = part.place
+                broad = (4.0 * part.volume / math.pi) ** (1.0 / 3.0)
+                rows.append((number, [x, y, z - 0.5 * broad], [x, y, z + 0.5 * broad], broad))
+    if not rows:
+        return {}
+    owner, start, end, diameter = zip(*rows, strict=True)
+    return {
+        "solid_part_solid": ("solid_part", np.array(owner), {"units": "1", "long_name": "body of the part"}),
+        "solid_part_start": (
+            ("solid_part", "axis"), np.array(start), {"units": "m", "long_name": "one end, in axes of the body"}
+        ),
+        "solid_part_end": (
+            ("solid_part", "axis"), np.array(end), {"units": "m", "long_name": "other end, in axes of the body"}
+        ),
+        "solid_part_diameter": ("solid_part", np.array(diameter), {"units": "m", "long_name": "diameter of the part"}),
+    }  # fmt: skip
 
 
 def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRest:
@@ -107,11 +167,11 @@ def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRes
 
 @dataclass(frozen=True, eq=False)
 class CoupledRun:
-    """A run of bodies and network: the network's history as that of any network, and the bodies'."""
+    """A run of bodies and network: the network's history as that of any network, the bodies', and where they end."""
 
     history: History
     bodies: Mapping[str, BodyHistory]
-    notices: tuple[Any, ...]
+    ends: Mapping[str, BodyState]
 
 
 def _start(
@@ -124,12 +184,36 @@ def _start(
 
 
 def run_coupled(
-    problem: NetworkProblem, network: Network, rest: CoupledRest | None, progress: Progress, **options: Any
+    problem: NetworkProblem,
+    network: Network,
+    rest: CoupledRest | None,
+    progress: Progress,
+    left: tuple[State, Mapping[str, BodyState]] | None = None,
+    **options: Any,
 ) -> CoupledRun:
-    """Run bodies and network through time; ``options`` are those of :func:`moyai.coupled.simulate.simulate_coupled`."""
+    """Run bodies and network through time, from rest or from where an earlier run left them.
+
+    ``options`` are those of :func:`moyai.coupled.simulate.simulate_coupled`.
+
+    Raises
+    ------
+    InputError
+        When the earlier run had other bodies.
+    """
     bodies, start, placed = _start(problem, network, rest)
+    if left is not None:
+        start, states = left
+        if set(states) != set(bodies):
+            raise InputError(
+                f"the earlier result has the bodies {', '.join(states) or 'none'}, this network "
+                f"{', '.join(bodies)}", path="settings.resume", allowed="a result of the same network",
+            )  # fmt: skip
+        flow = options.get("flow") or Flow()
+        options["carriers"] = {
+            name: state.carrier(bodies[name], placed.water, flow, start.time) for name, state in states.items()
+        }
     found = simulate_coupled(placed, bodies, start=start, progress=progress, **options)
-    return CoupledRun(_as_history(placed, found), found.bodies, found.notices)
+    return CoupledRun(_as_history(placed, found), found.bodies, found.final_bodies)
 
 
 def _as_history(network: Network, found: CoupledHistory) -> History:
@@ -137,7 +221,7 @@ def _as_history(network: Network, found: CoupledHistory) -> History:
     return History(
         network, found.time, record.nodes, record.bars, record.position[:rows], record.tension[:rows],
         record.tension_peak[:rows], record.kinetic_energy[:rows], record.elastic_energy[:rows], record.work[:rows],
-        found.final, "explicit, with bodies", found.network_step, round(float(found.time[-1]) / found.network_step),
+        found.final, "explicit, with bodies", found.network_step, round(float(np.ptp(found.time)) / found.network_step),
         found.status, found.message, found.checks, found.notices,
     )  # fmt: skip
 

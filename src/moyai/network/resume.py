@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.results import Result, read_result
+from moyai.coupled.bodies import BodyState
 from moyai.flexible.result import History, State
 
 if TYPE_CHECKING:
@@ -30,11 +32,14 @@ class Earlier:
         Its last good state.
     series, frames : xarray.Dataset
         Its rows.
+    bodies : mapping of str to BodyState
+        Where its bodies were then.
     """
 
     state: State
     series: xr.Dataset
     frames: xr.Dataset
+    bodies: Mapping[str, BodyState] = field(default_factory=dict)
 
 
 def last_good_state(history: History) -> State:
@@ -107,7 +112,48 @@ def earlier_run(result: Result, level: str, run: str, nodes: int) -> Earlier | N
         raise InputError(
             f"the last state of the run '{run}' is not finite", path="settings.resume", remedy="run it from its start"
         )
-    return Earlier(State(float(frames.attrs["final_time"]), position, velocity), series, frames)
+    bodies = bodies_of(frames)
+    if not all(np.isfinite(left.motion).all() and np.isfinite(left.memory).all() for left in bodies.values()):
+        raise InputError(
+            f"the last state of the bodies of the run '{run}' is not finite", path="settings.resume",
+            remedy="run it from its start",
+        )  # fmt: skip
+    return Earlier(State(float(frames.attrs["final_time"]), position, velocity), series, frames, bodies)
+
+
+def with_ends(frames: xr.Dataset, ends: Mapping[str, BodyState]) -> xr.Dataset:
+    """Return frames that keep where the bodies were at the end; states of radiation side by side, the rest 0."""
+    names, most = list(ends), max((left.memory.size for left in ends.values()), default=0)
+    memory = np.zeros((len(names), most, 2))
+    for row, left in enumerate(ends.values()):
+        memory[row, : left.memory.size] = np.stack([left.memory.real, left.memory.imag], axis=1)
+    return frames.assign(
+        {
+            "final_motion": (
+                ("left", "component"), np.array([left.motion for left in ends.values()]),
+                {"units": "m, 1, m/s, rad/s", "long_name": "last state of the body: place of its centre of gravity, "
+                 "quaternion, velocity, spin"},
+            ),
+            "final_memory": (
+                ("left", "pole", "part"), memory, {"units": "1", "long_name": "last state of the radiation of the body"}
+            ),
+            "final_poles": (
+                "left", np.array([left.memory.size for left in ends.values()]),
+                {"units": "1", "long_name": "states of the radiation of the body"},
+            ),
+        }
+    ).assign_coords(left=names)  # fmt: skip
+
+
+def bodies_of(frames: xr.Dataset) -> dict[str, BodyState]:
+    """Return where the bodies were at the end of the rows."""
+    if "final_motion" not in frames:
+        return {}
+    found = {}
+    for row, name in enumerate(frames["left"].values):
+        parts = frames["final_memory"].values[row, : int(frames["final_poles"].values[row])]
+        found[str(name)] = BodyState(np.array(frames["final_motion"].values[row]), parts[:, 0] + 1j * parts[:, 1])
+    return found
 
 
 def joined(before: xr.Dataset, after: xr.Dataset, dim: str) -> xr.Dataset:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from moyai.core.labels import with_labels
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -39,7 +41,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "end_highest": ("N", "highest tension at the end of the line since the row before"),
     "load": ("N", "pull of the lines on the point"),
     "highest_load": ("N", "highest pull of the lines on the point since the row before"),
-    "solid_position": ("m", "place of the middle of the body, z above still water"),
+    "solid_position": ("m", "place of the origin of its axes, the middle of boxes and cylinders, z above still water"),
     "solid_angle": ("rad", "roll, pitch and yaw of the body"),
     "solid_rotation": ("1", "from the axes of the body to those of the site"),
     "surface_elevation": ("m", "surface above the origin"),
@@ -91,9 +93,4 @@ VARIABLES: dict[str, tuple[str, str]] = {
 
 def labelled(dataset: xr.Dataset) -> xr.Dataset:
     """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    out = dataset.copy()
-    for name in list(out.variables):
-        entry = VARIABLES.get(str(name))
-        if entry is not None:
-            out[name].attrs = {"units": entry[0], "long_name": entry[1], **out[name].attrs}
-    return out
+    return with_labels(dataset, VARIABLES)

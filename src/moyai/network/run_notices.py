@@ -1,0 +1,75 @@
+"""What a run of a network has to say of its own figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.validity import Notice
+from moyai.flexible.result import History
+from moyai.flexible.snap import SnapRecord
+from moyai.network.assembly import Assembly
+from moyai.network.model import NetworkProblem
+from moyai.network.runs import RunPlan
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Highest tension over that at the ends of its line, from which a run says that it stands inside.
+INSIDE = 1.2
+
+
+def run_notices(
+    problem: NetworkProblem, history: History, plan: RunPlan, snaps: Mapping[str, SnapRecord]
+) -> list[Notice]:
+    notices = []
+    rise = min((contact.rise_time for record in snaps.values() for contact in record.snaps), default=math.inf)
+    if rise < 3.0 * plan.output_step:
+        notices.append(
+            Notice("rows-too-far-apart", "slack, contacts and rise times are found at the rows, too far apart for "
+                   "the shortest rise; peaks are taken at every step", plan.output_step, rise / 3.0, "warning",
+                   "shorten settings.output_step")
+        )  # fmt: skip
+    if history.nodes.size < len(history.network.nodes):
+        notices.append(
+            Notice(
+                "nodes-left-out",
+                f"{history.nodes.size} of {len(history.network.nodes)} nodes were kept; the view draws those",
+                severity="information",
+                remedy="a shorter run or a longer output step keeps all",
+            )
+        )
+    if problem.settings.skip >= plan.duration:
+        notices.append(
+            Notice("nothing-counted", f"settings.skip of {problem.settings.skip:g} s leaves nothing of the run",
+                   problem.settings.skip, plan.duration, "warning", "lower settings.skip")
+        )  # fmt: skip
+    return notices
+
+
+def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> list[Notice]:
+    """Say when the highest tension stands inside a line whose ends bear much less."""
+    if name not in assembly.lines or bar < 0:
+        return []
+    time = series["time"].values
+    own = series.sel(line=name).isel(time=time >= time[0] + series.attrs["skip"])
+    peak = float(np.nanmax(own["line_tension"]))
+    ends = [float(np.nanmax(own[key])) for key in ("start_highest", "end_highest")]
+    if not peak > INSIDE * max(ends):
+        return []
+    strand = assembly.lines[name]
+    lengths = assembly.network.bars.length[strand.bars]
+    row = int(np.flatnonzero(strand.bars == bar)[0])
+    place = float(np.sum(lengths[:row]) + 0.5 * lengths[row])
+    return [
+        Notice(
+            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
+            f"is pulled straight or falls on the bed: {peak:.4g} N there, {ends[0]:.4g} N at its start and "
+            f"{ends[1]:.4g} N at its end", peak, INSIDE * max(ends), "warning",
+            "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
+            "see settings.sensitivity",
+        )
+    ]  # fmt: skip

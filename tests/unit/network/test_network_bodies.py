@@ -1,0 +1,106 @@
+"""Bodies in networks as case files: rest and run of one piece, runs that stop and go on, runs that blow up."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from moyai.case.builder import build
+from moyai.case.reader import load_case
+from moyai.core.errors import InputError
+from moyai.core.results import read_result
+from moyai.network.analysis import run
+
+CASE = """moyai: 1
+title: Box on two chains
+site: {{water_depth: 8 m, density: 1025 kg/m3, gravity: 9.81 m/s2}}
+waves: {{kind: regular, name: waves, height: 0.6 m, period: 3.2 s, heading_deg: 20}}
+current: {{speed: 0.4 m/s, heading_deg: 70}}
+structure:
+  kind: network
+  bed: {{stiffness: 3e5 Pa/m, damping: 3e4 Pa s/m, friction: 0.4}}
+  line_types:
+    chain: {{catalogue: studless_chain_R3, diameter: 16 mm, damping_ratio: 0.3}}
+  bodies:
+    box:
+      shape: box
+      size: [2 m, 3 m, 1 m]
+      mass: 2.9 t
+      gyration_radii: [0.9 m, 0.6 m, 1 m]
+      centre_of_gravity: [0.05 m, 0, -0.1 m]
+      position: [0, 0, 0]
+      points: {{west: [-1 m, 0.2 m, 0.3 m], east: [1 m, -0.1 m, -0.4 m]}}
+      drag: [1, 1, 1.4]
+      added_mass: [0.5, 0.4, 0.9]
+  points:
+    anchor west: {{kind: fixed, position: [-16 m, 0, bed]}}
+    anchor east: {{kind: fixed, position: [16 m, 1 m, bed]}}
+  lines:
+    chain west: {{start: anchor west, end: west, type: chain, length: 17.6 m, segments: {bars}}}
+    chain east: {{start: anchor east, end: east, type: chain, length: 17.6 m, segments: {bars}}}
+analyses: {analyses}
+settings: {{duration: 7 s, output_step: 50 ms, start: rest_in_current{more}}}
+"""
+
+
+def problem_of(folder, analyses="[dynamic]", more="", bars=8):
+    path = folder / "case.yaml"
+    path.write_text(CASE.format(analyses=analyses, more=more, bars=bars), encoding="utf-8")
+    return build(load_case(path))
+
+
+def stopping_at(moment):
+    def stop(what, done, total):
+        if what == "waves" and done > moment:
+            raise KeyboardInterrupt
+
+    return stop
+
+
+def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(tmp_path):
+    problem = problem_of(tmp_path)
+    whole = run(problem)
+    part = run(problem, stopping_at(3.3))
+    assert part.status == "interrupted"
+    assert "settings.resume" in part.message
+    reached = float(part.tree["SWL/time/waves"]["time"].values[-1])
+    assert 3.0 < reached < 4.0
+    # rows, state and message tell one and the same time
+    assert f"t = {reached:g} s" in part.message
+    part.write(tmp_path / "results.nc")
+    kept = read_result(tmp_path / "results.nc").tree["SWL/time/waves/frames"]
+    assert float(kept.attrs["final_time"]) == pytest.approx(reached, abs=1e-9)
+    going = replace(problem, settings=replace(problem.settings, resume=tmp_path / "results.nc", sensitivity=True))
+    rest = run(going)
+    assert rest.status == "converged", rest.message
+    one, two = (item.tree["SWL/time/waves"].to_dataset() for item in (whole, rest))
+    assert np.allclose(one["time"].values, two["time"].values, atol=1e-9)
+    for key, scale in (("solid_position", 0.3), ("solid_angle", 0.1)):
+        apart = np.abs(one[key].values - two[key].values)
+        late = one["time"].values > reached
+        assert apart[~late].max() < 1e-12
+        assert apart[late].max() < 2e-3 * scale
+    peak = float(one["end_tension"].max())
+    assert np.abs(one["end_tension"].values - two["end_tension"].values).max() < 0.02 * peak
+    assert any("goes on from an earlier one" in notice.message for notice in rest.notices)
+
+
+def test_a_run_does_not_go_on_with_other_bodies(tmp_path):
+    problem = problem_of(tmp_path)
+    run(problem, stopping_at(1.0)).write(tmp_path / "results.nc")
+    other = replace(problem.bodies[0], name="pontoon")
+    with pytest.raises(InputError, match=r"has the bodies box, this network pontoon"):
+        settings = replace(problem.settings, resume=tmp_path / "results.nc")
+        run(replace(problem, bodies=(other,), settings=settings))
+
+
+def test_a_run_with_bodies_that_blows_up_tells_its_sound_rows(tmp_path):
+    result = run(problem_of(tmp_path, more=", step: 12 ms", bars=80))
+    assert result.status == "not_converged"
+    assert "t = " in result.message
+    series = result.tree["SWL/time/waves"].to_dataset()
+    assert np.isfinite(series["solid_position"].values).all()
+    assert float(np.abs(series["solid_position"].values).max()) < 10.0
+    frames = result.tree["SWL/time/waves/frames"]
+    assert np.isfinite(frames["final_motion"].values).all()
+    result.write(tmp_path / "results.nc")
