@@ -14,6 +14,7 @@ from moyai.case import schema_network_parts as parts
 from moyai.case.build_sea import current_of, sea_state_of
 from moyai.case.schema_network import NetworkCase
 from moyai.core.errors import InputError
+from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, RopeCurve
 from moyai.network import model
@@ -25,6 +26,8 @@ from moyai.tables.lines import line_type
 
 #: Points of the table of a circular motion per turn.
 _CIRCLE_POINTS = 400
+#: Motions of a body, in the order of its degrees of freedom.
+_MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_hash: str = "") -> model.NetworkProblem:
@@ -313,17 +316,40 @@ def _sheet(name: str, entry: parts.NetworkSheet) -> model.SheetPlan:
     )  # fmt: skip
 
 
-def _body(name: str, entry: parts.BoxBody | parts.CylinderBody) -> BodyPlan:
+def _body(name: str, entry: parts.BoxBody | parts.CylinderBody | parts.AssembledBody) -> BodyPlan:
+    if isinstance(entry, parts.AssembledBody):
+        return _assembled(name, entry)
     size = entry.size if isinstance(entry, parts.BoxBody) else (entry.diameter, entry.diameter, entry.height)
     if entry.inertia is not None:
         inertia = entry.inertia
     else:
         inertia = _three([entry.mass * radius**2 for radius in entry.gyration_radii or ()])
-    names = ("surge", "sway", "heave", "roll", "pitch", "yaw")
     return BodyPlan(
         name, entry.shape, size, entry.mass, inertia, entry.centre_of_gravity, entry.position,
         _three([math.radians(angle) for angle in entry.rotation_deg]), dict(entry.points), entry.drag,
-        entry.added_mass, free=tuple(motion not in entry.held for motion in names),
+        entry.added_mass, free=tuple(motion not in entry.held for motion in _MOTIONS),
+    )  # fmt: skip
+
+
+def _assembled(name: str, entry: parts.AssembledBody) -> BodyPlan:
+    pieces: list[RodPart | VolumePart] = [
+        RodPart(
+            rod.start, rod.end, rod.diameter, rod.mass, rod.drag_normal, rod.added_mass_normal, rod.drag_end,
+            rod.added_mass_end, rod.slices,
+        )
+        for rod in entry.rods
+    ]  # fmt: skip
+    pieces += [
+        VolumePart(item.position, item.mass, item.volume, item.drag_area, item.added_mass_coefficient)
+        for item in entry.volumes
+    ]
+    corners = [np.zeros(3), *(np.array(p) for rod in entry.rods for p in (rod.start, rod.end))]
+    size = _three([float(extent) for extent in np.ptp(corners, axis=0)])
+    return BodyPlan(
+        name, "assembly", size, entry.mass, entry.inertia or (0.0, 0.0, 0.0), entry.centre_of_gravity, entry.position,
+        _three([math.radians(angle) for angle in entry.rotation_deg]), dict(entry.points), (0.0, 0.0, 0.0),
+        (0.0, 0.0, 0.0), free=tuple(motion not in entry.held for motion in _MOTIONS), parts=tuple(pieces),
+        pin=entry.pin, turning_drag=entry.turning_drag,
     )  # fmt: skip
 
 

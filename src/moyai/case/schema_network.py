@@ -42,7 +42,7 @@ Tolerance = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, below=1.0)
 class NetworkStructure(Block):
     """Points joined by lines and nets."""
 
-    at_least_one: ClassVar[KeyGroups] = (("lines", "nets", "sheets"),)
+    at_least_one: ClassVar[KeyGroups] = (("lines", "nets", "sheets", "bodies"),)
 
     kind: Literal["network"] = Field(description="Network of lines and nets.")
     line_types: dict[Name, NetworkLineType] = Field(default={}, description="Materials, by name.", max_length=500)

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_types import (
+    AddedInertia,
     AddedMass,
     Block,
     Duration,
@@ -464,7 +465,73 @@ class CylinderBody(_Body):
     height: PositiveLength = Field(description="Height.")
 
 
-NetworkBody = Annotated[BoxBody | CylinderBody, Field(discriminator="shape")]
+ThreeAreas = tuple[Area, Area, Area]
+TurningDrag = Annotated[
+    float, QuantityOf(quantities.Kind("a drag of turns", "m^5", "metres to the fifth", "2 m^5"), least=0.0)
+]
+
+
+class BodyRod(Block):
+    """A round rod along one of the axes of its body, of even mass."""
+
+    start: Shift = Field(description="One end, in the axes of the body.")
+    end: Shift = Field(description="The other end; along x, y or z from the start.")
+    diameter: PositiveLength = Field(description="Diameter.")
+    mass: Annotated[float, QuantityOf(quantities.MASS_PER_LENGTH, least=0.0)] = Field(
+        description="Mass in air per length."
+    )
+    drag_normal: NonNegativeNumber = Field(description="Drag coefficient across, on the diameter.")
+    added_mass_normal: NonNegativeNumber = Field(description="Added-mass coefficient across, on the volume.")
+    drag_end: NonNegativeNumber = Field(default=0.0, description="Drag coefficient of each end, on its face.")
+    added_mass_end: NonNegativeNumber = Field(
+        default=0.0, description="Added-mass coefficient of each end, on half a sphere of water. Default: 0."
+    )
+    slices: Annotated[int, Field(strict=True, ge=1, le=10_000)] = Field(
+        default=24, description="Slices that the water meets one by one; 24 at least. Default: 24."
+    )
+
+
+class BodyVolume(Block):
+    """A mass and a volume at one place of a body, wet wherever it is."""
+
+    position: Shift = Field(default=(0.0, 0.0, 0.0), description="In the axes of the body. Default: their origin.")
+    mass: AddedMass = Field(default=0.0, description="Mass in air. Default: 0.")
+    volume: Volume = Field(default=0.0, description="Displaced volume. Default: 0.")
+    drag_area: ThreeAreas = Field(
+        default=(0.0, 0.0, 0.0), description="Drag coefficient times area along x, y, z of the body. Default: 0."
+    )
+    added_mass_coefficient: Coefficients = Field(
+        default=(0.0, 0.0, 0.0), description="On the volume, along x, y, z of the body. Default: 0."
+    )
+
+
+class AssembledBody(Block):
+    """A body put together from rods and volumes; all places in its own axes, whose origin may be anywhere in it."""
+
+    shape: Literal["assembly"] = Field(description="An assembly of rods and volumes.")
+    mass: AddedMass = Field(default=0.0, description="Mass without rods and volumes. Default: 0.")
+    inertia: tuple[AddedInertia, AddedInertia, AddedInertia] | None = Field(
+        default=None, description="Moments of inertia of that mass about its centre: roll, pitch, yaw. Default: 0."
+    )
+    centre_of_gravity: Shift = Field(default=(0.0, 0.0, 0.0), description="Centre of that mass. Default: the origin.")
+    position: Shift = Field(description="Of the origin at the start: x, y, z above still water.")
+    rotation_deg: Angles = Field(default=(0.0, 0.0, 0.0), description="Roll, pitch, yaw at the start. Default: 0.")
+    points: Annotated[dict[Name, Shift], Field(max_length=1000)] = Field(
+        default={}, description="Points that lines meet, by name. Default: none."
+    )
+    rods: tuple[BodyRod, ...] = Field(default=(), description="Rods.", max_length=1000)
+    volumes: tuple[BodyVolume, ...] = Field(default=(), description="Masses and volumes.", max_length=1000)
+    turning_drag: tuple[TurningDrag, TurningDrag, TurningDrag] = Field(
+        default=(0.0, 0.0, 0.0),
+        description="Drag of turns about its axes: coefficient times area times arm squared. Default: 0.",
+    )
+    pin: Shift | None = Field(default=None, description="Place that stays where it is: the body turns about it.")
+    held: Annotated[tuple[BodyMotion, ...], Field(max_length=5), AfterValidator(once_each)] = Field(
+        default=(), description="Motions that are held. Default: none."
+    )
+
+
+NetworkBody = Annotated[BoxBody | CylinderBody | AssembledBody, Field(discriminator="shape")]
 
 
 class NetworkBed(Block):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -11,23 +12,26 @@ from moyai.cli.console import guard, print_json, tell
 from moyai.core.errors import InputError
 
 
-def motions_of(options: list[str]) -> dict[int, Path]:
-    """Return the files of ``--motion 3=surge.csv`` by point.
+def motions_of(options: list[str]) -> dict[int | str, Path]:
+    """Return the files of ``--motion 3=surge.csv`` or ``--motion body1=surge.csv`` by point, body or rod.
 
     Raises
     ------
     InputError
         For an option of another form.
     """
-    found: dict[int, Path] = {}
+    found: dict[int | str, Path] = {}
     for option in options:
-        number, sign, name = option.partition("=")
-        if not sign or not number.strip().isdigit() or not name.strip():
+        target, sign, name = option.partition("=")
+        what = re.fullmatch(r"\s*(point|body|rod)?\s*([0-9]+)\s*", target.lower())
+        if not sign or what is None or not name.strip():
             raise InputError(
-                f"'{option}' is no motion of a point", path="--motion", allowed="the ID of a coupled point = a file",
-                remedy="for instance --motion 3=surge.csv",
+                f"'{option}' is no motion of a point", path="--motion",
+                allowed="the ID of a coupled point, or body or rod and its ID = a file",
+                remedy="for instance --motion 3=surge.csv, --motion body1=surge.csv",
             )  # fmt: skip
-        found[int(number)] = Path(name.strip()).resolve()
+        number = int(what[2])
+        found[f"{what[1]} {number}" if what[1] in ("body", "rod") else number] = Path(name.strip()).resolve()
     return found
 
 
@@ -47,7 +51,11 @@ def case_of_deck(
 
 Motion = Annotated[
     list[str] | None,
-    typer.Option("--motion", metavar="POINT=FILE", help="Motion of a coupled point of a deck: time, x, y, z; repeat."),
+    typer.Option(
+        "--motion",
+        metavar="POINT=FILE",
+        help="Motion of a coupled point, body (body1=FILE) or rod of a deck: time, x, y, z; repeat.",
+    ),
 ]
 Duration = Annotated[float | None, typer.Option("--duration", help="Length of the run of a deck [s].", min=0.0)]
 

@@ -2,39 +2,47 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from moyai.core.errors import InputError
+from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
+from moyai.interop.moordyn_keys import SECTIONS
 from moyai.interop.moordyn_network import line_name, point_name, to_deck, water_of
 from moyai.interop.moordyn_records import StiffnessTable
+from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
 from moyai.interop.textfiles import read_lines
+from moyai.mooring.rotations import roll_pitch_yaw
 
 if TYPE_CHECKING:
     from moyai.case.reader import Case
 
-_TITLE_OF_SECTION = re.compile(r"^\s*-{3,}.*\b(LINE TYPES|LINE DICTIONARY)\b", re.IGNORECASE)
+_RULE = re.compile(r"^\s*-{3,}\s*([A-Za-z][A-Za-z ]*?)\s*-{3,}")
 _PLAIN = re.compile(r"[A-Za-z][\w .()/+-]*")
 
 
 def is_deck(path: Path) -> bool:
-    """Whether a file is a MoorDyn input file: text with a section of line types, and no YAML by its name."""
+    """Whether a file is a MoorDyn input file: text with a section of one, if misspelt, and no YAML by its name."""
     if path.suffix.lower() in (".yaml", ".yml") or not path.is_file():
         return False
     try:
-        return any(_TITLE_OF_SECTION.match(line) for line in read_lines(path))
+        titles = [" ".join(found[1].upper().split()) for line in read_lines(path) if (found := _RULE.match(line))]
     except InputError:
         return False
+    return any(difflib.get_close_matches(title, SECTIONS, n=1, cutoff=0.8) for title in titles)
 
 
 def case_text(
     deck: MoorDynDeck,
     *,
-    motions: Mapping[int, Path] | None = None,
+    motions: Mapping[int | str, Path] | None = None,
     duration: float | None = None,
     output_step: float | None = None,
 ) -> str:
@@ -43,9 +51,10 @@ def case_text(
     Parameters
     ----------
     deck : MoorDynDeck
-    motions : mapping of int to Path, optional
-        Files of time [s] and displacement x, y, z [m] that coupled points follow, by the ID of the point; the others
-        are held still.
+    motions : mapping of int or str to Path, optional
+        Files of time [s] and displacement x, y, z [m] that coupled points follow, by the ID of the point, and coupled
+        bodies, rods and rods of no length, by names such as ``body 1`` (they keep their angles); the others are held
+        still.
     duration, output_step : float, optional
         Of a run through time [s]; without motions, waves or a duration the network is only brought to rest.
 
@@ -57,27 +66,16 @@ def case_text(
     Raises
     ------
     InputError
-        When the deck gives no depth, its current turns over the height, or a motion is given for a point that is not
-        coupled.
+        When the deck gives no depth, its current turns over the height, or a motion is given for what is not coupled.
+    CaseError
+        For bodies and rods that are not run, see :func:`moyai.interop.moordyn_system.bodies_of`.
     """
-    if deck.bodies or deck.rods:
-        raise InputError(
-            f"{deck.source or 'the deck'} has bodies or rods whose parts no case file can hold",
-            path="bodies" if deck.bodies else "rods",
-            remedy="run the deck from Python: read_deck, to_system, find_rest, simulate_coupled",
-        )
     water = water_of(deck)
-    motions = motions or {}
-    coupled = [point.number for point in deck.points if point.kind == "coupled"]
-    for number in motions:
-        if number not in coupled:
-            raise InputError(
-                f"point {number} is not coupled and follows no motion", path="--motion",
-                allowed=", ".join(map(str, coupled)) or "no point of this deck is coupled",
-            )  # fmt: skip
+    bodies, said = bodies_of(deck)
+    moved = _moved(deck, bodies, motions or {})
     lines = [
         f"# From {deck.source or 'a deck'} of MoorDyn.",
-        *(f"# {note}" for note in deck.notes),
+        *(f"# {note}" for note in (*deck.notes, *said)),
         "moyai: 1",
         f"title: {_word(deck.title or deck.source or 'Moored lines')}",
         "",
@@ -94,27 +92,136 @@ def case_text(
     used = {line.line_type for line in deck.lines}
     for kind in deck.line_types:
         lines += _line_type(kind) if kind.name in used else [f"    # {kind.name}: no line is made of it"]
-    if motions:
+    if not used:
+        lines.remove("  line_types:")
+    if moved:
         lines.append("  motions:")
-        lines += [f"    {point_name(n)}: {{kind: table, file: {_word(str(p))}}}" for n, p in motions.items()]
-    lines.append("  points:")
-    lines += [_point(point, point.number in motions) for point in deck.points]
-    lines.append("  lines:")
+        lines += [f"    {name}: {{kind: table, file: {_word(str(path))}}}" for name, path in moved.items()]
+    lines += _points(deck, bodies, moved)
+    lines += _bodies(bodies)
+    if deck.lines:
+        lines.append("  lines:")
     lines += [
-        f"    {line_name(line.number)}: {{start: {point_name(int(line.start))}, end: {point_name(int(line.end))}, "
+        f"    {line_name(line.number)}: {{start: {end_name(deck, line.start)}, end: {end_name(deck, line.end)}, "
         f"type: {_word(line.line_type)}, length: {_number(line.length)}, segments: {line.segments}}}"
         for line in deck.lines
     ]
-    dynamic = bool(motions) or duration is not None
-    lines += ["", f"analyses: [statics, modes{', dynamic' if dynamic else ''}]"]
+    dynamic = bool(moved) or duration is not None
+    # what moves in a deck without a search for rest starts where the deck has it
+    as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
+    analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
+    lines += ["", f"analyses: [{', '.join([*analyses, *(['dynamic'] if dynamic else [])])}]"]
     if dynamic:
-        settings = ["start: rest_in_current" if deck.current is not None else "start: rest"]
+        start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
+        settings = [f"start: {start}"]
         if duration is not None:
             settings.append(f"duration: {_number(duration)}")
         if output_step is not None:
             settings.append(f"output_step: {_number(output_step)}")
         lines += ["", f"settings: {{{', '.join(settings)}}}"]
     return "\n".join([*lines, ""])
+
+
+def _moved(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], motions: Mapping[int | str, Path]) -> dict[str, Path]:
+    """Return the motions by the names of what follows them.
+
+    Raises
+    ------
+    InputError
+        For a motion of what is not coupled.
+    """
+    coupled = [point_name(point.number) for point in deck.points if point.kind == "coupled"]
+    coupled += [body.name for body in bodies if body.kind == "coupled" and body.points]
+    coupled += [name for name, (kind, _) in rod_knots(deck).items() if kind == "driven"]
+    found: dict[str, Path] = {}
+    for key, path in motions.items():
+        name = point_name(key) if isinstance(key, int) else key
+        if name not in coupled:
+            raise InputError(
+                f"{name} is not coupled and follows no motion", path="--motion",
+                allowed=", ".join(coupled) or "nothing of this deck is coupled to what moves it",
+                remedy="pins of coupled bodies and rods stand still here" if any(
+                    body.name == name and body.kind == "pinned" for body in bodies
+                ) else "",
+            )  # fmt: skip
+        found[name] = path
+    return found
+
+
+def _points(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], moved: Mapping[str, Path]) -> list[str]:
+    """Return the points of a case: those of the deck, and those of bodies and rods that no force moves."""
+    ends = {end for line in deck.lines for end in (line.start, line.end)}
+    rows = []
+    for point in deck.points:
+        if point.kind == "body":
+            continue
+        if point.number in ends:
+            rows.append(_point(point, point_name(point.number) in moved))
+        else:
+            rows.append(f"    # {point_name(point.number)}: no line meets it")
+    for name, (kind, place) in rod_knots(deck).items():
+        motion = f", motion: {name}" if name in moved else ""
+        rows.append(f"    {name}: {{kind: {kind}, position: {_list(place)}{motion}}}")
+    for body in bodies:
+        if not body.moves:
+            kind = "driven" if body.kind == "coupled" else "fixed"
+            motion = f", motion: {body.name}" if body.name in moved else ""
+            rows += [
+                f"    {name}: {{kind: {kind}, position: {_list(place)}{motion}}}"
+                for name, place in body.points_in_site().items()
+            ]
+    if not any(not row.lstrip().startswith("#") for row in rows):
+        return []
+    return ["  points:", *rows]
+
+
+def _bodies(bodies: tuple[BodyOfDeck, ...]) -> list[str]:
+    """Return the bodies of a case."""
+    rows: list[str] = []
+    for body in bodies:
+        if not body.moves:
+            continue
+        angles = np.degrees(roll_pitch_yaw(body.rotation))
+        rows += [
+            f"    {body.name}:", "      shape: assembly", f"      position: {_list(body.position)}",
+            f"      rotation_deg: {_list(angles)}",
+        ]  # fmt: skip
+        if body.mass > 0.0 or any(body.inertia):
+            rows += [f"      mass: {_number(body.mass)}", f"      inertia: {_list(body.inertia)}"]
+            rows.append(f"      centre_of_gravity: {_list(body.centre)}")
+        if body.kind == "pinned":
+            rows.append("      pin: [0, 0, 0]")
+        if any(body.turning_drag):
+            rows.append(f"      turning_drag: {_list(body.turning_drag)}")
+        if body.points:
+            rows.append("      points:")
+            rows += [f"        {name}: {_list(place)}" for name, place in body.points.items()]
+        rods = [part for part in body.parts if isinstance(part, RodPart)]
+        if rods:
+            rows.append("      rods:")
+        for rod in rods:
+            rows += [
+                f"        - {{start: {_list(rod.start)}, end: {_list(rod.end)}, diameter: {_number(rod.diameter)},",
+                f"           mass: {_number(rod.mass_per_length)}, drag_normal: {_number(rod.drag_normal)}, "
+                f"added_mass_normal: {_number(rod.added_mass_normal)},",
+                f"           drag_end: {_number(rod.drag_end)}, added_mass_end: {_number(rod.added_mass_end)}, "
+                f"slices: {rod.slices}}}",
+            ]
+        volumes = [part for part in body.parts if isinstance(part, VolumePart)]
+        if volumes:
+            rows.append("      volumes:")
+        for item in volumes:
+            rows += [
+                f"        - {{position: {_list(item.place)}, mass: {_number(item.mass)}, "
+                f"volume: {_number(item.volume)},",
+                f"           drag_area: {_list(item.drag_area)}, "
+                f"added_mass_coefficient: {_list(item.added_mass_coefficient)}}}",
+            ]
+    return ["  bodies:", *rows] if rows else []
+
+
+def _list(values: Iterable[float]) -> str:
+    return f"[{', '.join(_number(value) for value in values)}]"
 
 
 def _number(value: float) -> str:

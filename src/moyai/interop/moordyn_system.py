@@ -8,28 +8,24 @@ joins the lines at it; what bends there bends freely. Bodies count no waterline,
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from moyai.core.errors import CaseError, Fault
-from moyai.coupled.hulls import Lumps, volume_lump
+from moyai.core.errors import CaseError, Fault, InputError
+from moyai.coupled.assembly import ALIGNED, BodyAssembly, RodPart, VolumePart
 from moyai.coupled.rigid import RigidBody
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.network import Network
-from moyai.interop.moordyn_bodies import DeckBody, DeckRod, DeckRodType
+from moyai.interop.moordyn_bodies import DeckBody, DeckRod
 from moyai.interop.moordyn_deck import MoorDynDeck
 from moyai.interop.moordyn_network import add_lines, add_point, builder_of, point_name, water_of
-from moyai.mooring.rotations import roll_pitch_yaw, rotation_matrix
+from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
-
-#: Slices of a rod at least; an inclined rod that crosses the surface is followed slice by slice.
-SLICES = 24
-#: How far a rod may lean from an axis of its body, where its coefficients are told axis by axis.
-ALIGNED = 1e-6
+Triple = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,59 +64,6 @@ def rotation_of(body: DeckBody) -> Array:
     return np.asarray(turns[0] @ turns[1] @ turns[2])
 
 
-@dataclass
-class _Assembly:
-    """What a body is made of, in its axes."""
-
-    mass: float = 0.0
-    moment: Array = field(default_factory=lambda: np.zeros(3))
-    inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
-    lumps: list[Lumps] = field(default_factory=list)
-    points: dict[str, Array] = field(default_factory=dict)
-
-    def add_mass(self, mass: float, place: ArrayLike, inertia: ArrayLike) -> None:
-        """Add a mass with its inertia about its own centre; the sum counts about the origin."""
-        x = np.asarray(place, dtype=float)
-        self.mass += mass
-        self.moment = self.moment + mass * x
-        self.inertia = self.inertia + np.asarray(inertia) + mass * (x @ x * np.eye(3) - np.outer(x, x))
-
-    def add_rod(self, kind: DeckRodType, start: Array, end: Array, segments: int, density: float) -> None:
-        """Add a rod along one of the axes."""
-        length = float(np.linalg.norm(end - start))
-        unit = (end - start) / length
-        axis = int(np.argmax(np.abs(unit)))
-        across = [k for k in range(3) if k != axis]
-        mass, d = kind.mass_per_length * length, kind.diameter
-        own = np.eye(3) * mass * (length**2 / 12.0 + d**2 / 16.0)
-        own[axis, axis] = mass * d**2 / 8.0
-        self.add_mass(mass, 0.5 * (start + end), own)
-        count = max(SLICES, 2 * segments)
-        volume = 0.25 * math.pi * d**2 * length / count
-        # extent along z: that of the slice, or the side of the square of the same area for a rod that lies
-        height = length / count if axis == 2 else math.sqrt(0.25 * math.pi) * d
-        place = start + (np.arange(count)[:, None] + 0.5) / count * (end - start)
-        drag, added = np.zeros((count, 3)), np.zeros((count, 3))
-        drag[:, across] = kind.drag_normal * d * length / count
-        added[:, across] = kind.added_mass_normal * density * volume
-        # the ends: their faces, and half a sphere of water each
-        drag[[0, -1], axis] = kind.drag_end * 0.25 * math.pi * d**2
-        added[[0, -1], axis] = kind.added_mass_end * density * math.pi / 12.0 * d**3
-        self.lumps.append(Lumps(place, np.full(count, volume), np.full(count, height), drag, added))
-
-    def body(self, name: str, position: ArrayLike, rotation: Array, **options: object) -> RigidBody:
-        """Return the rigid body."""
-        centre = self.moment / self.mass if self.mass > 0.0 else np.zeros(3)
-        inertia = self.inertia - self.mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
-        lumps = None
-        for part in self.lumps:
-            lumps = part if lumps is None else lumps + part
-        return RigidBody(
-            name, self.mass, inertia, centre, np.asarray(position, dtype=float), roll_pitch_yaw(rotation),
-            dict(self.points), lumps, **options,  # type: ignore[arg-type]
-        )  # fmt: skip
-
-
 def to_system(deck: MoorDynDeck, *, water: Water | None = None, segments: int | None = None) -> DeckSystem:
     """Return network and bodies of a deck.
 
@@ -147,127 +90,222 @@ def to_system(deck: MoorDynDeck, *, water: Water | None = None, segments: int | 
     return _Builder(deck, site).run(segments)
 
 
+@dataclass(frozen=True, eq=False)
+class BodyOfDeck:
+    """A body of a deck, or a rod that is none's, in axes of its own.
+
+    Parameters
+    ----------
+    name : str
+    kind : {"fixed", "coupled", "free", "pinned"}
+        What holds it; ``pinned``: the origin of its axes stays.
+    position : ndarray (3,)
+        Of the origin of its axes [m].
+    rotation : ndarray (3, 3)
+        From its axes to those of the site.
+    mass : float
+        Without parts [kg].
+    centre, inertia : (float, float, float)
+        Centre of that mass, and its moments of inertia about it [m, kg m2].
+    parts : tuple of RodPart or VolumePart
+    points : mapping of str to ndarray (3,)
+        Points that lines meet, in its axes [m].
+    turning_drag : (float, float, float)
+        Drag of turns about its axes, CdA of the deck [m5].
+    line : int
+        Line of the file.
+    """
+
+    name: str
+    kind: str
+    position: Array
+    rotation: Array
+    mass: float
+    centre: Triple
+    inertia: Triple
+    parts: tuple[RodPart | VolumePart, ...]
+    points: dict[str, Array]
+    turning_drag: Triple = (0.0, 0.0, 0.0)
+    line: int = 0
+
+    @property
+    def moves(self) -> bool:
+        """Whether forces move it."""
+        return self.kind in ("free", "pinned")
+
+    def points_in_site(self) -> dict[str, Array]:
+        """Return where its points stand [m]."""
+        return {name: self.position + self.rotation @ place for name, place in self.points.items()}
+
+    def body(self, density: float) -> RigidBody:
+        """Return it as a rigid body in water of a density [kg/m3]."""
+        made = BodyAssembly(density)
+        made.add_mass(self.mass, self.centre, np.diag(self.inertia))
+        for part in self.parts:
+            made.add(part, self.name)
+        quadratic = np.concatenate([np.zeros(3), 0.5 * density * np.array(self.turning_drag)])
+        return made.body(
+            self.name, self.position, self.rotation, self.points, quadratic_damping=quadratic,
+            pin=np.zeros(3) if self.kind == "pinned" else None,
+        )  # fmt: skip
+
+
+def bodies_of(deck: MoorDynDeck) -> tuple[tuple[BodyOfDeck, ...], tuple[str, ...]]:
+    """Return bodies and rods of a deck, and what a run here does otherwise than MoorDyn.
+
+    Raises
+    ------
+    CaseError
+        For rods hinged to a body, rods that lean from the axes of theirs, bodies that move without mass or inertia.
+    """
+    faults: list[Fault] = []
+    notes: list[str] = []
+    ends = {end for line in deck.lines for end in (line.start, line.end)}
+    for rod in deck.rods:
+        why, remedy = _refusal(deck, rod)
+        if why:
+            faults.append(Fault(why, "rods", "", remedy, deck.source, rod.line, 1))
+        if not rod.segments:
+            notes.append(f"rod {rod.number} has no length: the lines at it are joined and bend freely there")
+    if faults:
+        raise CaseError(faults)
+    found = [_body_of(deck, body, ends) for body in deck.bodies]
+    found += [_rod_alone(deck, rod, ends) for rod in deck.rods if rod.kind != "body" and rod.segments]
+    return tuple(found), tuple(notes)
+
+
+def _refusal(deck: MoorDynDeck, rod: DeckRod) -> tuple[str, str]:
+    """Return why a rod is not run, and what mends it; two empty texts when it is."""
+    if rod.kind == "body pinned":
+        return (
+            f"rod {rod.number} is hinged to body {rod.body}: hinges between bodies are not run",
+            f"hold it by Body{rod.body} instead, which fixes it to the body, or let it be Free on a short line",
+        )
+    if rod.kind == "body" and rod.segments and not _rod_part(deck, rod, rod.start, rod.end).lean <= ALIGNED:
+        return (
+            f"rod {rod.number} leans from the axes of body {rod.body}",
+            "turn the axes of the body so that one of them lies along its rods",
+        )
+    return "", ""
+
+
+def _rod_part(deck: MoorDynDeck, rod: DeckRod, start: Triple, end: Triple) -> RodPart:
+    kind = next(kind for kind in deck.rod_types if kind.name == rod.rod_type)
+    return RodPart(
+        start, end, kind.diameter, kind.mass_per_length, kind.drag_normal, kind.added_mass_normal, kind.drag_end,
+        kind.added_mass_end, 2 * rod.segments,
+    )  # fmt: skip
+
+
+def _rod_ends(rod: DeckRod, ends: set[int | str]) -> dict[str, Array]:
+    """Return the ends of a rod where lines meet it."""
+    if not rod.segments:
+        used = {f"R{rod.number}A", f"R{rod.number}B"} & ends
+        return {rod_name(rod.number): np.array(rod.start)} if used else {}
+    both = (("A", rod.start), ("B", rod.end))
+    return {rod_name(rod.number, e): np.array(p) for e, p in both if f"R{rod.number}{e}" in ends}
+
+
+def _body_of(deck: MoorDynDeck, body: DeckBody, ends: set[int | str]) -> BodyOfDeck:
+    parts: list[RodPart | VolumePart] = []
+    points: dict[str, Array] = {}
+    area = body.drag_area
+    if body.volume > 0.0 or any(area[:3]):
+        parts.append(VolumePart((0.0, 0.0, 0.0), 0.0, body.volume, (area[0], area[1], area[2]), body.added_mass))
+    for rod in deck.rods:
+        if rod.kind == "body" and rod.body == body.number:
+            points.update(_rod_ends(rod, ends))
+            if rod.segments:
+                parts.append(_rod_part(deck, rod, rod.start, rod.end))
+    for point in deck.points:
+        if point.kind == "body" and point.body == body.number:
+            if point.mass > 0.0 or point.volume > 0.0 or point.drag_area > 0.0:
+                ca = point.added_mass_coefficient
+                parts.append(VolumePart(point.position, point.mass, point.volume, (point.drag_area,) * 3, (ca, ca, ca)))
+            if point.number in ends:
+                points[point_name(point.number)] = np.array(point.position)
+    # rods first, as case files list them
+    parts.sort(key=lambda part: not isinstance(part, RodPart))
+    return BodyOfDeck(
+        body_name(body.number), "pinned" if body.kind == "coupled pinned" else body.kind, np.array(body.position),
+        rotation_of(body), body.mass, body.centre, body.inertia, tuple(parts), points, (area[3], area[4], area[5]),
+        body.line,
+    )  # fmt: skip
+
+
+def _rod_alone(deck: MoorDynDeck, rod: DeckRod, ends: set[int | str]) -> BodyOfDeck:
+    along = np.array(rod.end) - np.array(rod.start)
+    length = float(np.linalg.norm(along))
+    points = {end: np.array([0.0, 0.0, length if end.endswith("B") else 0.0]) for end in _rod_ends(rod, ends)}
+    return BodyOfDeck(
+        rod_name(rod.number), "pinned" if "pinned" in rod.kind else rod.kind, np.array(rod.start), _upright(along), 0.0,
+        (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (_rod_part(deck, rod, (0.0, 0.0, 0.0), (0.0, 0.0, length)),), points,
+        line=rod.line,
+    )  # fmt: skip
+
+
+def rod_knots(deck: MoorDynDeck) -> dict[str, tuple[str, Triple]]:
+    """Return the points that rods of no length stand for, where lines meet them: what holds each, and where."""
+    ends = {end for line in deck.lines for end in (line.start, line.end)}
+    found: dict[str, tuple[str, Triple]] = {}
+    for rod in deck.rods:
+        if not rod.segments and rod.kind != "body" and _rod_ends(rod, ends):
+            kind = {"free": "free", "fixed": "fixed", "pinned": "fixed"}.get(rod.kind, "driven")
+            found[rod_name(rod.number)] = (kind, rod.start)
+    return found
+
+
+def end_name(deck: MoorDynDeck, end: int | str) -> str:
+    """Return the point of the network at an end of a line of a deck."""
+    if isinstance(end, int):
+        return point_name(end)
+    rod = next(rod for rod in deck.rods if rod.number == int(end[1:-1]))
+    return rod_name(rod.number, end[-1] if rod.segments else "")
+
+
 class _Builder:
     """Collects points and bodies of one deck."""
 
     def __init__(self, deck: MoorDynDeck, site: Water) -> None:
         self.deck, self.site = deck, site
         self.network: NetworkBuilder = builder_of(deck, site)
-        self.ends = {end for line in deck.lines for end in (line.start, line.end)}
-        self.kinds = {kind.name: kind for kind in deck.rod_types}
-        self.faults: list[Fault] = []
-        self.notes: list[str] = []
         self.bodies: dict[str, RigidBody] = {}
 
     def run(self, segments: int | None) -> DeckSystem:
-        self._check()
-        for body in self.deck.bodies:
-            self._body(body)
-        for rod in self.deck.rods:
-            if rod.kind != "body":
-                self._own_rod(rod)
+        bodies, notes = bodies_of(self.deck)
+        for body in bodies:
+            for name, place in body.points_in_site().items():
+                self._stand(name, place, body.kind)
+            if body.moves:
+                self.bodies[body.name] = self._rigid(body)
+        for name, (kind, knot) in rod_knots(self.deck).items():
+            if kind == "free":
+                self.network.free(name, knot)
+            else:
+                self._stand(name, np.array(knot), kind)
         for point in self.deck.points:
             if point.kind != "body":
                 add_point(self.network, point, self.site)
-        add_lines(self.network, self.deck, segments, self._end)
-        if not self.ends and all(point.kind == "body" for point in self.deck.points):
+        add_lines(self.network, self.deck, segments, lambda end: end_name(self.deck, end))
+        if not self.deck.lines and all(point.kind == "body" for point in self.deck.points):
             self.network.fixed("site", (0.0, 0.0, -self.site.depth if math.isfinite(self.site.depth) else 0.0))
-        return DeckSystem(self.network.build(), self.bodies, tuple(self.notes))
+        return DeckSystem(self.network.build(), self.bodies, notes)
 
-    def _check(self) -> None:
-        for rod in self.deck.rods:
-            if rod.kind == "body pinned":
-                self._refuse(rod, f"rod {rod.number} is hinged to body {rod.body}: hinges between bodies are not run")
-            if rod.kind == "body" and rod.segments and _lean(np.array(rod.end) - np.array(rod.start)) > ALIGNED:
-                self._refuse(rod, f"rod {rod.number} leans from the axes of body {rod.body}")
-            if not rod.segments:
-                self.notes.append(f"rod {rod.number} has no length: the lines at it are joined and bend freely there")
-        if self.faults:
-            raise CaseError(self.faults)
-
-    def _refuse(self, rod: DeckRod, message: str) -> None:
-        self.faults.append(Fault(message, "rods", "", "", self.deck.source, rod.line, 1))
-
-    def _end(self, end: int | str) -> str:
-        if isinstance(end, int):
-            return point_name(end)
-        rod = next(rod for rod in self.deck.rods if rod.number == int(end[1:-1]))
-        return rod_name(rod.number, end[-1] if rod.segments else "")
+    def _rigid(self, body: BodyOfDeck) -> RigidBody:
+        try:
+            return body.body(self.site.density)
+        except InputError as error:
+            fault = error.fault
+            raise CaseError(
+                [Fault(fault.message, fault.path, fault.allowed, fault.remedy, self.deck.source, body.line, 1)]
+            ) from None
 
     def _stand(self, name: str, place: Array, kind: str) -> None:
-        """Add a point that no forces move."""
+        """Add a point that no forces of the network move."""
         if kind == "fixed":
             self.network.fixed(name, place)
         else:
             self.network.driven(name, place)
-
-    def _rod_ends(self, rod: DeckRod) -> dict[str, Array]:
-        """Return the ends of a rod where lines meet it."""
-        if not rod.segments:
-            used = {f"R{rod.number}A", f"R{rod.number}B"} & self.ends
-            return {rod_name(rod.number): np.array(rod.start)} if used else {}
-        ends = (("A", rod.start), ("B", rod.end))
-        return {rod_name(rod.number, e): np.array(p) for e, p in ends if f"R{rod.number}{e}" in self.ends}
-
-    def _body(self, body: DeckBody) -> None:
-        made, density, turn = _Assembly(), self.site.density, rotation_of(body)
-        made.add_mass(body.mass, body.centre, np.diag(body.inertia))
-        area = np.array(body.drag_area)
-        if body.volume > 0.0 or np.any(area[:3] > 0.0):
-            added = density * body.volume * np.array(body.added_mass)
-            made.lumps.append(volume_lump((0.0, 0.0, 0.0), body.volume, drag_area=area[:3], added_mass=added))
-        for rod in self.deck.rods:
-            if rod.kind == "body" and rod.body == body.number:
-                made.points.update(self._rod_ends(rod))
-                if rod.segments:
-                    kind = self.kinds[rod.rod_type]
-                    made.add_rod(kind, np.array(rod.start), np.array(rod.end), rod.segments, density)
-        for point in self.deck.points:
-            if point.kind == "body" and point.body == body.number:
-                made.add_mass(point.mass, point.position, np.zeros((3, 3)))
-                if point.volume > 0.0 or point.drag_area > 0.0:
-                    added = np.full(3, density * point.volume * point.added_mass_coefficient)
-                    made.lumps.append(
-                        volume_lump(
-                            point.position, point.volume, drag_area=np.full(3, point.drag_area), added_mass=added
-                        )
-                    )
-                if point.number in self.ends:
-                    made.points[point_name(point.number)] = np.array(point.position)
-        places = {name: np.array(body.position) + turn @ place for name, place in made.points.items()}
-        for name, place in places.items():
-            self._stand(name, place, body.kind)
-        if body.kind in ("free", "coupled pinned"):
-            pin = np.zeros(3) if body.kind == "coupled pinned" else None
-            quadratic = np.concatenate([np.zeros(3), 0.5 * density * area[3:]])
-            name = body_name(body.number)
-            self.bodies[name] = made.body(name, body.position, turn, pin=pin, quadratic_damping=quadratic)
-
-    def _own_rod(self, rod: DeckRod) -> None:
-        name, ends, start = rod_name(rod.number), self._rod_ends(rod), np.array(rod.start)
-        if not rod.segments and rod.kind == "free":
-            for end, place in ends.items():
-                self.network.free(end, place)
-            return
-        for end, place in ends.items():
-            self._stand(end, place, rod.kind)
-        if rod.kind in ("fixed", "coupled") or not rod.segments:
-            return
-        along = np.array(rod.end) - start
-        length, turn = float(np.linalg.norm(along)), _upright(along)
-        made = _Assembly()
-        made.add_rod(
-            self.kinds[rod.rod_type], np.zeros(3), np.array([0.0, 0.0, length]), rod.segments, self.site.density
-        )
-        made.points = {end: np.array([0.0, 0.0, length if end.endswith("B") else 0.0]) for end in ends}
-        pin = np.zeros(3) if "pinned" in rod.kind else None
-        self.bodies[name] = made.body(name, start, turn, pin=pin)
-
-
-def _lean(along: Array) -> float:
-    """Return how far a direction is from the nearest axis."""
-    unit = np.abs(along) / np.linalg.norm(along)
-    return float(np.linalg.norm(np.delete(unit, int(np.argmax(unit)))))
 
 
 def _upright(along: Array) -> Array:

@@ -163,9 +163,38 @@ def _solids(level: NetworkLevel, frames: Group, good: NDArray[np.bool_], rows: I
     place, turn = place[good][rows], turn[good][rows]
     found = []
     for number, (name, shape) in enumerate(zip(frames.labels("solid"), shapes, strict=True)):
+        if shape == "assembly":
+            found += _rods(level, number, name, place[:, number], turn[:, number])
+            continue
         made = Body3D.box if shape == "box" else Body3D.cylinder
         found.append(made(name, -0.5 * size[number], 0.5 * size[number], place[:, number], turn[:, number]))
     return tuple(found)
+
+
+def _rods(
+    level: NetworkLevel, number: int, name: str, place: NDArray[np.float64], turn: NDArray[np.float64]
+) -> list[Body3D]:
+    """Return the parts of an assembled body, each a cylinder about a z axis of its own."""
+    owner = level.network.real("solid_part_solid", "solid_part")
+    start, end = (level.network.array(f"solid_part_{key}", "solid_part", "axis") for key in ("start", "end"))
+    diameter = level.network.real("solid_part_diameter", "solid_part")
+    if owner is None or start is None or end is None or diameter is None:
+        return []
+    found = []
+    for row in np.flatnonzero(owner == number):
+        along = end[row] - start[row]
+        length, half = float(np.linalg.norm(along)), 0.5 * float(diameter[row])
+        z = along / length
+        x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
+        x /= np.linalg.norm(x)
+        own = np.stack([x, np.cross(z, x), z], axis=1)
+        found.append(
+            Body3D.cylinder(
+                name, (-half, -half, 0.0), (half, half, length),
+                place + np.einsum("kij,j->ki", turn, start[row]), turn @ own,
+            )
+        )  # fmt: skip
+    return found
 
 
 def _traces(level: NetworkLevel, run: Group, pairs: IntArray, names: tuple[str, ...]) -> tuple[Trace, ...]:

@@ -131,6 +131,8 @@ def test_what_is_not_run_is_named_with_its_line(tmp_path):
     leaning = deck_of(tmp_path, DECK.replace("Body1      0   0   2   0 ", "Body1      0   0   2   1 "))
     with pytest.raises(CaseError, match=r"deck.txt:20.*leans from the axes of body 1"):
         to_system(leaning)
-    for wrong in (to_network, case_text):
-        with pytest.raises(InputError, match=r"bodies or rods.*to_system"):
-            wrong(deck_of(tmp_path))
+    for wrong in (hinged, leaning):
+        with pytest.raises(CaseError, match=r"deck.txt:20"):
+            case_text(wrong)
+    with pytest.raises(InputError, match=r"bodies or rods.*to_system"):
+        to_network(deck_of(tmp_path))
