@@ -16,8 +16,8 @@ from moyai.flexible.explicit import driving_tables
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
-from moyai.flexible.parts import network_parts
-from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system
+from moyai.flexible.parts import kernel_parts, network_parts
+from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system, mean_size, plan_of
 from moyai.flexible.result import State
 from moyai.flexible.tableaus import TABLEAUS
 
@@ -41,15 +41,16 @@ class ImplicitRun:
         tolerance: float,
     ) -> None:
         self.network, self.flow, self.name = network, flow, method
-        if network_parts(network) or network.blocks is not None:
+        if network.blocks is not None:
             raise InputError(
-                f"{method!r} does not march sheets, net panels, rings or sections of added mass",
+                f"{method!r} does not march sections of added mass",
                 path="method",
                 allowed="'explicit' for this network",
             )
         self.arrays = kernel_arrays(network)
         self.system = kernel_system(self.arrays)
-        self.plan = kernel_plan(network, self.arrays)
+        plan = plan_of(network, self.arrays, network_parts(network))
+        self.plan, self.parts = kernel_plan(plan), kernel_parts(network, plan.pairs[2:])
         count = len(network.nodes)
         self.driving = driving_tables(network, motions)
         self.fluid = np.array([network.water.density, network.water.gravity, 0.0])
@@ -57,19 +58,19 @@ class ImplicitRun:
         self.time = start.time
         self._place, self._speed = np.array(start.position), np.array(start.velocity)
         self._speed[network.nodes.kind != 0] = 0.0
-        kernel._driven_place(self._place, self._speed, self.driving, self.time)
+        kernel.driven_place(self._place, self._speed, self.driving, self.time)
         self.acceleration, self.mass = np.zeros((count, 3)), np.zeros((count, 6))
         self.tension = np.zeros(len(network.bars))
         self.water = np.ascontiguousarray(flow.at(self.time, self._place.T))
         kernel.acceleration(
-            self._place, self._speed, self.water, self.system, self.fluid, self.bed, self.tension, self.mass,
-            self.acceleration,
+            self._place, self._speed, self.water, self.system, self.fluid, self.bed, self.parts, self.tension,
+            self.mass, self.acceleration,
         )  # fmt: skip
         tableau = TABLEAUS[method]
         exponent = 1.0 / (min(tableau.order, tableau.embedded_order) + 1.0)
         self.method = (np.array(tableau.stages), np.array(tableau.embedded), exponent)
         weights = float(np.max(self.arrays.node("weight"), initial=0.0))
-        mean = float(np.mean(network.bars.length)) if len(network.bars) else 1.0
+        mean = mean_size(network)
         self.control = np.array(
             [
                 1e-3,
@@ -100,7 +101,7 @@ class ImplicitRun:
         places, pulls, peaks, energy, nodes, bars = saved
         places[0] = self._place[nodes]
         pulls[0] = peaks[0] = self.tension[bars]
-        energy[0, :2] = kernel._energies(self._place, self._speed, self.mass, self.system)
+        energy[0, :2] = kernel.whole_energy(self._place, self._speed, self.mass, self.system, self.parts)
         energy[0, 2] = 0.0
 
     def limit(self) -> tuple[float, int]:
@@ -125,7 +126,7 @@ class ImplicitRun:
             rate = (ahead - self.water) / (end - self.time)
         before = self.counts[2]
         status, good, reached, self.worst = kernel.implicit_march(
-            self._place, self._speed, self.acceleration, self.system, self.plan, self.fluid, self.bed,
+            self._place, self._speed, self.acceleration, self.system, self.parts, self.plan, self.fluid, self.bed,
             (self.water.copy(), self.water, rate, not self.flow.steady), self.driving, self.method, self.control,
             (self.time, row_interval, rows, first), self.ledger, saved, self.counts,
         )  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
-from moyai.flexible import implicit_kernel as kernel
+from moyai.flexible import force_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import IntArray, Network

@@ -222,7 +222,8 @@ class PanelArrays:
             [panels.area[:, None], panels.flow_factor[:, None], panels.shadow, panels.law[:, None].astype(np.float64)],
             axis=1,
         )
-        return cls(panels.corners, np.ascontiguousarray(rows), table, grid)
+        # a copy: kernels compile anew for arrays that cannot be written
+        return cls(panels.corners.copy(), np.ascontiguousarray(rows), table, grid)
 
 
 def panel_areas(corners: IntArray, position: Array) -> tuple[Array, Array]:

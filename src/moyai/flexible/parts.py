@@ -1,4 +1,4 @@
-"""Sheets, net panels and elastic rings, what hangs in a network beside bars and hinges, for statics.
+"""Sheets, net panels and elastic rings, what hangs in a network beside bars and hinges.
 
 Each kind is a family of elements: forces on (n, 3) arrays, and the derivative of minus the force in blocks of node
 pairs, exact or close enough for Newton's method.
@@ -9,16 +9,16 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from moyai.flexible import sheet_kernel as sheet
 from moyai.flexible.network import Network
 from moyai.flexible.panel_kernel import panel_forces, panel_tangent
 from moyai.flexible.panels import PanelArrays
-from moyai.flexible.ring_kernel import ring_forces, ring_tangent
+from moyai.flexible.part_kernel import ring_stiffness, sheet_blocks
+from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import RingArrays
-from moyai.flexible.sheet_kernel import sheet_forces, sheet_loads, triangle_force
+from moyai.flexible.sheet_kernel import sheet_forces, sheet_loads
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -39,40 +39,6 @@ class Part(Protocol):
 
     def blocks(self, x: Array, v: Array, water: Array, share: float) -> Array:
         """Return the derivative of minus the force of each element, shape (e, k, k, 3, 3)."""
-
-
-@njit(cache=True, error_model="numpy")
-def _sheet_blocks(C: Any, triangles: Any, x: Any, v: Any, water: Any, width: float, blocks: Any) -> None:
-    """Write central differences of the forces of every triangle, its water included, over the places of its corners."""
-    place, speed, flow = np.empty(9), np.empty(9), np.empty(21)
-    edges, rates, force, pull = np.empty(6), np.empty(6), np.empty(9), np.empty((2, 9))
-    one, light = np.arange(3).reshape(1, 3), np.zeros((4, 3))
-    for t in range(triangles.shape[0]):
-        for corner in range(3):
-            node = triangles[t, corner]
-            for row in range(7):
-                flow[3 * row + corner] = water[row, node]
-            for axis in range(3):
-                place[3 * axis + corner], speed[3 * axis + corner] = x[node, axis], v[node, axis]
-        for axis in range(3):
-            rates[axis] = speed[3 * axis + 1] - speed[3 * axis]
-            rates[3 + axis] = speed[3 * axis + 2] - speed[3 * axis]
-        for column in range(9):
-            kept = place[column]
-            for side in range(2):
-                place[column] = kept + (width if side == 0 else -width)
-                for axis in range(3):
-                    edges[axis] = place[3 * axis + 1] - place[3 * axis]
-                    edges[3 + axis] = place[3 * axis + 2] - place[3 * axis]
-                triangle_force(C, t, edges, rates, force)
-                for corner in range(3):
-                    for axis in range(3):
-                        pull[side, 3 * axis + corner] = force[3 * corner + axis]
-                sheet_loads(C[t : t + 1], one, place, 0, speed, 0, flow, 0, pull[side], 0, 1, 3, light, 0.0)
-            place[column] = kept
-            for row in range(9):
-                value = 0.5 * (pull[1, row] - pull[0, row]) / width
-                blocks[t, row % 3, column % 3, row // 3, column // 3] = value
 
 
 class SheetPart:
@@ -108,8 +74,9 @@ class SheetPart:
         force += total.reshape(3, count).T
 
     def blocks(self, x: Array, v: Array, water: Array, share: float) -> Array:
-        """Return central differences, triangle by triangle."""
-        _sheet_blocks(self._constants(share), self.members, x, v, water, self.width, self._blocks)
+        """Return the derivative of the stress, and central differences of what the water does."""
+        table = self._constants(share)
+        sheet_blocks(table, self.members, x, v, water, 0.0, 1.0, True, self.width, self._blocks)
         return self._blocks
 
 
@@ -139,24 +106,26 @@ class PanelPart:
 
 
 class RingPart:
-    """The elastic rings of a network."""
+    """One elastic ring of a network."""
 
     stiffness = 0.0
 
-    def __init__(self, network: Network) -> None:
-        rings = RingArrays.of(network.rings)
-        self.system = rings.system
-        self.members = np.zeros((rings.nodes.size, 3), dtype=np.int64)
-        self._blocks = np.zeros((rings.nodes.size, 3, 3, 3, 3))
-        ring_tangent(self.system, self.members, self._blocks)
+    def __init__(self, rings: RingArrays, number: int) -> None:
+        a, b = int(rings.first[number]), int(rings.first[number + 1])
+        self.members = np.ascontiguousarray(rings.nodes[a:b])[None]
+        self.system = self.members[0], np.array([0, b - a]), np.ascontiguousarray(rings.rows[a:b])
+        self.width = 1e-6 / float(rings.rows[a, 2])
+        self._matrix = np.zeros((3 * (b - a), 3 * (b - a)))
 
     def add_forces(self, x: Array, v: Array, water: Array, share: float, force: Array) -> None:
         """Add bending and torsion."""
         ring_forces(x, self.system, force)
 
     def blocks(self, x: Array, v: Array, water: Array, share: float) -> Array:
-        """Return the stiffness with the twist held."""
-        return self._blocks
+        """Return central differences; the twist of the pipe couples all its nodes."""
+        ring_stiffness(x, self.system, 0, self.width, self._matrix)
+        count = self.members.shape[1]
+        return np.ascontiguousarray(self._matrix.reshape(count, 3, count, 3).transpose(0, 2, 1, 3))[None]
 
 
 def network_parts(network: Network) -> tuple[Part, ...]:
@@ -166,6 +135,40 @@ def network_parts(network: Network) -> tuple[Part, ...]:
         parts.append(SheetPart(network))
     if network.panels is not None and len(network.panels):
         parts.append(PanelPart(network))
-    if network.rings:
-        parts.append(RingPart(network))
+    rings = RingArrays.of(network.rings)
+    parts.extend(RingPart(rings, number) for number in range(len(network.rings)))
     return tuple(parts)
+
+
+def kernel_parts(network: Network, pairs: tuple[IntArray, ...]) -> tuple[Any, ...] | None:
+    """Return the parts as the kernels of the implicit schemes take them, ``None`` for bars alone.
+
+    Parameters
+    ----------
+    network : Network
+        The network.
+    pairs : tuple of ndarray of int
+        Addresses in the fronts (:attr:`moyai.flexible.sparse.SparsePlan.pairs`) of the families of
+        :func:`network_parts`.
+    """
+    if not pairs:
+        return None
+    left = list(pairs)
+    no_sheet, no_panel = np.zeros((0, 3, 3, 2), dtype=np.int64), np.zeros((0, 4, 4, 2), dtype=np.int64)
+    table, triangles, at = np.zeros((0, sheet.COLUMNS)), np.zeros((0, 3), dtype=np.int64), no_sheet
+    if network.sheets is not None and len(network.sheets):
+        table, triangles = network.sheets.constants(network.water), network.sheets.triangles.copy()
+        at = left.pop(0)
+    dry = table.copy()
+    dry[:, sheet.PRESSURE] = 0.0
+    panels, screens = PanelArrays.of(network.panels), no_panel
+    if panels.corners.size:
+        screens = left.pop(0)
+    corners = np.where(panels.corners < 0, panels.corners[:, :1], panels.corners)
+    ring_pairs = np.concatenate([np.zeros((0, 2), dtype=np.int64), *(found.reshape(-1, 2) for found in left)])
+    return (
+        (table, dry, triangles, np.zeros(len(triangles)), np.zeros((4, len(network.nodes)))),
+        (panels.system, 0.5 * network.water.density, np.zeros((len(corners), 3))),
+        RingArrays.of(network.rings).system,
+        (at, screens, corners, ring_pairs),
+    )

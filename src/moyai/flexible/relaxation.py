@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.flexible import implicit_kernel as kernel
+from moyai.flexible import force_kernel, front_kernel, rest_kernel
 from moyai.flexible.arrays import KernelArrays, kernel_arrays
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
@@ -41,15 +41,23 @@ def kernel_bed(network: Network, fade: float = 1e-3) -> Array:
     return np.array([0.0, 0.0, 1.0, 0.0]) if bed is None else np.array([bed.level, bed.friction, fade, 1.0])
 
 
+def mean_size(network: Network) -> float:
+    """Return the mean length of the bars, or of the edges of the triangles where there are none [m]."""
+    if len(network.bars):
+        return float(np.mean(network.bars.length))
+    if network.sheets is not None and len(network.sheets):
+        return float(np.mean(np.sqrt(2.0 * network.sheets.area)))
+    return 1.0
+
+
 def plan_of(network: Network, arrays: KernelArrays, parts: tuple[Part, ...] = ()) -> SparsePlan:
     """Plan the sparse solver of a network: bars first, hinges second, then the parts."""
     bars = np.stack([arrays.start, arrays.end], axis=1)
     return make_plan(network.nodes.position, [bars, arrays.hinges, *(part.members for part in parts)])
 
 
-def kernel_plan(network: Network, arrays: KernelArrays) -> tuple[object, ...]:
-    """Return the plan of the sparse solver as the kernels take it, with room for its numbers."""
-    plan = plan_of(network, arrays)
+def kernel_plan(plan: SparsePlan) -> tuple[object, ...]:
+    """Return a plan of the sparse solver as the kernels take it, with room for its numbers."""
     return (
         plan.own, plan.pairs[0], plan.pairs[1], np.zeros(plan.size), plan.fronts, plan.target, plan.later, plan.order,
     )  # fmt: skip
@@ -119,13 +127,7 @@ class Relaxation:
         self.water = np.ascontiguousarray(flow.at(self.time, network.nodes.position.T))
         self.share = self.factor = 1.0
         self.length = arrays.bar("length")
-        self.typical = float(np.mean(self.length)) if bars else self._part_size()
-
-    def _part_size(self) -> float:
-        for part in self.parts:
-            edge = self.network.nodes.position[part.members[:, 0]] - self.network.nodes.position[part.members[:, 1]]
-            return float(np.mean(np.linalg.norm(edge, axis=1)))
-        return 1.0
+        self.typical = mean_size(network)
 
     @property
     def own_weight(self) -> float:
@@ -148,7 +150,7 @@ class Relaxation:
         self._take_water(place)
         force = np.empty_like(place)
         self.fluid[2] = 0.0
-        kernel.forces(
+        force_kernel.forces(
             place, self.still, self.water, self.system, self.fluid, self.bed, force, self.tension, self.mass
         )  # fmt: skip
         for part in self.parts:
@@ -161,7 +163,9 @@ class Relaxation:
         self._bars[10] = np.maximum(self.arrays.bars[10], radius)
         force, unused = np.empty_like(place), self._bar_law[0]
         self.fluid[2] = 0.0
-        kernel.forces(place, self.still, self.water, self._loads, self.fluid, self._no_bed, force, unused, self.mass)
+        force_kernel.forces(
+            place, self.still, self.water, self._loads, self.fluid, self._no_bed, force, unused, self.mass
+        )
         for part in self.parts:
             part.add_forces(place, self.still, self.water, self.share, force)
         return force
@@ -169,22 +173,22 @@ class Relaxation:
     def _solve(self, place: Array, force: Array, by_mass: float, bold: bool) -> tuple[Array | None, float]:
         """Return the step and the work of ``force`` along it; none where the matrix is not positive (unless bold)."""
         for exact in (True, False):
-            kernel.blocks(
+            force_kernel.blocks(
                 place, self.still, self.water, self._loads, self.fluid, self.mass, self._bar_law, self._node_law,
                 by_mass, 0.0, 1.0, exact, self._node_block, self._bar_block,
             )  # fmt: skip
             plan = self.plan
-            kernel.to_fronts(
+            front_kernel.to_fronts(
                 self._node_block, self._bar_block, self.system, 1.0, plan.own, plan.pairs[0], plan.pairs[1],
                 self.numbers,
             )  # fmt: skip
             for part, pairs in zip(self.parts, plan.pairs[2:], strict=True):
                 blocks = part.blocks(place, self.still, self.water, self.share)
-                kernel.add_elements(blocks, part.members, pairs, self.arrays.nodes[9:12], 1.0, self.numbers)
-            if not kernel.factor_fronts(self.numbers, plan.fronts, plan.target, not bold):
+                front_kernel.add_elements(blocks, part.members, pairs, self.arrays.nodes[9:12], 1.0, self.numbers)
+            if not front_kernel.factor_fronts(self.numbers, plan.fronts, plan.target, not bold):
                 continue
             step = force.copy()
-            kernel.solve_fronts(self.numbers, plan.fronts, plan.later, plan.order, step)
+            front_kernel.solve_fronts(self.numbers, plan.fronts, plan.later, plan.order, step)
             work = float(np.sum(step * force))
             if math.isfinite(work) and (work > 0.0 or bold):
                 return step, work
@@ -197,7 +201,7 @@ class Relaxation:
         only = self.arrays.bar("least_tension") == 0.0
         start, end = place[self.arrays.start], place[self.arrays.end]
         size = np.linalg.norm(end - start, axis=1)
-        kernel.laws(place, self.still, self.system, self.fluid, self.bed, 0.0, 1.0, law, node_law)
+        force_kernel.laws(place, self.still, self.system, self.fluid, self.bed, 0.0, 1.0, law, node_law)
         pull = np.where(law[0] > 0.0, law[0], self.arrays.bar("spring") * (size - self.length))
         pull = np.clip(pull, -load, load)
         push = np.clip(self.arrays.node("bed_stiffness") * (self.bed[0] - place[:, 2]), -load, load)
@@ -240,7 +244,7 @@ class Relaxation:
         while taken < most:
             taken += 1
             force = self._loads_at(x, radius)
-            kernel.mixed_laws(x, self.system, self.bed, soft, pulls, pushes, self._bar_law, self._node_law, force)
+            rest_kernel.mixed_laws(x, self.system, self.bed, soft, pulls, pushes, self._bar_law, self._node_law, force)
             force *= self.free
             step, work = self._solve(x, force, 1.0 / pace**2, bold)
             if step is None:
@@ -301,7 +305,7 @@ class Relaxation:
         for _ in range(6):
             new, new_pulls, new_pushes = np.empty_like(x), np.empty_like(pulls), pushes.copy()
             force = self._loads_at(x + part * step, radius)
-            kernel.mixed_step(
+            rest_kernel.mixed_step(
                 x, step, part, self.system, self.bed, self._bar_law, self._node_law, pulls, pushes, new, new_pulls,
                 new_pushes, force,
             )  # fmt: skip

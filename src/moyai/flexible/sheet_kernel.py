@@ -81,6 +81,8 @@ def tensile_stress(C: Any, t: int, e11: float, e22: float, shear: float) -> tupl
                 high = angle
             step = -value / slope if slope < 0.0 else 0.0
             new = angle + step
+            if slope < 0.0 and abs(step) < 1e-13:
+                break
             if slope >= 0.0 or not low < new < high:
                 new = 0.5 * (low + high)
             if abs(new - angle) < 1e-13:

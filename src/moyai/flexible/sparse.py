@@ -3,7 +3,7 @@
 A network is cut in two by a small set of nodes, each half again, and so on; the cuts are eliminated last. A line then
 costs a fixed effort per node, a net of N knots N^1.5. Every cut (and every last rest of a few nodes) is one *front*: a
 small dense matrix of its own nodes and of those later ones that they touch. The numbers are worked on in
-:mod:`moyai.flexible.implicit_kernel`.
+:mod:`moyai.flexible.front_kernel`.
 """
 
 from __future__ import annotations

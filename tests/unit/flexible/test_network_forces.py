@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from networks_for_tests import NO_GRAVITY, random_network, rope, still
 
-from moyai.flexible import explicit_kernel, implicit_kernel
+from moyai.flexible import explicit_kernel, force_kernel, front_kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.flow import Flow
@@ -27,7 +27,7 @@ def evaluate(network, place, speed, water):
     count = len(network.nodes)
     force, mass, tension = np.zeros((count, 3)), np.zeros((count, 6)), np.zeros(len(network.bars))
     fluid = np.array([network.water.density, network.water.gravity, 0.0])
-    implicit_kernel.forces(place, speed, water, kernel_system(arrays), fluid, kernel_bed(network), force, tension, mass)
+    force_kernel.forces(place, speed, water, kernel_system(arrays), fluid, kernel_bed(network), force, tension, mass)
     return force, mass, tension
 
 
@@ -44,7 +44,7 @@ def test_elastic_forces_are_the_gradient_of_the_energy(seed):
     constant[:, 2] = -arrays.node("weight") + network.water.density * network.water.gravity * network.node_volume
 
     def energy(x):
-        return implicit_kernel._energies(x, np.zeros_like(x), mass, system)[1]
+        return force_kernel.energies(x, np.zeros_like(x), mass, system)[1]
 
     step = 1e-6
     scale = np.max(np.abs(force - constant))
@@ -78,22 +78,20 @@ def test_tangent_is_the_derivative_of_the_forces(seed):
     force, mass, tension = np.zeros((count, 3)), np.zeros((count, 6)), np.zeros(len(network.bars))
 
     def left(x, v):
-        implicit_kernel.forces(x, v, water, system, fluid, bed, force, tension, mass)
+        force_kernel.forces(x, v, water, system, fluid, bed, force, tension, mass)
         return force * arrays.nodes[9:12].T
 
     left(place, speed)
     bar_law, node_law = np.zeros((2, len(network.bars))), np.zeros((2, count))
     node_block, bar_block = np.zeros((count, 3, 3)), np.zeros((len(network.bars), 2, 3, 3))
-    implicit_kernel.laws(place, speed, system, fluid, bed, rate_part, place_part, bar_law, node_law)
-    implicit_kernel.blocks(
+    force_kernel.laws(place, speed, system, fluid, bed, rate_part, place_part, bar_law, node_law)
+    force_kernel.blocks(
         place, speed, water, system, fluid, mass, bar_law, node_law, 0.0, rate_part, place_part, True, node_block,
         bar_block,
     )  # fmt: skip
     plan = plan_of(network, arrays)
     numbers = np.zeros(plan.size)
-    implicit_kernel.to_fronts(
-        node_block, bar_block, system, place_part, plan.own, plan.pairs[0], plan.pairs[1], numbers
-    )
+    front_kernel.to_fronts(node_block, bar_block, system, place_part, plan.own, plan.pairs[0], plan.pairs[1], numbers)
     matrix = dense(plan, numbers)
     free = arrays.nodes[9:12].T > 0.0
     direction = rng.normal(0.0, 1.0, (count, 3)) * free
@@ -128,7 +126,7 @@ def test_the_sparse_solver_is_gauss_elimination(seed):
     numbers, matrix = np.zeros(plan.size), np.zeros((3 * count, 3 * count))
     for members, pairs in zip((bars, more), plan.pairs, strict=True):
         blocks = rng.normal(size=(len(members), members.shape[1], members.shape[1], 3, 3))
-        implicit_kernel.add_elements(blocks, members, pairs, np.ones((3, count)), 1.0, numbers)
+        front_kernel.add_elements(blocks, members, pairs, np.ones((3, count)), 1.0, numbers)
         for element, nodes in zip(blocks, members, strict=True):
             for i, a in enumerate(nodes):
                 for j, b in enumerate(nodes):
@@ -140,8 +138,8 @@ def test_the_sparse_solver_is_gauss_elimination(seed):
             numbers[plan.own[node, 0] + axis * (plan.own[node, 1] + 1)] += weight
     right = rng.normal(size=(count, 3))
     exact = np.linalg.solve(matrix + weight * np.eye(3 * count), right.ravel())
-    assert implicit_kernel.factor_fronts(numbers, plan.fronts, plan.target, True)
-    implicit_kernel.solve_fronts(numbers, plan.fronts, plan.later, plan.order, right)
+    assert front_kernel.factor_fronts(numbers, plan.fronts, plan.target, True)
+    front_kernel.solve_fronts(numbers, plan.fronts, plan.later, plan.order, right)
     assert right.ravel() == pytest.approx(exact, rel=1e-9, abs=1e-12)
 
 
