@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,24 +24,13 @@ from moyai.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.breakwater.screening import check_screening
 from moyai.breakwater.sensitivity import sensitivity_datasets
 from moyai.breakwater.statics_analysis import mooring_dataset, moving_shapes, statics_dataset
+from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
-from moyai.core.results import Result, Status, make_provenance
+from moyai.core.results import Result
 from moyai.core.store import DatasetStore
-from moyai.core.validity import IdentityCheck, Notice
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-@dataclass
-class _Collected:
-    """What a run has so far; kept whole at every moment so that an interrupt loses only the step in hand."""
-
-    groups: dict[str, xr.Dataset] = field(default_factory=dict)
-    checks: list[IdentityCheck] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    unsettled: list[str] = field(default_factory=list)
-    interrupted: bool = False
 
 
 @dataclass(frozen=True)
@@ -81,18 +70,18 @@ def run(
     InputError
         When the case is impossible: the body sinks, reaches the bed, a line cannot reach.
     """
-    collected = _Collected()
+    collected = Collected()
     collected.notices.extend(check_problem(problem))
     steps = _steps(problem, collected, _Sources(coefficients, store), progress)
     try:
         for _ in steps:
             pass
     except KeyboardInterrupt:
-        collected.interrupted = True
+        collected.interrupted = STOPPED
     return _result(problem, collected)
 
 
-def _steps(problem: BreakwaterProblem, collected: _Collected, sources: _Sources, progress: Progress) -> Iterator[None]:
+def _steps(problem: BreakwaterProblem, collected: Collected, sources: _Sources, progress: Progress) -> Iterator[None]:
     analyses = problem.settings.analyses
     levels = problem.environment.water_levels
     # Every level is assembled before any long work starts, so that an impossible one is told at once
@@ -106,7 +95,7 @@ def _steps(problem: BreakwaterProblem, collected: _Collected, sources: _Sources,
 def _level_steps(
     problem: BreakwaterProblem,
     unit: FloatingUnit,
-    collected: _Collected,
+    collected: Collected,
     sources: _Sources,
     progress: Progress,
     analyses: tuple[str, ...],
@@ -143,7 +132,7 @@ def _level_steps(
 
 
 def _frequency_steps(
-    problem: BreakwaterProblem, model: FrequencyModel, collected: _Collected, root: str, progress: Progress
+    problem: BreakwaterProblem, model: FrequencyModel, collected: Collected, root: str, progress: Progress
 ) -> Iterator[None]:
     unit, hydro = model.unit, model.hydro
     seas = problem.environment.sea_states
@@ -164,7 +153,7 @@ def _frequency_steps(
         collected.notices.extend(answer.notices)
         collected.notices.extend(strength_notices(f"{unit.name}, {sea.name}, frequency domain", answer.dataset))
         if answer.dataset.attrs["status"] != "converged":
-            collected.unsettled.append(f"{unit.name}/frequency/{sea.name}")
+            collected.failures.append(f"not settled: {unit.name}/frequency/{sea.name}")
         yield
     groups, notices = sensitivity_datasets(problem, unit, hydro, model)
     collected.notices.extend(notices)
@@ -173,7 +162,7 @@ def _frequency_steps(
 
 
 def _time_steps(
-    problem: BreakwaterProblem, model: FrequencyModel, collected: _Collected, root: str, progress: Progress
+    problem: BreakwaterProblem, model: FrequencyModel, collected: Collected, root: str, progress: Progress
 ) -> Iterator[None]:
     from moyai.breakwater import time_irregular, time_regular
     from moyai.breakwater.memory_model import unit_memory
@@ -214,7 +203,7 @@ def _time_steps(
         if answer.status == "interrupted":
             raise KeyboardInterrupt
         if answer.status != "converged":
-            collected.unsettled.append(f"{unit.name}/time/{sea.name}")
+            collected.failures.append(f"not settled: {unit.name}/time/{sea.name}")
         yield
 
 
@@ -224,58 +213,23 @@ def _level_header(unit: FloatingUnit) -> xr.Dataset:
     return xr.Dataset(attrs={"water_level": unit.level, "water_depth": unit.water.depth})
 
 
-def _result(problem: BreakwaterProblem, collected: _Collected) -> Result:
-    """Close the run: status, message, provenance."""
+def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
     import xarray as xr
 
-    failed = [check.name for check in collected.checks if not check.passed]
-    outside = [notice for notice in collected.notices if notice.severity == "error"]
-    status: Status = "converged"
-    message = "all identities hold and all iterations converged"
-    if outside:
-        status, message = "outside_validity", outside[0].message
-    if collected.unsettled or failed:
-        status = "not_converged"
-        message = "; ".join(
-            [f"not settled: {name}" for name in collected.unsettled] + [f"identity fails: {name}" for name in failed]
-        )
-    if collected.interrupted:
-        status, message = "interrupted", "stopped by the user; groups that were finished are here"
-    root = xr.Dataset(
-        attrs={
-            "structure": "breakwater",
-            "title": problem.title,
-            "case_hash": problem.case_hash,
-            "case_text": problem.case_text,
-        }
-    )
-    groups: dict[str, xr.Dataset] = {"/": root, **collected.groups}
     if problem.measured is not None:
         columns = problem.measured.columns
-        groups["/measured"] = xr.Dataset(
+        collected.groups["/measured"] = xr.Dataset(
             {name: ("point", np.asarray(values)) for name, values in columns.items()},
             attrs={"file": problem.measured.file},
         )
+    attributes = {
+        "structure": "breakwater",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
     seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
-    return Result(
-        tree=xr.DataTree.from_dict(groups),
-        status=status,
-        message=message,
-        checks=tuple(collected.checks),
-        notices=_unique(collected.notices),
-        provenance=make_provenance(
-            title=problem.title, case_hash=problem.case_hash, structure="breakwater", seeds=seeds
-        ),
-    )
-
-
-def _unique(notices: list[Notice]) -> tuple[Notice, ...]:
-    """Keep the first of equal messages, grave ones first."""
-    rank = {"error": 0, "warning": 1, "information": 2}
-    seen: dict[str, Notice] = {}
-    for notice in notices:
-        seen.setdefault(notice.message, notice)
-    return tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3)))
+    return collected.close(attributes, seeds, fulfilled="all identities hold and all iterations converged")
 
 
 __all__ = ["run"]

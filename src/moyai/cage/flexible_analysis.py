@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,25 +20,16 @@ from moyai.cage.flexible_time import run_cage, time_dataset
 from moyai.cage.flexible_wake import ScaledCurrent
 from moyai.cage.rigid_model import RegularWaves
 from moyai.cage.rigid_waves import COMPONENTS, Wave, regular_wave
+from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
-from moyai.core.results import Result, Status, make_provenance
-from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.results import Result
 from moyai.flexible.flow import Current
 from moyai.sea.irregular import synthesise
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-
-@dataclass
-class _Collected:
-    groups: dict[str, xr.Dataset] = field(default_factory=dict)
-    checks: list[IdentityCheck] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    interrupted: bool = False
-    diverged: str = ""
+    pass
 
 
 def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
@@ -60,12 +51,12 @@ def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
     InputError, ConvergenceError
         For a cage that does not float or does not come to rest.
     """
-    collected = _Collected()
+    collected = Collected()
     try:
         for _ in _steps(problem, collected, progress):
             pass
     except KeyboardInterrupt:
-        collected.interrupted = True
+        collected.interrupted = STOPPED
     return _result(problem, collected)
 
 
@@ -98,7 +89,7 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
     return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
 
 
-def _steps(problem: FlexibleCageProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
+def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     import xarray as xr
 
     levels = problem.environment.water_levels
@@ -149,7 +140,7 @@ def _sea_steps(
     model: FlexibleCage,
     rest: CageRest,
     sea: RegularWaves | IrregularSea,
-    collected: _Collected,
+    collected: Collected,
     root: str,
     progress: Progress,
 ) -> Iterator[None]:
@@ -165,7 +156,7 @@ def _sea_steps(
             if found.history.status == "interrupted":
                 raise KeyboardInterrupt
             if found.history.status == "not_converged":
-                collected.diverged = f"{sea.name}, {wave.name}: {found.history.message}"
+                collected.failures.append(f"{sea.name}, {wave.name}: {found.history.message}")
             yield
         if "sensitivity" in problem.settings.analyses and number == 0:
             collected.groups[f"{root}/sensitivity/{sea.name}"] = sensitivity_dataset(
@@ -175,38 +166,12 @@ def _sea_steps(
     progress(f"time, {sea.name}", len(waves), len(waves))
 
 
-def _result(problem: FlexibleCageProblem, collected: _Collected) -> Result:
-    """Close the run: status, message, provenance."""
-    import xarray as xr
-
-    failed = [check.name for check in collected.checks if not check.passed]
-    outside = [notice for notice in collected.notices if notice.severity == "error"]
-    status: Status = "converged"
-    message = "all identities hold"
-    if outside:
-        status, message = "outside_validity", outside[0].message
-    if failed:
-        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
-    if collected.diverged:
-        status, message = "not_converged", collected.diverged
-    if collected.interrupted:
-        status, message = "interrupted", "interrupted; what was finished is kept"
-    root = xr.Dataset(
-        attrs={
-            "title": problem.title, "structure": "cage", "cage_model": "flexible", "case_hash": problem.case_hash,
-            "case_text": problem.case_text,
-        }
-    )  # fmt: skip
-    rank = {"error": 0, "warning": 1, "information": 2}
-    seen: dict[str, Notice] = {}
-    for notice in collected.notices:
-        seen.setdefault(notice.message, notice)
-    seeds = [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)]
-    return Result(
-        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
-        status=status,
-        message=message,
-        checks=tuple(collected.checks),
-        notices=tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3))),
-        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="cage", seeds=seeds),
-    )
+def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
+    attributes = {
+        "title": problem.title,
+        "structure": "cage",
+        "cage_model": "flexible",
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
+    return collected.close(attributes, [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)])

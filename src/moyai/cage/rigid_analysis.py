@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,23 +26,15 @@ from moyai.cage.rigid_sensitivity import sensitivity_dataset
 from moyai.cage.rigid_setup import at_level, lines_of
 from moyai.cage.rigid_statics import Rest, free_floating, rest_with_lines, size_of
 from moyai.cage.rigid_waves import current_along, waves_of
+from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
-from moyai.core.results import Result, Status, make_provenance
-from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.results import Result
+from moyai.core.validity import Notice
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-
-@dataclass
-class _Collected:
-    groups: dict[str, xr.Dataset] = field(default_factory=dict)
-    checks: list[IdentityCheck] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    interrupted: bool = False
-    diverged: str = ""
+    pass
 
 
 def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
@@ -64,13 +56,13 @@ def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
     InputError
         When the cage sinks, its lines cannot reach, or a current would carry it away.
     """
-    collected = _Collected()
+    collected = Collected()
     lines = lines_of(problem)
     try:
         for _ in _steps(problem, lines, collected, progress):
             pass
     except KeyboardInterrupt:
-        collected.interrupted = True
+        collected.interrupted = STOPPED
     return _result(problem, collected)
 
 
@@ -84,7 +76,7 @@ def rest_at(problem: RigidCageProblem, lines: tuple[CageLine, ...], water: Water
 
 
 def _steps(
-    problem: RigidCageProblem, lines: tuple[CageLine, ...], collected: _Collected, progress: Progress
+    problem: RigidCageProblem, lines: tuple[CageLine, ...], collected: Collected, progress: Progress
 ) -> Iterator[None]:
     import xarray as xr
 
@@ -121,7 +113,7 @@ def _sea_steps(
     rest: Rest,
     water: Water,
     sea: CageSea,
-    collected: _Collected,
+    collected: Collected,
     root: str,
     progress: Progress,
 ) -> Iterator[None]:
@@ -138,10 +130,10 @@ def _sea_steps(
         told.extend(run_notices(problem, found))
         collected.checks.extend(run_checks(sea.name, problem, found, lines))
         if found.march.status == "interrupted":
-            collected.interrupted = True
+            collected.interrupted = STOPPED
             raise KeyboardInterrupt
         if found.march.status == "not_converged":
-            collected.diverged = (
+            collected.failures.append(
                 f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
             )
         yield
@@ -154,7 +146,7 @@ def _sensitivity_steps(
     lines: tuple[CageLine, ...],
     water: Water,
     sea: CageSea,
-    collected: _Collected,
+    collected: Collected,
     root: str,
     progress: Progress,
 ) -> Iterator[None]:
@@ -183,45 +175,16 @@ def _gravest(notices: list[Notice]) -> list[Notice]:
     return list(kept.values())
 
 
-def _result(problem: RigidCageProblem, collected: _Collected) -> Result:
-    """Close the run: status, message, provenance."""
-    import xarray as xr
-
-    failed = [check.name for check in collected.checks if not check.passed]
-    outside = [notice for notice in collected.notices if notice.severity == "error"]
-    status: Status = "converged"
-    message = "all identities hold"
-    if outside:
-        status, message = "outside_validity", outside[0].message
-    if failed:
-        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
-    if collected.diverged:
-        status, message = "not_converged", collected.diverged
-    if collected.interrupted:
-        status, message = "interrupted", "stopped by the user; groups that were finished are here"
-    root = xr.Dataset(
-        attrs={
-            "structure": "cage",
-            "cage_model": "rigid",
-            "title": problem.title,
-            "case_hash": problem.case_hash,
-            "case_text": problem.case_text,
-            "equations": problem.equations,
-        }
-    )
-    rank = {"error": 0, "warning": 1, "information": 2}
-    seen: dict[str, Notice] = {}
-    for notice in collected.notices:
-        seen.setdefault(notice.message, notice)
-    seeds = [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)]
-    return Result(
-        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
-        status=status,
-        message=message,
-        checks=tuple(collected.checks),
-        notices=tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3))),
-        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="cage", seeds=seeds),
-    )
+def _result(problem: RigidCageProblem, collected: Collected) -> Result:
+    attributes = {
+        "structure": "cage",
+        "cage_model": "rigid",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+        "equations": problem.equations,
+    }
+    return collected.close(attributes, [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)])
 
 
 __all__ = ["rest_at", "run"]

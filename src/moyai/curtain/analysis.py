@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
-from moyai.core.results import Result, Status, make_provenance
-from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.results import Result
+from moyai.core.validity import Notice
 from moyai.curtain.analysis_anchor import anchor_checks, anchor_dataset, anchor_notices
 from moyai.curtain.analysis_dynamic import dynamic_answer
 from moyai.curtain.analysis_impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
@@ -28,15 +29,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclass
-class _Collected:
-    """What a run has so far; kept whole at every moment so that an interrupt loses only the step in hand."""
+class _Collected(Collected):
+    """What a run has so far, and the water level of every notice."""
 
-    groups: dict[str, xr.Dataset] = field(default_factory=dict)
-    checks: list[IdentityCheck] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    level_of: list[str] = field(default_factory=list)
-    interrupted: bool = False
+    def __init__(self) -> None:
+        super().__init__()
+        self.level_of: list[str] = []
 
     def name_level(self, level: str) -> None:
         """Note that the notices since the last call belong to a water level (empty: to the whole run)."""
@@ -68,7 +66,7 @@ def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
         for _ in _steps(problem, collected, progress):
             pass
     except KeyboardInterrupt:
-        collected.interrupted = True
+        collected.interrupted = STOPPED
     return _result(problem, collected)
 
 
@@ -173,35 +171,17 @@ def _header(unit: LevelCurtain) -> xr.Dataset:
 
 
 def _result(problem: CurtainProblem, collected: _Collected) -> Result:
-    """Close the run: status, message, provenance."""
-    import xarray as xr
-
-    failed = [check.name for check in collected.checks if not check.passed]
-    outside = [notice for notice in collected.notices if notice.severity == "error"]
-    status: Status = "converged"
-    message = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
-    if outside:
-        status, message = "outside_validity", outside[0].message
-    if failed:
-        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
-    if collected.interrupted:
-        status, message = "interrupted", "stopped by the user; groups that were finished are here"
-    root = xr.Dataset(
-        attrs={
-            "structure": "curtain",
-            "title": problem.title,
-            "case_hash": problem.case_hash,
-            "case_text": problem.case_text,
-        }
-    )
-    seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
-    return Result(
-        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
-        status=status,
-        message=message,
-        checks=tuple(collected.checks),
-        notices=_unique(_placed(collected, len(problem.environment.water_levels))),
-        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="curtain", seeds=seeds),
+    attributes = {
+        "structure": "curtain",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
+        notices=_placed(collected, len(problem.environment.water_levels)),
+        fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
     )
 
 
@@ -217,15 +197,6 @@ def _placed(collected: _Collected, levels: int) -> list[Notice]:
         said = notice.message.startswith(f"{level}:") or notice.message.startswith(f"{level},")
         placed.append(replace(notice, message=f"{level}: {notice.message}") if alone and not said else notice)
     return placed
-
-
-def _unique(notices: list[Notice]) -> tuple[Notice, ...]:
-    """Keep the first of equal messages, grave ones first."""
-    rank = {"error": 0, "warning": 1, "information": 2}
-    seen: dict[str, Notice] = {}
-    for notice in notices:
-        seen.setdefault(notice.message, notice)
-    return tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3)))
 
 
 __all__ = ["run"]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from moyai.core.labels import with_labels
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -269,9 +271,4 @@ VARIABLES: dict[str, tuple[str, str]] = {
 
 def labelled(dataset: xr.Dataset) -> xr.Dataset:
     """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    out = dataset.copy()
-    for name in list(out.variables):
-        entry = VARIABLES.get(str(name))
-        if entry is not None:
-            out[name].attrs = {"units": entry[0], "long_name": entry[1], **out[name].attrs}
-    return out
+    return with_labels(dataset, VARIABLES)

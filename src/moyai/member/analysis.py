@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
-from moyai.core.results import Result, Status, make_provenance
+from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.member.checks import member_notices, require_in_water, wave_notices
 from moyai.member.datasets import member_dataset, sea_dataset, time_dataset
@@ -29,14 +30,6 @@ if TYPE_CHECKING:
 
 #: Departure of the variance of a realisation, cut at its duration, from that of the spectrum
 _VARIANCE = 0.05
-
-
-@dataclass
-class _Collected:
-    groups: dict[str, xr.Dataset] = field(default_factory=dict)
-    checks: list[IdentityCheck] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    interrupted: bool = False
 
 
 def run(problem: MemberProblem, progress: Progress = silent) -> Result:
@@ -58,18 +51,18 @@ def run(problem: MemberProblem, progress: Progress = silent) -> Result:
     InputError
         When the member is above the surface, below the bed, or a coefficient law does not speak of its section.
     """
-    collected = _Collected()
+    collected = Collected()
     for name, level in problem.environment.water_levels:
         require_in_water(problem.member_at(level), problem.environment.water_at(level), name)
     try:
         for _ in _steps(problem, collected, progress):
             pass
     except KeyboardInterrupt:
-        collected.interrupted = True
+        collected.interrupted = STOPPED
     return _result(problem, collected)
 
 
-def _steps(problem: MemberProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
+def _steps(problem: MemberProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
     collected.checks.extend(problem.member.placed_section.inertia.checks)
     for index, (name, level) in enumerate(levels):
@@ -113,7 +106,7 @@ def _sea_steps(
     member: StraightMember,
     water: Water,
     sea: RegularWaves | IrregularSea,
-    collected: _Collected,
+    collected: Collected,
     root: str,
     progress: Progress,
 ) -> Iterator[None]:
@@ -178,7 +171,7 @@ def _surface(
     member: StraightMember,
     water: Water,
     sea: RegularWaves | IrregularSea,
-    collected: _Collected,
+    collected: Collected,
     root: str,
     progress: Progress,
 ) -> None:
@@ -218,42 +211,15 @@ def _surface(
     )
 
 
-def _result(problem: MemberProblem, collected: _Collected) -> Result:
-    """Close the run: status, message, provenance."""
-    import xarray as xr
-
-    failed = [check.name for check in collected.checks if not check.passed]
-    outside = [notice for notice in collected.notices if notice.severity == "error"]
-    status: Status = "converged"
-    message = "all identities hold"
-    if outside:
-        status, message = "outside_validity", outside[0].message
-    if failed:
-        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
-    if collected.interrupted:
-        status, message = "interrupted", "stopped by the user; groups that were finished are here"
-    root = xr.Dataset(
-        attrs={
-            "structure": "member",
-            "title": problem.title,
-            "case_hash": problem.case_hash,
-            "case_text": problem.case_text,
-            "purpose": problem.circulation.purpose,
-        }
-    )
-    seeds = [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)]
-    rank = {"error": 0, "warning": 1, "information": 2}
-    seen: dict[str, Notice] = {}
-    for notice in collected.notices:
-        seen.setdefault(notice.message, notice)
-    return Result(
-        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
-        status=status,
-        message=message,
-        checks=tuple(collected.checks),
-        notices=tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3))),
-        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="member", seeds=seeds),
-    )
+def _result(problem: MemberProblem, collected: Collected) -> Result:
+    attributes = {
+        "structure": "member",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+        "purpose": problem.circulation.purpose,
+    }
+    return collected.close(attributes, [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)])
 
 
 __all__ = ["run"]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.collected import Collected
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
-from moyai.core.results import Result, Status, make_provenance
+from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import DRIVEN, FIXED
@@ -45,15 +45,6 @@ if TYPE_CHECKING:
 MOST_STIFFNESSES, BALANCE = 6, 1e-4
 
 
-@dataclass
-class _Collected:
-    groups: dict[str, xr.Dataset] = field(default_factory=dict)
-    checks: list[IdentityCheck] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    failures: list[str] = field(default_factory=list)
-    interrupted: str = ""
-
-
 def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
     """Run all analyses of a network.
 
@@ -74,7 +65,7 @@ def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
     InputError
         For a network that cannot be built.
     """
-    collected = _Collected()
+    collected = Collected()
     try:
         for _ in _steps(problem, collected, progress):
             pass
@@ -83,7 +74,7 @@ def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
     return _result(problem, collected)
 
 
-def _steps(problem: NetworkProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
+def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
     for index, (name, level) in enumerate(levels):
         progress("water levels", index, len(levels))
@@ -191,7 +182,7 @@ def network_dataset(problem: NetworkProblem, assembly: Assembly, water: Water) -
 
 
 def _at_rest(
-    problem: NetworkProblem, assembly: Assembly, water: Water, root: str, said: str, collected: _Collected
+    problem: NetworkProblem, assembly: Assembly, water: Water, root: str, said: str, collected: Collected
 ) -> tuple[dict[str, Equilibrium], dict[str, CoupledRest]]:
     """Find the networks at rest that the analyses need; tell where there is none."""
     wanted = set(problem.settings.analyses)
@@ -234,7 +225,7 @@ def _stiffness(
     water: Water,
     found: dict[str, Equilibrium],
     said: str,
-    collected: _Collected,
+    collected: Collected,
 ) -> np.ndarray | None:
     count = 0 if problem.bodies else len(driven_names(assembly))
     if count == 0:
@@ -260,7 +251,7 @@ def _stiffness(
         return None
 
 
-def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, collected: _Collected) -> None:
+def _weight_check(assembly: Assembly, found: dict[str, Equilibrium], said: str, collected: Collected) -> None:
     """Hold the loads on all held points against the weight in water, where nothing lies on a bed or floats."""
     network = assembly.network
     carried = any(name in network.points for name in network.motion_names)
@@ -299,7 +290,7 @@ def _dynamic(
     at_rest: tuple[dict[str, Equilibrium], dict[str, CoupledRest]],
     root: str,
     said: str,
-    collected: _Collected,
+    collected: Collected,
     progress: Progress,
 ) -> Iterator[None]:
     rests, hung = at_rest
@@ -349,42 +340,18 @@ def _dynamic(
         yield
 
 
-def _result(problem: NetworkProblem, collected: _Collected) -> Result:
-    """Close the run: status, message, provenance."""
-    import xarray as xr
-
-    failed = [check.name for check in collected.checks if not check.passed]
-    status: Status = "converged"
-    message = "all identities hold"
-    outside = [notice for notice in collected.notices if notice.severity == "error"]
-    if outside:
-        status, message = "outside_validity", outside[0].message
-    if failed:
-        status, message = "not_converged", "; ".join(f"identity fails: {name}" for name in failed)
-    if collected.failures:
-        status, message = "not_converged", "; ".join(collected.failures)
+def _result(problem: NetworkProblem, collected: Collected) -> Result:
     if collected.interrupted:
-        status = "interrupted"
         begun = any("/time/" in name for name in collected.groups)
         ahead = "; settings.resume goes on from its last state" if begun else ""
-        message = f"{collected.interrupted}; what there was by then is kept{ahead}"
-    root = xr.Dataset(
-        attrs={
-            "structure": "network", "title": problem.title, "case_hash": problem.case_hash,
-            "case_text": problem.case_text,
-        }
-    )  # fmt: skip
-    rank = {"error": 0, "warning": 1, "information": 2}
-    seen = {notice.message: notice for notice in collected.notices}
-    seeds = [sea.seed for sea in problem.environment.sea_states if hasattr(sea, "seed")]
-    return Result(
-        tree=xr.DataTree.from_dict({"/": root, **collected.groups}),
-        status=status,
-        message=message,
-        checks=tuple(collected.checks),
-        notices=tuple(sorted(seen.values(), key=lambda item: rank.get(item.severity, 3))),
-        provenance=make_provenance(title=problem.title, case_hash=problem.case_hash, structure="network", seeds=seeds),
-    )
+        collected.interrupted += f"; what there was by then is kept{ahead}"
+    attributes = {
+        "structure": "network",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
+    return collected.close(attributes, [sea.seed for sea in problem.environment.sea_states if hasattr(sea, "seed")])
 
 
 __all__ = ["run"]

@@ -1,0 +1,101 @@
+"""What a run has gathered so far, and the one way in which every structure closes it into a result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from moyai.core.results import Result, Status, make_provenance
+from moyai.core.validity import IdentityCheck, Notice
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STOPPED = "stopped by the user; groups that were finished are here"
+
+_RANK = {"error": 0, "warning": 1, "information": 2}
+
+
+class Collected:
+    """What a run has so far; kept whole at every moment so that an interrupt loses only the step in hand.
+
+    It grows while the run goes on and is closed once, into the immutable :class:`~moyai.core.results.Result`.
+
+    Attributes
+    ----------
+    groups : dict
+        Datasets by their path in the result.
+    checks, notices : list
+        Identities and validity notices in the order in which they were found.
+    failures : list of str
+        What did not converge, one sentence each.
+    interrupted : str
+        Why the run ended early; empty when it did not.
+    """
+
+    def __init__(self) -> None:
+        self.groups: dict[str, xr.Dataset] = {}
+        self.checks: list[IdentityCheck] = []
+        self.notices: list[Notice] = []
+        self.failures: list[str] = []
+        self.interrupted = ""
+
+    def status(self, fulfilled: str) -> tuple[Status, str]:
+        """Return the status of the run and the sentence behind it.
+
+        Parameters
+        ----------
+        fulfilled : str
+            The sentence of a run of which nothing is to be said.
+        """
+        if self.interrupted:
+            return "interrupted", self.interrupted
+        broken = [f"identity fails: {check.name}" for check in self.checks if not check.passed]
+        if self.failures or broken:
+            return "not_converged", "; ".join([*self.failures, *broken])
+        outside = [notice.message for notice in self.notices if notice.severity == "error"]
+        if outside:
+            return "outside_validity", outside[0]
+        return "converged", fulfilled
+
+    def close(
+        self,
+        attributes: Mapping[str, Any],
+        seeds: Iterable[int] = (),
+        *,
+        notices: Iterable[Notice] | None = None,
+        fulfilled: str = "all identities hold",
+    ) -> Result:
+        """Close the run: status, message, notices by their weight, provenance.
+
+        Parameters
+        ----------
+        attributes : mapping
+            Of the root group: ``title``, ``structure``, ``case_hash``, ``case_text`` and what the structure adds.
+        seeds : iterable of int
+            Seeds of the irregular seas.
+        notices : iterable of Notice, optional
+            In place of those that were collected, where the structure words them anew.
+        fulfilled : str
+            The sentence of a run of which nothing is to be said.
+        """
+        import xarray as xr
+
+        status, message = self.status(fulfilled)
+        known = {name: attributes[name] for name in ("title", "case_hash", "structure")}
+        return Result(
+            tree=xr.DataTree.from_dict({"/": xr.Dataset(attrs=dict(attributes)), **self.groups}),
+            status=status,
+            message=message,
+            checks=tuple(self.checks),
+            notices=by_weight(self.notices if notices is None else notices),
+            provenance=make_provenance(**known, seeds=list(seeds)),
+        )
+
+
+def by_weight(notices: Iterable[Notice]) -> tuple[Notice, ...]:
+    """Return the first of equal messages, grave ones first."""
+    seen: dict[str, Notice] = {}
+    for notice in notices:
+        seen.setdefault(notice.message, notice)
+    return tuple(sorted(seen.values(), key=lambda item: _RANK.get(item.severity, len(_RANK))))
