@@ -15,6 +15,7 @@ from moyai.coupled.planar import PlanarBody, PlanarCarrier
 from moyai.coupled.rigid import RigidCarrier
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
+from moyai.flexible.stepping import LEAST_STEPS
 from moyai.floating.time import STEPS_PER_NATURAL_PERIOD, STEPS_PER_PERIOD
 
 Array = NDArray[np.float64]
@@ -122,3 +123,43 @@ def choose_body_step(
         severity="information",
         remedy="give a shorter step to see its effect",
     )
+
+
+#: Share of the pace of the elastic wave under which a run that was to go at this pace says so.
+PACE = 0.99
+
+
+def steps_at_the_pace(interval: float, least: int, limit: float) -> tuple[int, tuple[Notice, ...]]:
+    """Return how many steps of the bodies fill an interval so that those of the network go at the pace of the wave.
+
+    Parameters
+    ----------
+    interval : float
+        Between two rows [s].
+    least : int
+        Steps of the bodies that it needs anyway.
+    limit : float
+        Stable step of the network, the pace of the elastic wave [s].
+
+    Returns
+    -------
+    count : int
+        Within four times ``least``.
+    notices : tuple of Notice
+        Where no count comes near.
+    """
+    counts = np.arange(least, 4 * least + 1)
+    steps = interval / counts / limit
+    courant = steps / np.maximum(np.ceil(steps * (1.0 - 1e-12)), LEAST_STEPS)
+    count = int(counts[int(np.argmax(courant - 1e-3 * counts / least))])
+    reached = float(courant[count - least])
+    if reached >= PACE:
+        return count, ()
+    return count, (
+        Notice(
+            "wave-front", f"steps of the network are {reached:.2f} of the pace of the elastic wave: sharp fronts run "
+            "with ripples that raise peaks by up to a tenth", reached, PACE, "warning",
+            f"rows that are a multiple of {limit:.5g} s apart, {LEAST_STEPS} times it at least (settings.output_step), "
+            "let them go at the pace",
+        ),
+    )  # fmt: skip

@@ -16,7 +16,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import Body, BodyHistory, BodyLog, BodyState, check_points
 from moyai.coupled.joint import Joint
-from moyai.coupled.pace import choose_body_step
+from moyai.coupled.pace import choose_body_step, steps_at_the_pace
 from moyai.coupled.rigid import RigidCarrier
 from moyai.flexible.explicit import LOAD_STEPS
 from moyai.flexible.flow import Flow
@@ -153,6 +153,9 @@ def simulate_coupled(
         network, names, motions=motions, flow=flow, start=start, velocity=velocity, step=step, safety=safety,
         load_steps=load_steps, keep_nodes=keep_nodes, keep_bars=keep_bars,
     )  # fmt: skip
+    if safety == 1.0 and step is None:
+        per_row, told = steps_at_the_pace(interval, per_row, stepped.run.limit()[0])
+        notices.extend(told)
     joint = Joint(list(moving.values()), stepped, tolerance, least=1e-3 * _least_weight(moving, network))
     logs = {name: BodyLog(bodies[name], moving[name]) for name in bodies}
     ending = _drive(joint, stepped, logs, start.time, interval, rows, per_row, network, progress)

@@ -27,7 +27,7 @@ IntArray = NDArray[np.int64]
 #: Accepted steps after which the step of the network is chosen again.
 _CHOSEN_FOR = 4
 #: Steps of the network within one step of a body, at least: mean and tilt of the reaction are sums over them.
-_LEAST_STEPS = 16
+LEAST_STEPS = 16
 
 
 class _SteppedRun(ExplicitRun):
@@ -39,9 +39,9 @@ class _SteppedRun(ExplicitRun):
         """Return the last choice for an interval of this length, a fresh one otherwise."""
         if self._choice is None or abs(row_interval - self._choice[0]) > 1e-9 * row_interval:
             step, per_load, per_row = super().choose(row_interval, wanted)
-            if per_load * per_row < _LEAST_STEPS:
+            if per_load * per_row < LEAST_STEPS:
                 # light lines would do with one step, but the reaction is a sum over steps
-                step, per_load, per_row = super().choose(row_interval, row_interval / _LEAST_STEPS)
+                step, per_load, per_row = super().choose(row_interval, row_interval / LEAST_STEPS)
             self._choice = (row_interval, step, per_load, per_row)
         _, _, per_load, per_row = self._choice
         return row_interval / (per_load * per_row), per_load, per_row
