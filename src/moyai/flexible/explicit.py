@@ -21,6 +21,7 @@ from moyai.flexible.result import State
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import RingArrays
 from moyai.flexible.stability import step_limit
+from moyai.flexible.watch import watch_of
 
 Array = NDArray[np.float64]
 
@@ -83,6 +84,9 @@ class ExplicitRun:
         )  # fmt: skip
         self.driving = driving_tables(network, motions)
         self.time, self.step = start.time, 0.0
+        #: Distance over which a node and the surface may approach each other within a chunk [m].
+        self.reach = 1.0 + (2.0 * float(np.sum(flow.waves.amplitude)) if flow.waves is not None else 0.0)
+        self.watch = watch_of(network, self.packed)
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
         # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step
         # behind
@@ -159,15 +163,26 @@ class ExplicitRun:
         if self.network.blocks is not None:
             kernel.section_loads(self.packed.memory, self.blocks, not self.flow.steady, self.sheets[2])
 
-    def _near_surface(self, ahead: float = 0.0) -> bool:
-        """Whether any bar may cross the surface within ``ahead`` seconds, 5 m/s faster than twice the present speed."""
-        top = float(self.place[2].max()) + float(self.arrays.bar("radius").max(initial=0.0))
-        fastest = max(float(np.max(np.abs(self.speed[2]), initial=0.0)), self.fastest_drive)
-        return top > float(np.min(self.water[6])) - self._reach() - ahead * (2.0 * fastest + 5.0)
+    def _survey(self, ahead: float = 0.0) -> tuple[float, bool, Array]:
+        """Return the rate that bounds the load interval, whether the surface is near, and inverse masses for the step.
 
-    def _reach(self) -> float:
-        """Distance over which a node and the surface may approach each other within a chunk [m]."""
-        return 1.0 + (2.0 * float(np.sum(self.flow.waves.amplitude)) if self.flow.waves is not None else 0.0)
+        Near is what may cross the surface within ``ahead`` seconds, 5 m/s faster than twice the present speed.
+        """
+        arrays, water = self.arrays, self.network.water
+        inverse = np.empty((6, arrays.nodes.shape[1]))
+        rate, near = kernel.survey(
+            self.packed.memory, arrays.nodes.shape[1], (arrays.nodes, arrays.bars), arrays.start, arrays.end,
+            self.packed.place, self.water, float(self.sheets[3][0]), self.fastest_drive, water.density * water.gravity,
+            self.reach, ahead, inverse,
+        )  # fmt: skip
+        if self.blocks[0].size:
+            # nodes of dense blocks count with their own mass: along the cable they have no other
+            for row, name in ((0, "free_x"), (3, "free_y"), (5, "free_z")):
+                inverse[row, self.blocks[0]] = arrays.node(name)[self.blocks[0]] / self.blocks[6]
+        return float(rate), bool(near), inverse
+
+    def _near_surface(self, ahead: float = 0.0) -> bool:
+        return self._survey(ahead)[1]
 
     def first_row(self, saved: Any) -> None:
         """Write the row of the start."""
@@ -192,47 +207,20 @@ class ExplicitRun:
 
     def limit(self) -> tuple[float, int]:
         """Return the largest stable step now and the node that sets it; what may fall dry counts without added mass."""
-        inverse = self.packed.node_rows(kernel.IXX, 6).copy()
-        dry = self.place[2] > float(np.min(self.water[6])) - self._reach()
-        inverse[:, dry] = 0.0
-        for row, name in ((0, "free_x"), (3, "free_y"), (5, "free_z")):
-            inverse[row, dry] = (self.arrays.node(name) / self.arrays.node("mass"))[dry]
-            # nodes of dense blocks count with their own mass: along the cable they have no other
-            inverse[row, self.blocks[0]] = self.arrays.node(name)[self.blocks[0]] / self.blocks[6]
-        return step_limit(self.arrays, self.place, inverse, self.rings.hinges, self.sheets[:2])
+        return self._bound(self._survey()[2])
 
-    def _load_rate(self) -> float:
-        """Return the fastest rate at which drag damps or floats bob, thrice weighted, anywhere [1/s]."""
-        rate = max(float(self.packed.bar_row(kernel.RATE).max(initial=0.0)), float(self.sheets[3][0]))
-        # also at the speed of what drives the network, which the bars may not have yet
-        lively = 2.0 * self.arrays.bar("drag_normal") * self.arrays.bar("per_mass")
-        rate = max(rate, self.fastest_drive * float(lively.max(initial=0.0)))
-        arrays = self.arrays
-        rows = {name: arrays.node(name) for name in ("drag", "mass", "added_mass", "volume", "height")}
-        speed = np.linalg.norm(self.water[:3] - self.speed, axis=0)
-        rate = max(rate, float(np.max(2.0 * rows["drag"] * speed / (rows["mass"] + rows["added_mass"]), initial=0.0)))
-        lift = self.network.water.density * self.network.water.gravity
-        with np.errstate(divide="ignore", invalid="ignore"):
-            stiff = np.where(rows["height"] > 0.0, 1.5 * lift * rows["volume"] / rows["height"], 0.0)
-        rate = max(rate, 3.0 * math.sqrt(float(np.max(stiff / rows["mass"], initial=0.0))))
-        if self._near_surface():
-            bob = arrays.bar("buoyancy") / arrays.bar("radius") * arrays.bar("per_mass")
-            upper = np.maximum(self.place[2, arrays.start], self.place[2, arrays.end])
-            near = upper > float(np.min(self.water[6])) - 1.0
-            # a bar that crosses the surface steeply bobs over its height, a floating one over its diameter
-            tall = np.abs(self.place[2, arrays.start] - self.place[2, arrays.end])
-            flat = arrays.bar("radius") / (arrays.bar("radius") + 0.5 * tall)
-            rate = max(rate, 3.0 * math.sqrt(float(np.max(bob * flat * near, initial=0.0))))
-        return rate
+    def _bound(self, inverse: Array) -> tuple[float, int]:
+        return step_limit(self.arrays, self.place, inverse, self.rings.hinges, self.sheets[:2])
 
     def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
         """Return step, steps per load interval and load intervals per row that fill ``row_interval``."""
-        fastest = self._load_rate()
-        largest = min(self.safety * self.limit()[0], DRAG_SHARE / max(fastest, 1e-300)) if wanted is None else wanted
+        fastest, _, inverse = self._survey()
+        stable = self._bound(inverse)[0]
+        largest = min(self.safety * stable, DRAG_SHARE / max(fastest, 1e-300)) if wanted is None else wanted
         least = max(1, math.ceil(row_interval / largest * (1.0 - 1e-12)))
         if wanted is not None:
             # with the drag of the water, which a longer step would hold back, the bound may be a shorter one
-            bound = min(self.limit()[0], DRAG_SHARE / max(fastest, 1e-300))
+            bound = min(stable, DRAG_SHARE / max(fastest, 1e-300))
             self.overstep = max(self.overstep, row_interval / least / bound)
         most = min(self.load_steps, least)
         while most > 1 and most * row_interval / least * fastest > DRAG_SHARE:
@@ -253,6 +241,7 @@ class ExplicitRun:
             # velocities stand half an old step before now: bring them to half a new step before now
             self.kick(0.5 * (self.step - step))
         self.step, self.per_load = step, per_load
+        self.watch.at_step(step)
         end = self.time + rows * row_interval
         rate = np.zeros_like(self.water)
         if not self.flow.steady:
@@ -267,7 +256,7 @@ class ExplicitRun:
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first),
             self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.nets,
-            self.sheets, self.blocks,
+            self.sheets, self.blocks, self.watch.system,
         )  # fmt: skip
         self.time = end
         if not self.flow.steady:

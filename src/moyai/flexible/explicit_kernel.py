@@ -608,10 +608,85 @@ def _load_work(A: Any, count: int, sign: float) -> float:
     return sign * work
 
 
+@njit(cache=True, error_model="numpy")
+def survey(
+    A: Any, count: int, arrays: Any, start: Any, end: Any, place: Any, water: Any, gauge: float, drive: float,
+    lift: float, reach: float, ahead: float, inverse: Any,
+) -> tuple[float, bool]:  # fmt: skip
+    """Return the rate that bounds the load interval and whether a bar may cross the surface; write inverse masses.
+
+    The rate is the fastest at which drag damps or floats bob, thrice weighted, anywhere [1/s]; ``drive`` is the
+    greatest speed of what drives the network, which the bars may not have yet, ``lift`` density times gravity. The
+    surface is near when a node may reach it within ``ahead`` seconds, 5 m/s faster than twice the present speed.
+    ``inverse`` (6, n) becomes the inverse mass blocks, without added mass for what may fall dry.
+    """
+    nodes, bars = arrays
+    rate, top, low, fastest, thickest = gauge, -math.inf, math.inf, drive, 0.0
+    for i in range(count):
+        top = max(top, A[Z + i])
+        low = min(low, water[6, i])
+        fastest = max(fastest, abs(A[W + i]))
+        u, v, w = water[0, i] - A[U + i], water[1, i] - A[V + i], water[2, i] - A[W + i]
+        speed = math.sqrt(u * u + v * v + w * w)
+        rate = max(rate, 2.0 * nodes[3, i] * speed / (nodes[0, i] + nodes[4, i]))
+        if nodes[7, i] > 0.0:
+            rate = max(rate, 3.0 * math.sqrt(1.5 * lift * nodes[2, i] / nodes[7, i] / nodes[0, i]))
+    for k in range(start.size):
+        thickest = max(thickest, bars[10, k])
+    near = top + thickest > low - reach - ahead * (2.0 * fastest + 5.0)
+    bobs = top + thickest > low - reach
+    for k in range(start.size):
+        rate = max(rate, A[RATE + place[k]], drive * 2.0 * bars[4, k] * bars[11, k])
+        za, zb = A[Z + start[k]], A[Z + end[k]]
+        if bobs and max(za, zb) > low - 1.0:
+            # a bar that crosses the surface steeply bobs over its height, a floating one over its diameter
+            flat = bars[10, k] / (bars[10, k] + 0.5 * abs(za - zb))
+            rate = max(rate, 3.0 * math.sqrt(bars[8, k] / bars[10, k] * bars[11, k] * flat))
+    for i in range(count):
+        dry = A[Z + i] > low - reach
+        for row in range(6):
+            inverse[row, i] = 0.0 if dry else A[IXX + row * ROW + i]
+        if dry:
+            inverse[0, i], inverse[3, i] = nodes[9, i] / nodes[0, i], nodes[10, i] / nodes[0, i]
+            inverse[5, i] = nodes[11, i] / nodes[0, i]
+    return rate, near
+
+
+@njit(cache=True, error_model="numpy")
+def read_gauges(A: Any, bars: Any, gauges: Any) -> None:
+    """Keep the highest rise of the tension of some bars within two blocks of steps, and their highest tension.
+
+    A gauge holds: lowest tension in the block before, in this block, steps of this block, steps of a block, highest
+    rise, highest tension.
+    """
+    for g in range(bars.size):
+        pull = A[PULL + bars[g]]
+        gauges[g, 1] = min(gauges[g, 1], pull)
+        gauges[g, 4] = max(gauges[g, 4], pull - min(gauges[g, 0], gauges[g, 1]))
+        gauges[g, 5] = max(gauges[g, 5], pull)
+        gauges[g, 2] += 1.0
+        if gauges[g, 2] >= gauges[g, 3]:
+            gauges[g, 0], gauges[g, 1], gauges[g, 2] = gauges[g, 1], pull, 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def note_landings(A: Any, level: float, falls: Any) -> None:
+    """Keep the highest speed with which each node came down on the bed [eq:flexible-landing].
+
+    ``falls`` (2, n) holds the speed down of what is over the bed, and the highest at a landing.
+    """
+    for i in range(falls.shape[1]):
+        if A[Z + i] > level:
+            falls[0, i] = -A[W + i]
+        elif falls[0, i] > 0.0:
+            falls[1, i] = max(falls[1, i], falls[0, i])
+            falls[0, i] = 0.0
+
+
 @njit(cache=True, error_model="numpy", fastmath=FAST)
 def march(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, waves: Any,
-    driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any, nets: Any, sheets: Any, blocks: Any,
+    driving: Any, bed: Any, timing: Any, ledger: Any, saved: Any, nets: Any, sheets: Any, blocks: Any, watch: Any,
 ) -> int:  # fmt: skip
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
@@ -621,8 +696,9 @@ def march(
     of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
     velocities stand half a step behind, and from ``LEDGER`` on the impulses on driven points. ``saved`` is (position
     (rows, nodes, 3), tension (rows, bars), highest tension since the last row, energies and work (rows, 3), kept nodes,
-    kept bars as places in ``A``). ``nets`` is (panels, their matrices (12, n), rings, their moments). Returns the
-    number of good rows, fewer than asked for when values are no longer finite.
+    kept bars as places in ``A``). ``nets`` is (panels, their matrices (12, n), rings, their moments). ``watch`` is
+    (bars with gauges, gauges, falls on the bed). Returns the number of good rows, fewer than asked for when values are
+    no longer finite.
     """
     count, spine = sizes[0], sizes[1]
     driven, rest, tables, table_start, table_step = driving
@@ -633,6 +709,7 @@ def march(
     table, triangles, _, _, sheet_peak = sheets
     cloth, dense = triangles.shape[0] > 0, blocks[0].shape[0] > 0
     floor = level if has_bed else -1e300
+    gauge_bars, gauges, falls = watch
     panels, screen, rings, ring_moments = nets
     screened, ringed = panels[0].shape[0] > 0, rings[0].size > 0
     spare = np.zeros((3, screen.shape[1]))
@@ -664,6 +741,8 @@ def march(
             extrapolate(A, count)
             ledger[0] += _load_work(A, count, -1.0)
             touching = has_bed and _touching(A, count, level, per_load * step)
+            if touching:
+                note_landings(A, level, falls)
             for inner in range(per_load):
                 if loose:
                     for axis in range(3):
@@ -678,6 +757,7 @@ def march(
                     if ringed:
                         ring_loads(A[X:], A[Y:], A[Z:], rings, A[TX:], A[TY:], A[TZ:], ring_moments)
                 spine_forces(A, spine)
+                read_gauges(A, gauge_bars, gauges)
                 for d in range(driven.shape[0]):
                     node = driven[d, 0]
                     for axis in range(3):

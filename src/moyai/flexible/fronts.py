@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,6 +11,34 @@ from moyai.core.validity import Notice
 from moyai.flexible.network import Network
 
 Array = NDArray[np.float64]
+
+#: A rise counts as a front when it takes less than this part of the travel time of the wave, and is more than this part
+#: of the highest tension.
+WINDOW, JUMP = 0.25, 0.4
+
+
+@dataclass(frozen=True)
+class Front:
+    """The steepest rise of tension that was seen at one place of a strand.
+
+    Parameters
+    ----------
+    strand : int
+        Its number.
+    highest, rise : float
+        Highest tension there, and highest rise within the window [N].
+    within, travel : float
+        The window, and the time of an elastic wave along the strand [s].
+    fall : float
+        Highest speed with which a node of the strand came down on the bed [m/s].
+    """
+
+    strand: int
+    highest: float
+    rise: float
+    within: float
+    travel: float
+    fall: float
 
 
 def travel_time(network: Network, strand: int) -> float:
@@ -18,10 +48,11 @@ def travel_time(network: Network, strand: int) -> float:
     return float(np.sum(network.bars.length[bars] / speed))
 
 
-def front_notices(
-    network: Network, time: Array, bars: NDArray[np.int64], tension: Array, exact: bool
-) -> tuple[Notice, ...]:
-    """Return a notice for each strand whose tension jumps within a quarter of the travel time of the elastic wave.
+def fronts_of_rows(network: Network, time: Array, bars: NDArray[np.int64], tension: Array) -> list[Front]:
+    """Return the highest rise of every strand within a quarter of the travel time of the elastic wave, from rows.
+
+    Rows further apart than half the travel time cannot tell: the explicit scheme looks at every step instead
+    (:class:`moyai.flexible.watch.Watch`).
 
     Parameters
     ----------
@@ -29,36 +60,59 @@ def front_notices(
         The network.
     time, bars, tension : ndarray
         Rows, kept bars and their tensions as in :class:`moyai.flexible.result.History`.
-    exact : bool
-        Whether the run went at the pace of the wave (``safety=1`` and rows that whole steps fill).
     """
-    if time.size < 3 or exact:
-        return ()
+    if time.size < 3:
+        return []
     interval, found = float(time[1] - time[0]), []
     for number, strand in enumerate(network.strands):
         travel = travel_time(network, number)
         columns = np.flatnonzero(np.isin(bars, strand.bars))
-        # rows further apart than the travel time cannot tell
         if columns.size == 0 or interval > 0.5 * travel or strand.bars.size < 2:
             continue
-        column = columns[int(np.argmax(tension[:, columns].max(axis=0)))]
-        record = tension[:, column]
-        peak, rows = float(record.max()), max(1, round(0.25 * travel / interval))
-        if record.size <= rows or peak <= 0.0:
-            continue
-        jump = float(np.max(record[rows:] - record[:-rows]))
-        if jump > 0.4 * peak:
-            found.append(
-                Notice(
-                    "wave-front",
-                    f"the tension of {strand.name!r} (highest {peak:.4g} N) jumps by {jump:.4g} N "
-                    f"within {rows * interval:.3g} s, a part of the {travel:.3g} s of an elastic wave along it",
-                    rows * interval,
-                    travel,
-                    "information",
-                    "equal bars and safety=1, with rows that whole steps of the wave along a bar fill, carry the front "
-                    "without error; hold the peak against a finer mesh",
-                    "one-dimensional wave equation, central differences at Courant number 1",
-                )
-            )
-    return tuple(found)
+        record = tension[:, columns[int(np.argmax(tension[:, columns].max(axis=0)))]]
+        rows = max(1, round(WINDOW * travel / interval))
+        if record.size > rows:
+            rise = float(np.max(record[rows:] - record[:-rows]))
+            found.append(Front(number, float(record.max()), rise, rows * interval, travel, 0.0))
+    return found
+
+
+def front_notices(network: Network, fronts: list[Front]) -> tuple[Notice, ...]:
+    """Return a notice for each strand whose tension jumps within a part of the travel time of the elastic wave.
+
+    On a strand whose nodes come down on the bed the jump is likely made by the mesh [eq:flexible-landing].
+    """
+    worst: dict[int, Front] = {}
+    for front in fronts:
+        seen = worst.get(front.strand)
+        if front.rise > JUMP * front.highest > 0.0 and (seen is None or front.rise > seen.rise):
+            worst[front.strand] = front
+    return tuple(_notice(network.strands[front.strand].name, front) for front in worst.values())
+
+
+def _notice(name: str, front: Front) -> Notice:
+    said = (
+        f"the tension of {name!r} (highest {front.highest:.4g} N) jumps by {front.rise:.4g} N "
+        f"within {front.within:.3g} s, a part of the {front.travel:.3g} s of an elastic wave along it"
+    )
+    if front.fall > 0.0:
+        return Notice(
+            "landing-front",
+            f"{said}, and its nodes come down on the bed at up to {front.fall:.3g} m/s: lumps that stop there send "
+            "fronts that a smooth line has not, and peaks, those at the ends too, may be too high",
+            front.within,
+            front.travel,
+            "warning",
+            "twice the segments: such fronts fall with the square of the length of bars; a sensitivity run tells",
+            "wave of a node that stops, sqrt(EA m) times its speed along the bar",
+        )
+    return Notice(
+        "wave-front",
+        said,
+        front.within,
+        front.travel,
+        "information",
+        "equal bars and safety=1, with rows that whole steps of the wave along a bar fill, carry the front "
+        "without error; hold the peak against a finer mesh",
+        "one-dimensional wave equation, central differences at Courant number 1",
+    )

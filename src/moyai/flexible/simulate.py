@@ -16,7 +16,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
-from moyai.flexible.fronts import front_notices
+from moyai.flexible.fronts import front_notices, fronts_of_rows
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
@@ -359,15 +359,19 @@ def _history(
         status,
         message,
         (check,),
-        front_notices(
-            network,
-            np.asarray(np.arange(last) * interval, dtype=np.float64),
-            saved[5],
-            saved[1][:last],
-            _at_wave_pace(run),
-        )
-        + _doubts(run, check, status),
+        _fronts(network, run, saved, last, interval) + _doubts(run, check, status),
     )
+
+
+def _fronts(
+    network: Network, run: ExplicitRun | ImplicitRun, saved: tuple[np.ndarray, ...], last: int, interval: float
+) -> tuple[Notice, ...]:
+    """Return what is told of wave fronts; those at the pace of the wave are exact but for nodes that land on a bed."""
+    if isinstance(run, ImplicitRun):
+        time = np.asarray(np.arange(last) * interval, dtype=np.float64)
+        return front_notices(network, fronts_of_rows(network, time, saved[5], saved[1][:last]))
+    paced = _at_wave_pace(run)
+    return front_notices(network, [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced])
 
 
 def _at_wave_pace(run: ExplicitRun | ImplicitRun) -> bool:
