@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +21,7 @@ from moyai.flexible.part_kernel import panel_rate_blocks, sheet_blocks, stress_s
 from moyai.flexible.result import State
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets, sheet_grid
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulate import Method, simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 
@@ -168,7 +170,7 @@ def test_implicit_and_explicit_schemes_meet(make: Callable[[int], Network], seed
     moved, top = float(np.ptp(exact.position, axis=0).max()), float(exact.tension_peak.max())
     assert exact.status == "converged" and moved > 0.1 and exact.checks[0].value < 1e-3
 
-    def errors(**given: float | str) -> tuple[float, float]:
+    def errors(**given: Any) -> tuple[float, float]:
         found = simulate(network, **times, **given)
         assert found.status == "converged", found.message
         assert found.checks[0].value < 0.01
@@ -262,3 +264,71 @@ def test_a_hanging_cloth_swings_like_a_chain(wide: int) -> None:
     falls = np.flatnonzero((x[:-1] > 0.0) != (x[1:] > 0.0))
     when = run.time[falls] + x[falls] / (x[falls] - x[falls + 1]) * run.time[1]
     assert np.diff(when) == pytest.approx(0.5 * period, rel=5e-3)
+
+
+@pytest.mark.parametrize("make", [sheet_network, panel_network, ring_network])
+@pytest.mark.parametrize(("method", "order", "least"), [("tr_bdf2", 2, 1.9), ("esdirk4", 4, 3.1)])
+def test_order_of_both_schemes(make: Callable[[int], Network], method: Method, order: int, least: float) -> None:
+    """Steps halved thrice in smooth motion; drag by |u| u costs the fourth order a part where the flow turns."""
+    network, flow = make(0), Flow(velocity=(0.4, 0.3, 0.1))
+    begin = simulate(network, method="esdirk4", tolerance=1e-7, duration=1.0, output_step=0.5, flow=flow).final
+    ends = [
+        simulate(
+            network, method=method, step=0.4 / count, duration=0.4, output_step=0.4, flow=flow, start=begin,
+            tolerance=1e-7,
+        ).final.position
+        for count in (8, 16, 32)
+    ]  # fmt: skip
+    coarse, fine = (np.max(np.abs(a - b)) for a, b in itertools.pairwise(ends))
+    assert 0.0 < fine < 1e-5
+    assert least < math.log2(coarse / fine) < order + 0.2
+
+
+def test_free_rings_have_the_modes_of_hoppe_and_love() -> None:
+    """Six motions of no frequency, then n = 2, 3 out of the plane and in it; second order in the mesh."""
+    radius, bending, torsion, mass = 5.0, 2e4, 1.4e4, 5.0
+    n = np.array([2.0, 3.0])
+    unit = bending * n**2 * (n**2 - 1.0) ** 2 / (mass * radius**4)
+    exact = np.sqrt(np.stack([unit / (n**2 + bending / torsion), unit / (n**2 + 1.0)], axis=1).ravel())
+    found = []
+    for count in (24, 48):
+        shape = circle(count, radius)
+        size = np.full(count, float(np.linalg.norm(shape[1] - shape[0])))
+        pipe = BarType("pipe", mass, 1e8, 1e-6, tension_only=False)
+        bars = Bars(np.arange(count), np.roll(np.arange(count), -1), size, np.zeros(count, dtype=int), (pipe,))
+        nodes = Nodes(shape - [0.0, 0.0, 50.0], np.zeros(count, dtype=int))
+        ring = Ring("pipe", np.arange(count), shape, bending, torsion)
+        network = Network(nodes, bars, Water(100.0, 1000.0, 1e-12), rings=(ring,))
+        omega = natural_modes(network, State.at_rest(network), count=14).omega
+        assert np.max(omega[:6]) < 1e-4 * exact[0]
+        assert omega[6::2] == pytest.approx(omega[7::2], rel=1e-6)
+        found.append(omega[6::2])
+    assert found[1] == pytest.approx(exact, rel=0.02)
+    assert (4.0 * found[1] - found[0]) / 3.0 == pytest.approx(exact, rel=2e-3)
+
+
+@pytest.mark.parametrize("method", ["tr_bdf2", "esdirk4"])
+def test_a_ring_swings_with_its_exact_mode(method: Method) -> None:
+    """In the plane, started as cos 2t; viscosity calms what stretches."""
+    count, radius, bending, mass = 32, 5.0, 2e4, 5.0
+    shape, angle = circle(count, radius), 2.0 * math.pi * np.arange(count) / count
+    size = np.full(count, float(np.linalg.norm(shape[1] - shape[0])))
+    pipe = BarType("pipe", mass, 1e6, 1e-6, viscosity=1e4, tension_only=False)
+    bars = Bars(np.arange(count), np.roll(np.arange(count), -1), size, np.zeros(count, dtype=int), (pipe,))
+    nodes = Nodes(shape - [0.0, 0.0, 50.0], np.zeros(count, dtype=int))
+    ring = Ring("pipe", np.arange(count), shape, bending, bending)
+    network = Network(nodes, bars, Water(100.0, 1000.0, 1e-12), rings=(ring,))
+    begin = State.at_rest(network)
+    out, along = 0.01 * np.cos(2.0 * angle), -0.005 * np.sin(2.0 * angle)
+    begin.velocity[:, 0] = out * np.cos(angle) - along * np.sin(angle)
+    begin.velocity[:, 1] = out * np.sin(angle) + along * np.cos(angle)
+    period = 2.0 * math.pi / math.sqrt(bending * 36.0 / 5.0 / (mass * radius**4))
+    run = simulate(
+        network, duration=3.3 * period, output_step=period / 60.0, start=begin, method=method, tolerance=1e-5
+    )
+    assert run.status == "converged" and run.checks[0].value < 1e-3
+    x = run.position[:, 0, 0] - radius
+    turns = np.flatnonzero((x[:-1] > 0.0) != (x[1:] > 0.0))
+    when = run.time[turns] + x[turns] / (x[turns] - x[turns + 1]) * run.time[1]
+    # second order in the mesh: 1 % at 32 bars
+    assert np.diff(when) == pytest.approx(0.5 * period, rel=0.015)
