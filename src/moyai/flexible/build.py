@@ -11,14 +11,15 @@ Nodes of one line stand next to each other in memory, so that the kernels run ov
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, fields
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
-from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, Array, Bars, BarType, Bed, Network, Nodes, Strand
+from moyai.flexible.checks import whole_number
+from moyai.flexible.network import BOX, DRIVEN, FIXED, FREE, SPHERE, Array, Bars, BarType, Bed, Network, Nodes, Strand
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.shape import line_shape
@@ -85,6 +86,14 @@ class NetworkBuilder:
                 f"position of {name!r} is {position!r}", path=f"points.{name}", allowed="three finite numbers"
             )
         values = {"mass": 0.0, "volume": 0.0, "drag_area": 0.0, "added_mass": 0.0, "contact_area": 0.0, "height": 0.0}
+        if len(held) != 3 or any(part not in (True, False) for part in held):
+            raise InputError(
+                f"held of {name!r} is {held!r}", path=f"points.{name}.held", allowed="three of true, false"
+            )
+        if attached.get("form", BOX) not in (BOX, SPHERE):
+            raise InputError(
+                f"form of {name!r} is {attached['form']!r}", path=f"points.{name}.form", allowed="BOX, SPHERE"
+            )
         for key, value in attached.items():
             if key != "form" and not (np.isfinite(value) and value >= 0.0):
                 raise InputError(f"{key} of {name!r} is {value:g}", path=f"points.{name}.{key}", allowed="0 or more")
@@ -222,10 +231,12 @@ class NetworkBuilder:
         """
         if any(run.name == name for run in self._runs):
             raise InputError(f"two lines are named {name!r}", path="lines", allowed="different names")
-        if segments < 1:
+        try:
+            segments = whole_number(segments, "segments", least=1)
+        except InputError:
             raise InputError(
-                f"line {name!r} has {segments} segments", path=f"lines.{name}.segments", allowed="1 or more"
-            )
+                f"line {name!r} has {segments} segments", path=f"lines.{name}.segments", allowed="1 or more, whole"
+            ) from None
         if not (np.isfinite(length) and length > 0.0):
             raise InputError(
                 f"line {name!r} has length {length:g} m", path=f"lines.{name}.length", allowed="greater than 0"
@@ -236,12 +247,22 @@ class NetworkBuilder:
                 f"line {name!r} starts and ends at {start!r}", path=f"lines.{name}.end", allowed="another point"
             )
         fraction = np.arange(1, segments) / segments
+        if isinstance(shape, str) and shape not in ("catenary", "straight"):
+            raise InputError(
+                f"shape of line {name!r} is {shape!r}", path=f"lines.{name}.shape",
+                allowed="catenary, straight, or places of the nodes between its ends",
+            )  # fmt: skip
         if isinstance(shape, str):
             between = a + fraction[:, None] * (b - a)
             if shape == "catenary" and segments > 1:
                 between = _at_rest(a, b, bar_type, length, fraction, self.water, self.bed)
         else:
-            between = np.array(shape, dtype=np.float64).reshape(segments - 1, 3)
+            between = np.array(shape, dtype=np.float64)
+            if between.shape != (segments - 1, 3):
+                raise InputError(
+                    f"places of the nodes of line {name!r} have shape {between.shape}", path=f"lines.{name}.shape",
+                    allowed=f"({segments - 1}, 3), one for each node between its ends",
+                )  # fmt: skip
         lengths = np.full(segments, length / segments)
         self._runs.append(_Run(name, start, end, between, lengths, self._kind(bar_type), flow_factor))
 
@@ -286,6 +307,13 @@ class NetworkBuilder:
                 path=f"nets.{name}",
                 allowed="(rows, columns, 3), two or more each",
             )
+        if top not in ("free", "fixed", "driven"):
+            raise InputError(f"top of net {name!r} is {top!r}", path=f"nets.{name}.top", allowed="free, fixed, driven")
+        if np.shape(lengths) != (2,):
+            raise InputError(
+                f"lengths of net {name!r} are {lengths!r}", path=f"nets.{name}.lengths",
+                allowed="two: of bars along the rows and along the columns",
+            )  # fmt: skip
         rows, columns = grid.shape[:2]
         for i in range(rows):
             for j in range(columns):
@@ -354,6 +382,15 @@ class NetworkBuilder:
             Stiffnesses, mass, drag ... of :class:`moyai.flexible.sheets.Sheets`.
         """
         grid = np.array(points, dtype=np.float64)
+        if grid.ndim != 3 or grid.shape[2] != 3:
+            raise InputError(
+                f"points of sheet {name!r} have shape {grid.shape}", path=f"sheets.{name}", allowed="(rows, columns, 3)"
+            )
+        if first_row not in ("free", "fixed", "driven"):
+            raise InputError(
+                f"first row of sheet {name!r} is {first_row!r}", path=f"sheets.{name}.first_row",
+                allowed="free, fixed, driven",
+            )  # fmt: skip
         labels = [[f"{name}[{i},{j}]" for j in range(grid.shape[1])] for i in range(grid.shape[0])]
         for i, row in enumerate(labels):
             for j, label in enumerate(row):
@@ -371,15 +408,29 @@ class NetworkBuilder:
         if not self._sheets:
             return None
         triangles, rest = [], []
+        # what a sheet does not name has the default of Sheets, a stiffness without one is asked for
+        usual = {entry.name: entry.default for entry in fields(Sheets)}
         values: dict[str, list[Array]] = {key: [] for _, _, _, given in self._sheets for key in given}
+        for key in values:
+            if key not in usual or key in ("triangles", "rest"):
+                raise InputError(f"a sheet has no {key!r}", path="sheets", allowed=", ".join(list(usual)[2:]))
+        for key in ("warp_stiffness", "weft_stiffness"):
+            if any(key not in given for _, _, _, given in self._sheets):
+                raise InputError(f"a sheet without {key!r}", path=f"sheets.{key}", allowed="0 or more")
         for labels, warp, weft, given in self._sheets:
             corners, places = sheet_grid([[index[label] for label in row] for row in labels], warp, weft)
             triangles.append(corners)
             rest.append(places)
             for key, column in values.items():
-                column.append(np.full(len(corners), given.get(key, 0.0)))
-        joined = {key: np.concatenate(column) for key, column in values.items()}
-        return Sheets(np.concatenate(triangles), np.concatenate(rest), **joined)  # type: ignore[arg-type]
+                column.append(np.full(len(corners), given.get(key, usual[key])))
+        joined: dict[str, Any] = {key: np.concatenate(column) for key, column in values.items()}
+        if "tension_field" in joined:
+            if np.ptp(joined["tension_field"].astype(float)) > 0.0:
+                raise InputError(
+                    "one sheet wrinkles, another one does not", path="sheets.tension_field", allowed="the same for all"
+                )
+            joined["tension_field"] = bool(joined["tension_field"][0])
+        return Sheets(np.concatenate(triangles), np.concatenate(rest), **joined)
 
     def build(self) -> Network:
         """Return the network.

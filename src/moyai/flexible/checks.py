@@ -9,7 +9,49 @@ import numpy as np
 from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
     from moyai.flexible.network import Network
+
+
+def whole_numbers(values: ArrayLike, path: str) -> NDArray[np.int64]:
+    """Return integers; refuse what an array of integers would cut or take for something else.
+
+    Raises
+    ------
+    InputError
+        For fractions, values that are not finite, masks of true and false, and what is no number.
+    """
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise InputError(f"{path} holds rows of unequal length", path=path, allowed="whole numbers") from None
+    if given.dtype.kind in "iu" or given.size == 0:
+        return given.astype(np.int64)
+    if given.dtype.kind == "b":
+        raise InputError(
+            f"{path} holds true and false", path=path, allowed="whole numbers", remedy="numpy.flatnonzero of a mask"
+        )
+    if given.dtype.kind != "f":
+        raise InputError(f"{path} holds what is no number", path=path, allowed="whole numbers")
+    wrong = ~(np.isfinite(given) & (given == np.floor(given)))
+    if wrong.any():
+        raise InputError(f"{path} holds {given[wrong].flat[0]:g}", path=path, allowed="whole numbers")
+    return given.astype(np.int64)
+
+
+def whole_number(value: float, path: str, *, least: int) -> int:
+    """Return one integer, ``least`` or more.
+
+    Raises
+    ------
+    InputError
+        For anything else.
+    """
+    given = whole_numbers(value, path)
+    if given.shape != () or given < least:
+        raise InputError(f"{path} is {value!r}", path=path, allowed=f"a whole number, {least} or more")
+    return int(given)
 
 
 def name_of_node(network: Network, node: int) -> str:
@@ -47,6 +89,12 @@ def check_network(network: Network) -> None:
     count = len(nodes)
     if len(bars) and not (min(bars.start.min(), bars.end.min()) >= 0 and max(bars.start.max(), bars.end.max()) < count):
         raise InputError("a bar ends at a node that does not exist", path="bars", allowed=f"nodes 0 to {count - 1}")
+    if network.sheets is not None and network.sheets.triangles.max() >= count:
+        raise InputError(
+            f"a triangle of a sheet names node {int(network.sheets.triangles.max())}, which does not exist",
+            path="sheets.triangles",
+            allowed=f"nodes 0 to {count - 1}",
+        )
     held = nodes.held.all(axis=1) | (nodes.kind != FREE)
     empty = (network.node_mass <= 0.0) & ~held
     if empty.any():
@@ -59,16 +107,12 @@ def check_network(network: Network) -> None:
     start, end = bars.start, bars.end
     if network.sheets is not None:
         corners = network.sheets.triangles
-        if corners.max() >= count:
-            raise InputError(
-                f"a triangle of a sheet names node {int(corners.max())}, which does not exist",
-                path="sheets.triangles",
-                allowed=f"nodes 0 to {count - 1}",
-            )
         start = np.concatenate([start, corners[:, 0], corners[:, 1]])
         end = np.concatenate([end, corners[:, 1], corners[:, 2]])
     if network.blocks is not None:
         _check_blocks(network)
+    _check_nets(network)
+    _check_names(network)
     part = parts(count, start, end)
     anchored = np.zeros(int(part.max()) + 1, dtype=bool)
     np.logical_or.at(anchored, part, (nodes.kind != FREE) | nodes.held.any(axis=1))
@@ -104,6 +148,32 @@ def check_network(network: Network) -> None:
             )
 
 
+def _check_names(network: Network) -> None:
+    """Raise InputError for strands and points that name what is not there."""
+    for strand in network.strands:
+        if strand.nodes.ndim != 1 or strand.bars.ndim != 1 or strand.nodes.size != strand.bars.size + 1:
+            raise InputError(
+                f"strand {strand.name!r} has {strand.nodes.size} nodes and {strand.bars.size} bars",
+                path="strands",
+                allowed="one node more than bars, in order",
+            )
+        for what, numbers, most in (
+            ("node", strand.nodes, len(network.nodes)),
+            ("bar", strand.bars, len(network.bars)),
+        ):
+            if numbers.size and not (numbers.min() >= 0 and numbers.max() < most):
+                raise InputError(
+                    f"strand {strand.name!r} names a {what} that does not exist",
+                    path="strands",
+                    allowed=f"{what}s 0 to {most - 1}",
+                )
+    for name, node in network.points.items():
+        if not 0 <= node < len(network.nodes):
+            raise InputError(
+                f"point {name!r} is node {node}", path="points", allowed=f"nodes 0 to {len(network.nodes) - 1}"
+            )
+
+
 def _check_blocks(network: Network) -> None:
     from moyai.flexible.network import FREE
 
@@ -122,3 +192,39 @@ def _check_blocks(network: Network) -> None:
             path="blocks.nodes",
             allowed="free nodes (hold single components by 'held')",
         )
+
+
+def _check_nets(network: Network) -> None:
+    """Raise at a net panel or ring that names an absent node."""
+    count = len(network.nodes)
+    if network.panels is not None and len(network.panels) and network.panels.corners.max() >= count:
+        worst = int(np.argmax(network.panels.corners.max(axis=1)))
+        raise InputError(
+            f"net panel {worst} names node {int(network.panels.corners.max())}, which does not exist",
+            path="panels.corners",
+            allowed=f"nodes 0 to {count - 1}; -1 for the fourth corner of a triangle",
+        )
+    for ring in network.rings:
+        absent = ring.nodes[(ring.nodes < 0) | (ring.nodes >= count)]
+        if absent.size:
+            raise InputError(
+                f"ring {ring.name!r} names node {int(absent[0])}, which does not exist",
+                path=f"rings.{ring.name}.nodes",
+                allowed=f"nodes 0 to {count - 1}",
+            )
+
+
+def numbers_of(values: ArrayLike, path: str) -> NDArray[np.float64]:
+    """Return an array of numbers.
+
+    Raises
+    ------
+    InputError
+        For words, and for rows of unequal length.
+    """
+    try:
+        return np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"{path} holds what is no number, or rows of unequal length", path=path, allowed="numbers"
+        ) from None

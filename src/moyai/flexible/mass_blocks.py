@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
 from moyai.flexible import mass_block_kernel as kernel
+from moyai.flexible.checks import numbers_of, whole_numbers
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -33,6 +34,9 @@ class MassBlocks:
     convective : bool
         Whether the forces that follow from turning and stretching frames are kept, so that the energy of the water is
         conserved; without them only added mass times acceleration acts, as the papers have it.
+    turning : bool
+        Whether the frames follow their guides. Held ones keep the directions and lengths of the start: for motions that
+        turn the sheet little, and energy is kept whatever the cloth does; then ``convective`` is off.
 
     Raises
     ------
@@ -45,13 +49,19 @@ class MassBlocks:
     guides: IntArray
     added_mass: Array
     convective: bool = True
+    turning: bool = True
 
     def __post_init__(self) -> None:
-        nodes = np.array(self.nodes, dtype=np.int64)
+        if self.convective and not self.turning:
+            raise InputError(
+                "held frames know no forces of turning", path="blocks.convective", allowed="false with turning false"
+            )
+        nodes = np.array(whole_numbers(self.nodes, "blocks.nodes"))
         if nodes.ndim != 2 or nodes.size == 0:
             raise InputError(f"groups of shape {nodes.shape}", path="blocks.nodes", allowed="(groups, nodes)")
         groups, count = nodes.shape
-        guides, added = np.array(self.guides, dtype=np.int64), np.array(self.added_mass, dtype=np.float64)
+        guides = np.array(whole_numbers(self.guides, "blocks.guides"))
+        added = numbers_of(self.added_mass, "blocks.added_mass")
         for name, array, shape in (
             ("guides", guides, (groups, count, 2)),
             ("added_mass", added, (groups, 2 * count, 2 * count)),
@@ -62,7 +72,8 @@ class MassBlocks:
             raise InputError("a node belongs to two sections", path="blocks.nodes", allowed="each node once")
         if np.any(guides[..., 0] == guides[..., 1]):
             raise InputError("both guides of a node are the same", path="blocks.guides", allowed="two nodes")
-        if not np.isfinite(added).all() or np.any(
+        finite = bool(np.isfinite(added).all())
+        if not finite or np.any(
             np.abs(added - added.transpose(0, 2, 1)) > 1e-6 * np.max(np.abs(added), initial=1e-300)
         ):
             raise InputError("an added mass is not symmetric or not finite", path="blocks.added_mass")
@@ -154,9 +165,9 @@ def pack_blocks(blocks: MassBlocks | None, place: ArrayLike, mass: Array, free: 
     kernel.refresh_inverse(blocks.nodes, frames, blocks.added_mass, inverse, own, mobile, 0, len(mass), -1.0)
     light[1, blocks.nodes] = np.einsum("gii->gi", inverse)[:, :count]
     along = np.where(np.minimum(free[0], free[1])[blocks.nodes] > 0.0, 1.0 / own, 0.0)
-    return PackedBlocks(
-        blocks.nodes.copy(), blocks.guides.copy(), frames, blocks.added_mass.copy(), inverse, along, light
-    )
+    # a node that is both guides of its own turns no frame
+    guides = blocks.guides.copy() if blocks.turning else np.repeat(blocks.nodes[..., None], 2, axis=2)
+    return PackedBlocks(blocks.nodes.copy(), guides, frames, blocks.added_mass.copy(), inverse, along, light)
 
 
 __all__ = ["MassBlocks", "PackedBlocks", "no_blocks", "pack_blocks"]

@@ -70,6 +70,19 @@ class PanelLaw:
                 path="law",
                 allowed="equal, two columns or more",
             )
+        if not (math.isfinite(self.first_decade) and math.isfinite(self.per_decade) and self.per_decade > 0.0):
+            raise InputError(
+                f"speeds of the law {self.name!r} start at decade {self.first_decade:g}, {self.per_decade:g} a decade",
+                path="law.per_decade",
+                allowed="a finite decade, more than 0 speeds in each",
+            )
+        drag = self.along + self.normal * np.linspace(0.0, 1.0, self.along.shape[1]) ** 2
+        if np.any(drag < -1e-6 * np.max(np.abs(drag))):
+            raise InputError(
+                f"the law {self.name!r} has a drag below zero",
+                path="law.along",
+                allowed="drag of 0 or more at every angle and speed",
+            )
 
     @classmethod
     def tabulate(cls, name: str, coefficients: Coefficients) -> PanelLaw:
@@ -91,6 +104,12 @@ class PanelLaw:
         drag, lift = coefficients(angle[None, :], np.broadcast_to(speed[:, None], (SPEEDS, COSINES)))
         drag = np.broadcast_to(np.asarray(drag, dtype=np.float64), (SPEEDS, COSINES))
         lift = np.broadcast_to(np.asarray(lift, dtype=np.float64), (SPEEDS, COSINES))
+        if np.any(np.abs(lift[:, [0, -1]]) > 0.02 * np.max(np.abs(lift), axis=1, keepdims=True)):
+            raise InputError(
+                f"the lift of the law {name!r} does not vanish along or across the flow",
+                path="law.lift",
+                allowed="0 at the angles 0 and pi/2",
+            )
         normal = lift / (np.sin(angle) * inside)
         along = drag - normal * inside**2
         if np.allclose(along, along[:1], rtol=1e-12, atol=1e-14) and np.allclose(normal, normal[:1], 1e-12, 1e-14):
@@ -146,6 +165,7 @@ class NetPanels:
         from moyai.flexible.network import _frozen, _require
 
         size = len(self.corners)
+        _require(size > 0, "net panels without corners", "panels.corners", "one panel or more")
         object.__setattr__(self, "corners", _frozen(self.corners, np.int64, (size, 4), "panels.corners"))
         for name in ("law", "group"):
             object.__setattr__(self, name, _frozen(getattr(self, name), np.int64, (size,), f"panels.{name}"))
@@ -162,12 +182,19 @@ class NetPanels:
                 f"panels.{name}",
                 f"0 to {count - 1}",
             )
+        allowed = "three or four different nodes; -1 for the fourth corner of a triangle"
         ordered = np.sort(self.corners, axis=1)
         _require(
-            not np.any(ordered[:, 1:] == ordered[:, :-1]) and bool(np.all(ordered[:, 1] >= 0)),
+            not np.any(ordered[:, 1:] == ordered[:, :-1]),
             "two corners of a panel are the same node",
             "panels.corners",
-            "three or four different nodes; -1 for the fourth corner of a triangle",
+            allowed,
+        )
+        _require(
+            bool(np.all(self.corners[:, :3] >= 0) and np.all(self.corners[:, 3] >= -1)),
+            "a corner of a panel is negative",
+            "panels.corners",
+            allowed,
         )
 
     def __len__(self) -> int:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.flexible.checks import numbers_of, whole_numbers
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -34,8 +36,8 @@ class Ring:
     Raises
     ------
     InputError
-        For fewer than four nodes, nodes that repeat, a rest shape that is not plane, or a stiffness that is not
-        positive.
+        For fewer than four nodes, nodes that repeat, a rest shape that is not plane or encloses nothing, or a
+        stiffness that is not positive.
     """
 
     name: str
@@ -45,8 +47,9 @@ class Ring:
     torsional_stiffness: float
 
     def __post_init__(self) -> None:
-        nodes, rest = np.array(self.nodes, dtype=np.int64), np.array(self.rest, dtype=np.float64)
-        if nodes.size < 4 or np.unique(nodes).size != nodes.size:
+        nodes = np.array(whole_numbers(self.nodes, f"rings.{self.name}.nodes"))
+        rest = numbers_of(self.rest, f"rings.{self.name}.rest")
+        if nodes.ndim != 1 or nodes.size < 4 or np.unique(nodes).size != nodes.size:
             raise InputError(
                 f"ring {self.name!r} goes through {nodes.size} node(s), {np.unique(nodes).size} of them different",
                 path=f"rings.{self.name}.nodes",
@@ -60,12 +63,20 @@ class Ring:
             )
         for key in ("bending_stiffness", "torsional_stiffness"):
             value = getattr(self, key)
-            if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{key} of ring {self.name!r} is {value:g}", path=key, allowed="greater than 0")
+            if not (isinstance(value, int | float) and math.isfinite(value) and value > 0.0):
+                raise InputError(f"{key} of ring {self.name!r} is {value!r}", path=key, allowed="greater than 0")
         spread = np.linalg.svd(rest - rest.mean(axis=0), compute_uv=False)
         if spread[2] > 1e-6 * spread[0]:
             raise InputError(
                 f"rest shape of ring {self.name!r} is not plane", path=f"rings.{self.name}.rest", allowed="plane points"
+            )
+        way = np.linalg.norm(np.roll(rest, -1, axis=0) - rest, axis=1)
+        size = float(np.linalg.norm(np.sum(np.cross(rest - rest[0], np.roll(rest, -1, axis=0) - rest[0]), axis=0)))
+        if way.min() <= 1e-9 * way.sum() or size <= 1e-6 * way.sum() ** 2:
+            raise InputError(
+                f"rest shape of ring {self.name!r} has two neighbours in one place, or encloses nothing",
+                path=f"rings.{self.name}.rest",
+                allowed="points apart around an area",
             )
         for key, array in (("nodes", nodes), ("rest", rest)):
             array.setflags(write=False)
@@ -90,30 +101,61 @@ class RingArrays:
     rows : ndarray, shape (nodes, 6)
         EI over the mean length at the node [N m], one over the bar before and behind [1/m], rest curvature times that
         length (chord of the unit vectors) [-], GJ over the bar behind [N m], rest angle of the bar behind [rad].
+    rest : ndarray, shape (nodes, 3)
+        Stress-free places [m].
     """
 
     nodes: IntArray
     first: IntArray
     rows: Array
+    rest: Array
 
     @property
     def system(self) -> tuple[IntArray, IntArray, Array]:
         """What the kernels take."""
         return self.nodes, self.first, self.rows
 
-    @property
+    @cached_property
     def hinges(self) -> tuple[IntArray, Array]:
-        """Node triples and (EI over mean length, 1/l1, 1/l2) of all rings, for bounds of their stiffness."""
-        triples = []
+        """Node triples and (EI over mean length, 1/l1, 1/l2) of all rings, for bounds of their stiffness.
+
+        EI is raised where a coarse ring that is much stiffer in torsion than in bending asks for it
+        [eq:cage-ring-step].
+        """
+        triples, stiffness = [np.zeros((0, 3), np.int64)], [np.zeros((0, 3))]
         for r in range(self.first.size - 1):
-            own = self.nodes[self.first[r] : self.first[r + 1]]
+            a, b = int(self.first[r]), int(self.first[r + 1])
+            own = self.nodes[a:b]
             triples.append(np.stack([np.roll(own, 1), own, np.roll(own, -1)], axis=1))
-        return (np.concatenate(triples) if triples else np.zeros((0, 3), np.int64)), self.rows[:, :3].copy()
+            raised = self.rows[a:b, :3].copy()
+            raised[:, 0] *= self._excess(a, b)
+            stiffness.append(raised)
+        return np.concatenate(triples), np.concatenate(stiffness)
+
+    def _excess(self, a: int, b: int) -> float:
+        """Return the stiffness of a ring at rest over the bound that its hinges give, 1 or more."""
+        from moyai.flexible.ring_kernel import ring_forces
+
+        count, rest = b - a, self.rest[a:b]
+        system = (np.arange(count), np.array([0, count]), np.ascontiguousarray(self.rows[a:b]))
+        width, matrix = 1e-6 / float(self.rows[a, 2]), np.empty((3 * count, 3 * count))
+        for column in range(3 * count):
+            pull = np.zeros((2, count, 3))
+            for side, sign in enumerate((1.0, -1.0)):
+                place = rest.copy()
+                place.ravel()[column] += sign * width
+                ring_forces(place, system, pull[side])
+            matrix[:, column] = (pull[1] - pull[0]).ravel() / (2.0 * width)
+        bound = 4.0 * self.rows[a:b, 0] * (self.rows[a:b, 1] + self.rows[a:b, 2]) ** 2
+        root = np.repeat(1.0 / np.sqrt(bound), 3)
+        whole = 0.5 * (matrix + matrix.T) * root[:, None] * root
+        return max(1.0, 1.02 * float(np.linalg.eigvalsh(whole)[-1]))
 
     @classmethod
     def of(cls, rings: tuple[Ring, ...]) -> RingArrays:
         """Flatten rings."""
         nodes, rows, first = [np.zeros(0, np.int64)], [np.zeros((0, 6))], [0]
+        rest = np.concatenate([np.zeros((0, 3)), *(ring.rest for ring in rings)])
         for ring in rings:
             length = ring.lengths
             before = np.roll(length, 1)
@@ -139,7 +181,9 @@ class RingArrays:
             )
             nodes.append(ring.nodes)
             first.append(first[-1] + ring.nodes.size)
-        return cls(np.concatenate(nodes), np.array(first, dtype=np.int64), np.ascontiguousarray(np.concatenate(rows)))
+        return cls(
+            np.concatenate(nodes), np.array(first, dtype=np.int64), np.ascontiguousarray(np.concatenate(rows)), rest
+        )
 
 
 def ring_moments(rings: tuple[Ring, ...], position: Array) -> list[Array]:

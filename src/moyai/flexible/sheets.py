@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel as kernel
+from moyai.flexible.checks import numbers_of, whole_numbers
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
@@ -78,7 +79,7 @@ class Sheets:
     tension_field: bool = True
 
     def __post_init__(self) -> None:
-        nodes = np.array(self.triangles, dtype=np.int64)
+        nodes = np.array(whole_numbers(self.triangles, "sheets.triangles"))
         if nodes.ndim != 2 or nodes.shape[1] != 3 or not len(nodes):
             raise InputError(f"triangles of shape {nodes.shape}", path="sheets.triangles", allowed="(1 or more, 3)")
         if np.any(nodes < 0) or np.any(nodes == np.roll(nodes, 1, axis=1)):
@@ -89,7 +90,7 @@ class Sheets:
                 allowed="three different nodes",
             )
         self._keep("triangles", nodes)
-        rest = np.array(self.rest, dtype=np.float64)
+        rest = numbers_of(self.rest, "sheets.rest")
         if rest.shape != (len(nodes), 3, 2) or not np.isfinite(rest).all():
             raise InputError(
                 f"unstretched corners of shape {rest.shape}",
@@ -100,7 +101,7 @@ class Sheets:
         for entry in fields(self):
             if entry.name in ("triangles", "rest", "tension_field"):
                 continue
-            given = np.array(getattr(self, entry.name), dtype=np.float64)
+            given = numbers_of(getattr(self, entry.name), f"sheets.{entry.name}")
             if given.shape not in ((), (len(nodes),)):
                 raise InputError(
                     f"{entry.name} has shape {given.shape}",
@@ -116,6 +117,10 @@ class Sheets:
                     allowed="0 or more" if low == 0.0 else "finite",
                 )
             self._keep(entry.name, value)
+        if not isinstance(self.tension_field, bool | np.bool_):
+            raise InputError(
+                f"tension_field is {self.tension_field!r}", path="sheets.tension_field", allowed="True or False"
+            )
         self._check_areas()
         self._check_law()
 
@@ -139,8 +144,13 @@ class Sheets:
             np.asarray(getattr(self, name))
             for name in ("warp_stiffness", "weft_stiffness", "shear_stiffness", "contraction")
         )
-        if not np.any(warp + weft > 0.0):
-            raise InputError("a sheet without stiffness", path="sheets.warp_stiffness", allowed="greater than 0")
+        bare = warp + weft == 0.0
+        if np.any(bare):
+            raise InputError(
+                f"a sheet without stiffness: triangle {int(np.argmax(bare))}",
+                path="sheets.warp_stiffness",
+                allowed="greater than 0 along warp or weft",
+            )
         threads = (warp == 0.0) | (weft == 0.0) | (shear == 0.0)
         if np.any(threads & (ratio != 0.0)):
             raise InputError(

@@ -119,8 +119,7 @@ def step_limit(
     inverse : ndarray, shape (6, n)
         Inverse mass blocks (xx, xy, xz, yy, yz, zz), zero where held.
     rings : tuple of ndarray, optional
-        Node triples and stiffness of rings (:attr:`moyai.flexible.rings.RingArrays.hinges`), which count as hinges:
-        neither rest curvature nor twist makes them stiffer.
+        Node triples and stiffness of rings (:attr:`moyai.flexible.rings.RingArrays.hinges`), which count as hinges.
     sheets : (ndarray, ndarray of int), optional
         Constants and nodes of triangles.
     """

@@ -227,3 +227,36 @@ def test_faults_of_rings_are_told() -> None:
     bent[2, 2] += 0.5
     with pytest.raises(InputError, match="plane"):
         Ring("r", np.arange(8), bent, 1.0, 1.0)
+
+
+def oval(angles: np.ndarray, height: float) -> np.ndarray:
+    return np.stack([np.cos(angles), height * np.sin(angles), 0.0 * angles], axis=1)
+
+
+@pytest.mark.parametrize(
+    ("angles", "height", "torsion"),
+    [
+        (np.arange(24) * math.pi / 12.0, 1.0, 0.77),
+        (np.arange(5) * 0.4 * math.pi, 0.73, 555.0),
+        (np.arange(4) * 0.5 * math.pi, 0.85, 0.05),
+        (np.array([0.0, 0.9, 1.3, 2.9, 3.6, 4.4, 5.5]), 0.6, 30.0),
+    ],
+)
+def test_the_step_of_rings_bounds_the_dense_matrix(angles: np.ndarray, height: float, torsion: float) -> None:
+    """Coarse rings that are far stiffer in torsion than in bending were given twice the step that they bear."""
+    from moyai.flexible.arrays import kernel_arrays
+    from moyai.flexible.network import Bars, Network, Nodes
+    from moyai.flexible.stability import step_limit
+
+    shape, count = oval(angles, height), angles.size
+    ring = Ring("ring", np.arange(count), shape, 50.0, 50.0 * torsion)
+    soft = BarType("soft", 1.0, 0.05, 0.0, volume_per_length=0.0, tension_only=False)
+    own = np.arange(count)
+    bars = Bars(own, (own + 1) % count, ring.lengths, np.zeros(count, dtype=int), (soft,))
+    network = Network(Nodes(shape, np.zeros(count, dtype=int)), bars, Water(20.0, 1.0, 9.81), rings=(ring,))
+    mass = np.repeat(network.node_mass, 3)
+    fastest = math.sqrt(np.max(np.linalg.eigvals(stiffness(ring) / mass[:, None]).real))
+    inverse = np.zeros((6, count))
+    inverse[[0, 3, 5]] = 1.0 / network.node_mass
+    limit, _ = step_limit(kernel_arrays(network), shape.T.copy(), inverse, RingArrays.of((ring,)).hinges)
+    assert 0.5 < limit / (2.0 / fastest) <= 1.0
