@@ -20,6 +20,7 @@ from moyai.flexible.network import BarType, RopeCurve
 from moyai.network import model
 from moyai.network.assembly import mesh_bars, sphere
 from moyai.network.bodies import BodyPlan
+from moyai.network.coefficients import BodyCoefficients
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type
@@ -68,7 +69,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         ),
         settings=_settings(case, folder),
         sheets=tuple(_sheet(name, sheet) for name, sheet in unit.sheets.items()),
-        bodies=tuple(_body(name, body) for name, body in unit.bodies.items()),
+        bodies=tuple(_body(name, body, case, folder) for name, body in unit.bodies.items()),
         case_text=case_text,
         case_hash=case_hash,
     )
@@ -316,7 +317,9 @@ def _sheet(name: str, entry: parts.NetworkSheet) -> model.SheetPlan:
     )  # fmt: skip
 
 
-def _body(name: str, entry: parts.BoxBody | parts.CylinderBody | parts.AssembledBody) -> BodyPlan:
+def _body(
+    name: str, entry: parts.BoxBody | parts.CylinderBody | parts.AssembledBody, case: NetworkCase, folder: Path
+) -> BodyPlan:
     if isinstance(entry, parts.AssembledBody):
         return _assembled(name, entry)
     size = entry.size if isinstance(entry, parts.BoxBody) else (entry.diameter, entry.diameter, entry.height)
@@ -327,8 +330,22 @@ def _body(name: str, entry: parts.BoxBody | parts.CylinderBody | parts.Assembled
     return BodyPlan(
         name, entry.shape, size, entry.mass, inertia, entry.centre_of_gravity, entry.position,
         _three([math.radians(angle) for angle in entry.rotation_deg]), dict(entry.points), entry.drag,
-        entry.added_mass, free=tuple(motion not in entry.held for motion in _MOTIONS),
+        entry.added_mass or (0.0, 0.0, 0.0), free=tuple(motion not in entry.held for motion in _MOTIONS),
+        coefficients=_coefficients(entry.coefficients_file, case, folder),
     )  # fmt: skip
+
+
+def _coefficients(entry: Any, case: NetworkCase, folder: Path) -> BodyCoefficients | None:
+    if entry is None:
+        return None
+    options: dict[str, Any] = {}
+    for key in ("reference_point", "body", "length_scale", "first_column"):
+        if getattr(entry, key, None) is not None:
+            options[key] = getattr(entry, key)
+    if isinstance(entry, parts.WamitBody):
+        # WAMIT files are made dimensionless with these
+        options |= {"density": case.site.density, "gravity": case.site.gravity}
+    return BodyCoefficients(entry.program, folder / entry.path, entry.draught, entry.origin, entry.memory, options)
 
 
 def _assembled(name: str, entry: parts.AssembledBody) -> BodyPlan:

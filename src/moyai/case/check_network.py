@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Nodes with which a case still answers in a sitting, and rows of results that a run may reasonably have.
 _MANY_NODES, _MANY_ROWS = 20_000, 2_000_000
+#: Share of its mass by which a body may displace more or less at the draught of its coefficients.
+_FAR_FROM_AFLOAT = 0.1
 #: Longest run [s], two days: motions are tabulated over the whole run.
 _LONGEST_RUN = 172_800.0
 
@@ -201,8 +203,42 @@ def _check_files(model: NetworkCase, findings: Findings, folder: Path) -> None:
     for name, kind in unit.line_types.items():
         if kind.curve is not None and kind.curve.file is not None:
             check_file(("structure", "line_types", name, "curve", "file"), kind.curve.file, folder, findings)
+    for name, body in unit.bodies.items():
+        if not isinstance(body, parts.AssembledBody) and body.coefficients_file is not None:
+            _check_coefficients(name, body, model.site.density, folder, findings)
     if model.settings.resume is not None:
         check_file(("settings", "resume"), model.settings.resume, folder, findings)
+
+
+def _check_coefficients(
+    name: str, body: parts.BoxBody | parts.CylinderBody, density: float, folder: Path, findings: Findings
+) -> None:
+    given, path = body.coefficients_file, ("structure", "bodies", name, "coefficients_file")
+    assert given is not None
+    check_file((*path, "path"), given.path, folder, findings, folder_allowed=given.program == "nemoh")
+    box = isinstance(body, parts.BoxBody)
+    height = body.size[2] if isinstance(body, parts.BoxBody) else body.height
+    if given.draught >= height:
+        findings.fault(
+            (*path, "draught"), f"a draught of {given.draught:g} m drowns a body of {height:g} m",
+            allowed=f"less than {height:g} m",
+        )  # fmt: skip
+        return
+    if body.centre_of_gravity[0] != 0.0 or body.centre_of_gravity[1] != 0.0:
+        findings.fault(
+            ("structure", "bodies", name, "centre_of_gravity"),
+            "with coefficients the body floats upright: its centre of gravity stands over its middle",
+            allowed="x and y of 0",
+        )  # fmt: skip
+    area = body.size[0] * body.size[1] if isinstance(body, parts.BoxBody) else math.pi / 4.0 * body.diameter**2
+    displaced = density * area * given.draught
+    if abs(displaced / body.mass - 1.0) > _FAR_FROM_AFLOAT:
+        shape = "box" if box else "cylinder"
+        findings.warn(
+            (*path, "draught"),
+            f"the {shape} displaces {displaced:.4g} kg at {given.draught:g} m and weighs {body.mass:.4g} kg: unless "
+            "its lines bear the rest, it floats far from where its coefficients hold",
+        )  # fmt: skip
 
 
 def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> None:

@@ -26,6 +26,7 @@ from moyai.case.schema_types import (
     PositiveMassPerLength,
     PositiveNumber,
     QuantityOf,
+    Truth,
     Volume,
     Whole,
     holds_key,
@@ -426,8 +427,54 @@ Coefficients = tuple[NonNegativeNumber, NonNegativeNumber, NonNegativeNumber]
 BodyMotion = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
 
 
+class _BodyCoefficients(Block):
+    path: FileName = Field(description="File or folder of the program, relative to the case file.")
+    draught: PositiveLength = Field(
+        description="Draught of the upright body for which they were computed; displaced volume and hydrostatics are "
+        "those of its shape there."
+    )
+    origin: tuple[Length, Length] = Field(
+        default=(0.0, 0.0), description="Origin of the axes of the file, x and y from the middle. Default: [0, 0]."
+    )
+    memory: Truth = Field(
+        default=True, description="Whether what the body radiated still pushes at it; false: it radiates nothing."
+    )
+
+
+class CapytaineBody(_BodyCoefficients):
+    """Coefficients computed by Capytaine."""
+
+    program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
+    reference_point: tuple[Length, Length, Length] | None = Field(
+        default=None, description="Rotation centre [x, y, z] where the file does not say it."
+    )
+    body: str | None = Field(default=None, description="Body to take from a file with several.")
+
+
+class WamitBody(_BodyCoefficients):
+    """Coefficients computed by WAMIT or written in its form."""
+
+    program: Literal["wamit"] = Field(description="WAMIT .1 and .3 files (HAMS writes them too).")
+    reference_point: tuple[Length, Length, Length] | None = Field(
+        default=None, description="Origin of the body axes [x, y, z]; from the .pot file when absent."
+    )
+    length_scale: PositiveLength | None = Field(default=None, description="ULEN; from the .gdf file when absent.")
+    first_column: Literal["period", "angular_frequency", "wave_number"] | None = Field(
+        default=None, description="Meaning of the first column; must be given for HAMS."
+    )
+
+
+class NemohBody(_BodyCoefficients):
+    """Coefficients computed by NEMOH."""
+
+    program: Literal["nemoh"] = Field(description="Folder with Nemoh.cal and Results.")
+
+
+BodyCoefficients = Annotated[CapytaineBody | WamitBody | NemohBody, Field(discriminator="program")]
+
+
 class _Body(Block):
-    exactly_one: ClassVar[KeyGroups] = (("inertia", "gyration_radii"),)
+    exactly_one: ClassVar[KeyGroups] = (("inertia", "gyration_radii"), ("added_mass", "coefficients_file"))
 
     mass: Mass = Field(description="Mass.")
     inertia: Moments | None = Field(
@@ -444,7 +491,16 @@ class _Body(Block):
         examples=[{"bow": ["10 m", 0, "-1 m"]}],
     )
     drag: Coefficients = Field(description="Drag coefficients along its axes x, y, z, on its faces.")
-    added_mass: Coefficients = Field(description="Added-mass coefficients along its axes, on the displaced mass.")
+    added_mass: Coefficients | None = Field(
+        default=None,
+        description="Added-mass coefficients along its axes, on the displaced mass: loads of a body that is small "
+        "beside the waves, under the moving surface.",
+    )
+    coefficients_file: BodyCoefficients | None = Field(
+        default=None,
+        description="Coefficients of a 3-D program in their place: diffraction, radiation with its memory, linear "
+        "hydrostatics.",
+    )
     held: Annotated[tuple[BodyMotion, ...], Field(max_length=5), AfterValidator(once_each)] = Field(
         default=(), description="Motions that are held. Default: none."
     )

@@ -60,7 +60,20 @@ def _extras(case: Case, problem: Any, keep: Path | None) -> dict[str, Any]:
         extras["store"] = None if keep is None else DatasetStore(keep)
         if problem.breakwater.coefficients_file is not None:
             extras["coefficients"] = _planar_coefficients(problem)
+    if case.kind == "network" and any(body.coefficients is not None for body in problem.bodies):
+        extras["coefficients"] = _coefficients_of_bodies(problem)
     return extras
+
+
+def _coefficients_of_bodies(problem: Any) -> dict[str, Any]:
+    from moyai.interop.read import read_coefficients
+
+    found = {}
+    for body in problem.bodies:
+        given = body.coefficients
+        if given is not None:
+            found[body.name] = read_coefficients(given.program, given.path, given.options)
+    return found
 
 
 def _planar_coefficients(problem: Any) -> Any:

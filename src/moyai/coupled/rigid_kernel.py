@@ -65,7 +65,8 @@ def _immersion(height: float, size: float, length: float, upright: float, elevat
         return 1.0
     # along its axis while that is steep, over its breadth once it lies
     half = 0.5 * max(length * abs(upright), size * math.sqrt(max(0.0, 1.0 - upright * upright)))
-    return min(max((elevation - height + half) / (2.0 * half), 0.0), 1.0)
+    # a line without breadth that lies in the surface is half wet
+    return min(max((elevation - height + half) / (2.0 * half) if half > 0.0 else 0.5, 0.0), 1.0)
 
 
 @njit(cache=True, error_model="numpy")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +19,7 @@ from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.network.assembly import Assembly, assemble
 from moyai.network.bodies import CoupledRest, drawn_parts, rest_of
+from moyai.network.coefficients import loads_on_time, with_coefficients
 from moyai.network.dynamics import Run
 from moyai.network.dynamics import run as run_through_time
 from moyai.network.model import NetworkProblem
@@ -45,7 +46,9 @@ if TYPE_CHECKING:
 MOST_STIFFNESSES, BALANCE = 6, 1e-4
 
 
-def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
+def run(
+    problem: NetworkProblem, progress: Progress = silent, *, coefficients: Mapping[str, xr.Dataset] | None = None
+) -> Result:
     """Run all analyses of a network.
 
     Parameters
@@ -54,6 +57,8 @@ def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
     progress : Progress
         Told the simulated time of every run. KeyboardInterrupt ends the work with what there is and the status
         ``interrupted``.
+    coefficients : mapping of str to xarray.Dataset, optional
+        Of the bodies whose loads come from a 3-D program, in the names of Capytaine.
 
     Returns
     -------
@@ -66,6 +71,9 @@ def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
         For a network that cannot be built.
     """
     collected = Collected()
+    problem, notices, checks = with_coefficients(problem, coefficients or {})
+    collected.notices.extend(notices)
+    collected.checks.extend(checks)
     try:
         for _ in _steps(problem, collected, progress):
             pass
@@ -76,6 +84,11 @@ def run(problem: NetworkProblem, progress: Progress = silent) -> Result:
 
 def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
+    if problem.bodies and "dynamic" in problem.settings.analyses:
+        # waves that the loads do not know are told before anything is run
+        for _, level in levels:
+            for plan in run_plans(problem, problem.environment.water_at(level)):
+                collected.notices.extend(loads_on_time(problem, plan))
     for index, (name, level) in enumerate(levels):
         progress("water levels", index, len(levels))
         assembly, water = assemble(problem, level), problem.environment.water_at(level)

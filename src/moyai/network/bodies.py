@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -18,12 +18,14 @@ from moyai.coupled.hulls import box_hull, cylinder_hull
 from moyai.coupled.rest import CoupledRest, find_rest
 from moyai.coupled.rigid import RigidBody
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
+from moyai.coupled.wave_loads import WaveLoads
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.refine import refined, with_viscosity
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.mooring.rotations import rotation_matrix
+from moyai.network.coefficients import BodyCoefficients
 from moyai.sea.water import Water
 
 if TYPE_CHECKING:
@@ -67,6 +69,10 @@ class BodyPlan:
         Place in its axes that stays where it is at the start [m].
     turning_drag : tuple of float
         Drag coefficient times area times arm squared about its axes [m5].
+    coefficients : BodyCoefficients, optional
+        File with the loads of the waves on it in place of ``added_mass``.
+    loads : WaveLoads, optional
+        What was read from there.
     """
 
     name: str
@@ -85,6 +91,8 @@ class BodyPlan:
     parts: tuple[RodPart | VolumePart, ...] = ()
     pin: Triple | None = None
     turning_drag: Triple = (0.0, 0.0, 0.0)
+    coefficients: BodyCoefficients | None = None
+    loads: WaveLoads | None = None
 
     def body(self, water: Water) -> RigidBody:
         """Return the body of :mod:`moyai.coupled`.
@@ -106,10 +114,13 @@ class BodyPlan:
                 self.size[0], self.size[2], bottom=bottom, drag=(self.drag[0], self.drag[2]),
                 added_mass=(self.added_mass[0], self.added_mass[2]), density=water.density,
             )  # fmt: skip
+        if self.loads is not None:
+            # buoyancy and inertia of the water come with the coefficients; drag stays
+            lumps = replace(lumps, volume=np.zeros(len(lumps)), added_mass=np.zeros((len(lumps), 3)))
         return RigidBody(
             self.name, self.mass, np.array(self.inertia), np.array(self.centre_of_gravity), np.array(self.position),
             np.array(self.rotation), dict(self.points), lumps, linear_damping=np.array(self.linear_damping),
-            free=self.free, pin=self.pin,
+            loads=self.loads, free=self.free, pin=self.pin,
         )  # fmt: skip
 
     def _assembled(self, water: Water) -> RigidBody:

@@ -1,4 +1,4 @@
-"""Bodies against exact motions and programs written anew: free and heavy tops, cables by scipy, snaps by reflections."""
+"""Bodies against exact motions and programs written anew: free and heavy tops, cables by scipy, snaps."""
 
 import math
 
