@@ -12,7 +12,8 @@ from __future__ import annotations
 import json
 import time
 
-from moyai.curtain.dynamic_model import CurtainSpan, Mesh, build_span
+from moyai.curtain.dynamic_assembly import build_span
+from moyai.curtain.dynamic_model import CurtainSpan, Mesh
 from moyai.flexible.flow import Flow
 from moyai.flexible.simulate import simulate
 from moyai.sea.current import uniform

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
-from moyai.core.validity import IdentityCheck, Notice
-from moyai.curtain.dynamic_model import MESH_DAMPING, CurtainNetwork, CurtainSpan, Mesh, build_span
+from moyai.curtain.dynamic_assembly import build_span
+from moyai.curtain.dynamic_model import CurtainNetwork, CurtainSpan, Mesh
 from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
 from moyai.flexible.sheets import sheet_stress
@@ -24,8 +23,6 @@ Array = NDArray[np.float64]
 
 #: Rows of a result, at most.
 MOST_ROWS = 20000
-#: Part of the energy of a span that viscosity may take in a period: a snap loses some per cent, crumpling much more.
-MOST_VISCOUS = 0.3
 #: Slack level and threshold of a snap where none is given, over the highest tension and the mean of what is taut.
 _SLACK_SHARE, _SNAP_FACTOR = 0.01, 2.0
 
@@ -56,7 +53,7 @@ class DynamicSettings:
     wave_count : int
         Peak periods run around the highest crest of an irregular sea.
     duration : float or None
-        Of the run in a current alone [s]; None: four rises of model A.
+        Of the run in a current alone [s]; None: four rises of model A, longer while the tension still rises.
     start : {"auto", "at_rest", "drifting"}
         Curtain at rest in water that begins to move, or drifting and just taut; auto: at rest in waves.
     sensitivity : bool
@@ -121,6 +118,11 @@ class DynamicRun:
         return np.asarray(factor * self.history.tension_peak[:, bars].max(axis=1))
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the cables and anchor lines."""
+        return tuple(n for n in ("upper cable", "lower cable", *self.built.lines) if self.built.bars(n).size)
+
+    @property
     def both(self) -> Array:
         """Sum of the highest tensions of both cables [N]."""
         return self.tension("upper cable") + self.tension("lower cable")
@@ -149,52 +151,6 @@ class DynamicRun:
         taut = pull[pull > level]
         limit = _SNAP_FACTOR * float(taut.mean()) if threshold is None and taut.size else threshold or level
         return find_snaps(self.history.time[rows], pull, slack_level=level, threshold=max(limit, level), peaks=peaks)
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """What the peak of both cables together becomes with another step, mesh or viscosity [N].
-
-    Parameters
-    ----------
-    peak : float
-        Of the run itself.
-    half_step, half_mesh, double_viscosity : float
-        With half the step, half as many cells both ways, twice the viscosity of cables and skirt.
-    """
-
-    peak: float
-    half_step: float
-    half_mesh: float
-    double_viscosity: float
-
-    @property
-    def extrapolated(self) -> float:
-        """Value that the two meshes point to when the error falls with the size of the cells [N]."""
-        return 2.0 * self.peak - self.half_mesh
-
-    @property
-    def mesh_error(self) -> float:
-        """Change from the mesh used to the extrapolated value, over the peak [-]."""
-        return abs(self.extrapolated / self.peak - 1.0)
-
-    def notices(self, place: str, limit: float = 0.05) -> tuple[Notice, ...]:
-        """Tell when a peak is worth less than it looks."""
-        worst = max(self.mesh_error, abs(self.half_step / self.peak - 1.0))
-        if worst <= limit:
-            return ()
-        return (
-            Notice(
-                "dynamic-peak-mesh",
-                f"{place}: the peak of both cables, {self.peak:.4g} N, moves by {100.0 * worst:.1f} % "
-                "with step and mesh",
-                worst,
-                limit,
-                "warning",
-                "take more cells (settings.dynamic.cells_along, cells_down)",
-                "runs with half the step and with half as many cells",
-            ),
-        )
 
 
 def run_span(
@@ -243,97 +199,4 @@ def run_span(
     return DynamicRun(built, history, chosen, from_time)
 
 
-def span_sensitivity(run: DynamicRun, **arguments: object) -> Sensitivity:
-    """Run a span again with half the step, half the cells and twice the viscosity.
-
-    Parameters
-    ----------
-    run : DynamicRun
-        The run itself.
-    **arguments
-        ``water`` and the further arguments of :func:`run_span` with which it was made.
-
-    Raises
-    ------
-    ConvergenceError
-        When one of the runs had to stop.
-    KeyboardInterrupt
-        When the user stopped one.
-    """
-    built, history = run.built, run.history
-    mesh = built.mesh
-    cable, sheets = built.network.bars.types[0].viscosity, built.network.sheets
-    assert sheets is not None
-    skirt = float(np.max(sheets.damping_time))
-    # the same viscosity on every mesh: it belongs to the material, not to the cells
-    same = replace(mesh, cable_viscosity=cable, skirt_damping_time=skirt)
-
-    def peak(which: str, trial: Mesh, step: float | None = None) -> float:
-        found = run_span(built.span, trial, **{**arguments, "step": step})  # type: ignore[arg-type]
-        if found.history.status == "interrupted":
-            raise KeyboardInterrupt
-        if found.history.status != "converged":
-            raise ConvergenceError(f"run with {which}: {found.history.message}", path="sensitivity")
-        return found.peak("both")[0]
-
-    coarse = replace(same, along=max(4, mesh.along // 2), down=max(2, mesh.down // 2))
-    viscous = replace(mesh, cable_viscosity=2.0 * cable, skirt_damping_time=2.0 * skirt)
-    return Sensitivity(
-        run.peak("both")[0],
-        peak("half the step", mesh, 0.5 * history.step),
-        peak("half the cells", coarse),
-        peak("twice the viscosity", viscous),
-    )
-
-
-def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
-    """Return the energy checks of a run: what came from nowhere, and what viscosity had to take.
-
-    The second finds cloth that crumples in the mesh: turning sections then feed it and viscosity eats it, so that the
-    sum balances while the peaks are those of the mesh.
-    """
-    history = run.history
-    total = history.kinetic_energy + history.elastic_energy
-    stored = max(float(total.max()), 1e-300)
-    through = max(stored, float(np.max(np.abs(history.work))))
-    gained = float(np.max(history.energy_balance))
-    # in every period of waves as much as the span ever holds may pass
-    waves = run.flow.waves
-    length = float(history.time[-1] - history.time[0])
-    passes = 1.0 if waves is None else max(1.0, length * float(np.max(waves.omega)) / (2.0 * math.pi))
-    return (
-        IdentityCheck(
-            f"{place}: energy of the span",
-            max(gained, 0.0) / through,
-            0.01,
-            "energy beyond the work done, over the energy that went through; viscosity can only take",
-        ),
-        IdentityCheck(
-            f"{place}: energy that viscosity took",
-            max(-float(np.min(history.energy_balance)), 0.0) / (stored * passes),
-            MOST_VISCOUS,
-            "over the highest energy of the span and the periods run; more is cloth that crumples in the mesh",
-        ),
-    )
-
-
-def require_mesh(along: int, down: int) -> None:
-    """Raise InputError for a mesh that the sensitivity runs could not halve."""
-    if along < 8 or down < 4:
-        raise InputError(
-            f"{along} x {down} cells",
-            path="settings.dynamic.cells_along",
-            allowed="at least 8 along the span and 4 over the skirt",
-        )
-
-
-__all__ = [
-    "MESH_DAMPING",
-    "DynamicRun",
-    "DynamicSettings",
-    "Sensitivity",
-    "require_mesh",
-    "run_checks",
-    "run_span",
-    "span_sensitivity",
-]
+__all__ = ["DynamicRun", "DynamicSettings", "run_span"]

@@ -18,6 +18,15 @@ from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animat
 Array = NDArray[np.float64]
 
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0
+#: Columns of the table of what peaks are worth: heading, name in the table of runs, name of each line in its run.
+_TRIALS = (
+    ("As run", "both_peak", "line_peak"),
+    ("Half the step", "half_step_peak", "line_half_step"),
+    ("Half the cells", "half_mesh_peak", "line_half_mesh"),
+    ("Extrapolated", "extrapolated_peak", "line_extrapolated"),
+    ("Twice the viscosity", "double_viscosity_peak", "line_double_viscosity"),
+    ("Held normals", "held_normals_peak", "line_held_normals"),
+)
 
 
 def dynamic_blocks(level: CurtainLevel) -> Sequence[Block | None]:
@@ -73,28 +82,34 @@ def peak_table(level: CurtainLevel) -> Table | None:
 
 
 def worth_table(level: CurtainLevel) -> Table | None:
-    """Return what the peaks become with another step, mesh or viscosity."""
+    """Return what the peaks of each cable and line become with another step, mesh, viscosity, and held normals."""
     group = level.part("dynamic")
-    names = group.labels("run")
-    half = group.real("half_step_peak", "run")
-    if not names or half is None or not np.isfinite(half).any():
+    names: list[str] = []
+    lines: list[str] = []
+    values: dict[str, list[float]] = {heading: [] for heading, _, _ in _TRIALS}
+    for number, name in enumerate(group.labels("run")):
+        run = group.child(name)
+        half = group.real("half_step_peak", "run")
+        if not run.exists or half is None or not np.isfinite(half[number]):
+            continue
+        for row, line in enumerate(("both cables", *run.labels("line"))):
+            names.append(name)
+            lines.append(line)
+            for heading, whole, one in _TRIALS:
+                found = group.real(whole, "run") if row == 0 else run.real(one, "line")
+                values[heading].append(math.nan if found is None else float(found[number if row == 0 else row - 1]))
+    if not names:
         return None
-    columns = _rows(
-        group,
-        (
-            ("both_peak", "As run", "N"),
-            ("half_step_peak", "Half the step", "N"),
-            ("half_mesh_peak", "Half the cells", "N"),
-            ("extrapolated_peak", "Extrapolated", "N"),
-            ("double_viscosity_peak", "Twice the viscosity", "N"),
-        ),
+    columns = [Column(heading, column, "N") for heading, column in values.items() if np.isfinite(column).any()]
+    note = (
+        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread of "
+        "a row is what the number is worth."
     )
+    if "Held normals" in [column.label for column in columns]:
+        note += " Held normals: sections of added mass keep the directions of the just-taut span."
+    run_column = (Column("Run", names),) if len(set(names)) > 1 else ()
     return Table(
-        key(level, "dynamic-worth"),
-        "What the peak of both cables is worth",
-        (Column("Run", list(names)), *columns),
-        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread "
-        "of a row is what the number is worth.",
+        key(level, "dynamic-worth"), "What the peaks are worth", (*run_column, Column("Line", lines), *columns), note
     )
 
 
