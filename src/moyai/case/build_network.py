@@ -12,7 +12,9 @@ import numpy as np
 
 from moyai.case import schema_network_parts as parts
 from moyai.case.build_sea import current_of, sea_state_of
-from moyai.case.schema_network import NetworkCase
+from moyai.case.headings import heading_of
+from moyai.case.schema_environment import sea_names
+from moyai.case.schema_network import ElevationRecord, NetworkCase, WavesOneByOne
 from moyai.core.errors import InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.flexible.motion import Motion
@@ -21,7 +23,9 @@ from moyai.network import model
 from moyai.network.assembly import mesh_bars, sphere
 from moyai.network.bodies import BodyPlan
 from moyai.network.coefficients import BodyCoefficients
+from moyai.sea.elevation_record import components_of_record
 from moyai.sea.environment import Environment
+from moyai.sea.states import ComponentSea, SeaState
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type
 
@@ -62,8 +66,10 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         environment=Environment(
             water=water,
             water_levels=tuple((name, levels[name]) for name in names),
+            # a network runs any sum of waves through time: nothing else asks for its spectrum
             sea_states=tuple(
-                sea_state_of(state, index, case.waves, water, folder, bearing) for index, state in enumerate(case.waves)
+                _sea(state, index, case.waves, water, folder, bearing)  # type: ignore[misc]
+                for index, state in enumerate(case.waves)
             ),
             current=current_of(case.current, water, bearing),
         ),
@@ -84,6 +90,34 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
         skip=given.skip, sensitivity=given.sensitivity, slack_level=given.slack_level,
         snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
     )  # fmt: skip
+
+
+def _sea(
+    state: Any, index: int, states: tuple[Any, ...], water: Water, folder: Path, bearing: float | None
+) -> SeaState | ComponentSea:
+    """Return one sea; those that only networks know are built here."""
+    path, name = f"waves[{index}]", sea_names(states)[index]
+    if isinstance(state, WavesOneByOne):
+        rows = [
+            (
+                wave.angular_frequency or 2.0 * math.pi / (wave.period or math.nan), wave.amplitude,
+                math.radians(wave.phase_deg), heading_of(wave, bearing, f"{path}.waves[{number}]"),
+            )
+            for number, wave in enumerate(state.waves)
+        ]  # fmt: skip
+        return ComponentSea(name, *np.array(rows).T)
+    if isinstance(state, ElevationRecord):
+        table = read_columns(folder, state.file, 2, f"{path}.file")
+        try:
+            found = components_of_record(table[:, 0], table[:, 1], step=state.time_step)
+        except InputError as error:
+            fault = error.fault
+            raise InputError(
+                f"{state.file}: {fault.message}", path=f"{path}.file", allowed=fault.allowed, remedy=fault.remedy
+            ) from None
+        heading = np.full(found.omega.size, heading_of(state, bearing, path))
+        return ComponentSea(name, found.omega, found.amplitude, found.phase, heading, found.period, found.period)
+    return sea_state_of(state, index, states, water, folder, bearing)
 
 
 def read_columns(folder: Path, name: str, count: int, path: str) -> np.ndarray:

@@ -163,7 +163,8 @@ def check_waves(
     check_heading : callable
         Judges the heading [rad] of a state at a path; from the side of negative x by default.
     """
-    from moyai.sea.validity import check_spectrum, check_wave
+    from moyai.sea.states import ComponentSea
+    from moyai.sea.validity import check_sea_state, check_spectrum, check_wave
 
     for index, (state, sea) in enumerate(zip(model.waves, environment.sea_states)):
         check_heading(state, sea.heading, wave_path(findings, index), findings)
@@ -172,6 +173,9 @@ def check_waves(
             water = environment.water_at(level)
             if isinstance(state, RegularWaves):
                 pairs = [("height", check_wave(sea.height, period, water)) for period in sea.periods]
+            elif isinstance(sea, ComponentSea):
+                judge = check_wave if sea.omega.size == 1 else check_sea_state
+                pairs = [("kind", judge(sea.height, sea.peak_period, water))]
             else:
                 key = "file" if isinstance(state, SpectrumFile) else "significant_height"
                 pairs = [(key, check_spectrum(sea.spectrum, water))]

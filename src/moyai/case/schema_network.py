@@ -6,7 +6,18 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
+from moyai.case.schema_environment import (
+    BretschneiderMitsuyasu,
+    Current,
+    Jonswap,
+    PiersonMoskowitz,
+    RegularWaves,
+    Site,
+    SpectrumFile,
+    Tma,
+    _FromBearing,
+    refuse_no_seas,
+)
 from moyai.case.schema_network_parts import (
     NetworkBed,
     NetworkBody,
@@ -19,13 +30,16 @@ from moyai.case.schema_network_parts import (
     PointMotion,
 )
 from moyai.case.schema_types import (
+    AngularFrequency,
     AutoDuration,
     Block,
+    Duration,
     FileName,
     KeyGroups,
     Name,
     OneOrMany,
     PositiveForce,
+    PositiveLength,
     QuantityOf,
     Truth,
     Whole,
@@ -36,6 +50,7 @@ from moyai.core import quantities
 NetworkAnalysis = Literal["statics", "modes", "dynamic"]
 Share = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=1.0)]
 Slack = Annotated[float, QuantityOf(quantities.FORCE, least=0.0)]
+Phase = Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)]
 Tolerance = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, below=1.0)]
 
 
@@ -67,6 +82,48 @@ class NetworkStructure(Block):
         max_length=50,
     )
     bed: NetworkBed | None = Field(default=None, description="Contact with the bed; none when left out.")
+
+
+class SingleWave(_FromBearing):
+    """One wave of a sea."""
+
+    exactly_one: ClassVar[KeyGroups] = (*_FromBearing.exactly_one, ("period", "angular_frequency"))
+
+    amplitude: PositiveLength = Field(description="Amplitude.")
+    period: Duration | None = Field(default=None, description="Period.")
+    angular_frequency: AngularFrequency | None = Field(default=None, description="Angular frequency.")
+    phase_deg: Phase = Field(default=0.0, description="Phase at the origin at the time 0; 0 is a crest. Default: 0.")
+
+
+class WavesOneByOne(Block):
+    """A sea given wave by wave."""
+
+    kind: Literal["components"] = Field(description="A sum of linear waves, each with its phase.")
+    name: Name | None = Field(default=None, description="Label of the sea state in results; made up when absent.")
+    waves: Annotated[tuple[SingleWave, ...], Field(min_length=1, max_length=10_000)] = Field(
+        description="Its waves, amplitude cos(k (x cos b + y sin b) - omega t + phase)."
+    )
+
+
+class ElevationRecord(_FromBearing):
+    """A sea whose elevation at the origin was recorded."""
+
+    kind: Literal["elevation_record"] = Field(description="A record of the elevation at the origin, long-crested.")
+    name: Name | None = Field(default=None, description="Label of the sea state in results; made up when absent.")
+    file: FileName = Field(
+        description="Text file of time [s] and elevation [m], comma, semicolon, tab or blank separated; a heading is "
+        "allowed. Its first row is the time 0; past its end it repeats."
+    )
+    time_step: Duration | None = Field(
+        default=None, description="Even step that the record is taken at. Default: its smallest."
+    )
+
+
+NetworkSea = Annotated[
+    RegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile | WavesOneByOne
+    | ElevationRecord,
+    Field(discriminator="kind"),
+]  # fmt: skip
 
 
 class NetworkSettings(Block):
@@ -133,7 +190,7 @@ class NetworkCase(Block):
     moyai: Literal[1] = Field(description="Version of the case file format.")
     title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
     site: Site = Field(description="The water of the site.")
-    waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
+    waves: Annotated[tuple[NetworkSea, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
         default=(), description="One sea state, or a list of them; each is run. Still water when left out."
     )
     current: Current | None = Field(default=None, description="Steady current.")

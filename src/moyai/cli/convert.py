@@ -44,7 +44,7 @@ def case_of_deck(
     from moyai.interop.moordyn_reader import read_deck
 
     read = read_deck(deck)
-    text = case_text(read, motions=motions_of(motions), duration=duration, output_step=output_step)
+    text = case_text(read, motions=motions_of(motions), duration=duration, output_step=output_step, folder=deck.parent)
     write_text(target, text, replace=replace)
     return target
 

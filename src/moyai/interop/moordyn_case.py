@@ -18,6 +18,7 @@ from moyai.interop.moordyn_keys import SECTIONS
 from moyai.interop.moordyn_network import line_name, point_name, to_deck, water_of
 from moyai.interop.moordyn_records import StiffnessTable
 from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
+from moyai.interop.moordyn_waves import amplitude_and_phase
 from moyai.interop.textfiles import read_lines
 from moyai.mooring.rotations import roll_pitch_yaw
 
@@ -45,6 +46,7 @@ def case_text(
     motions: Mapping[int | str, Path] | None = None,
     duration: float | None = None,
     output_step: float | None = None,
+    folder: Path | None = None,
 ) -> str:
     """Return the case file of a deck.
 
@@ -55,6 +57,8 @@ def case_text(
         Files of time [s] and displacement x, y, z [m] that coupled points follow, by the ID of the point, and coupled
         bodies, rods and rods of no length, by names such as ``body 1`` (they keep their angles); the others are held
         still.
+    folder : Path, optional
+        Of the deck, where a record of the elevation stands.
     duration, output_step : float, optional
         Of a run through time [s]; without motions, waves or a duration the network is only brought to rest.
 
@@ -81,6 +85,7 @@ def case_text(
         "",
         f"site: {{water_depth: {_number(water.depth)}, density: {_number(water.density)}, "
         f"gravity: {_number(water.gravity)}}}",
+        *_waves(deck, folder),
         *_current(deck),
         "",
         "structure:",
@@ -106,7 +111,7 @@ def case_text(
         f"type: {_word(line.line_type)}, length: {_number(line.length)}, segments: {line.segments}}}"
         for line in deck.lines
     ]
-    dynamic = bool(moved) or duration is not None
+    dynamic = bool(moved) or duration is not None or deck.waves is not None
     # what moves in a deck without a search for rest starts where the deck has it
     as_built = any(body.moves for body in bodies) and deck.number("TmaxIC") == 0.0
     analyses = [*([] if as_built and dynamic else ["statics"]), *(["modes"] if deck.lines and not bodies else [])]
@@ -114,6 +119,9 @@ def case_text(
     if dynamic:
         start = "as_built" if as_built else "rest_in_current" if deck.current is not None else "rest"
         settings = [f"start: {start}"]
+        if deck.waves is not None:
+            # in MoorDyn waves stand from the start, and their kinematics end at still water
+            settings += ["ramp: 0", "stretching: constant"]
         if duration is not None:
             settings.append(f"duration: {_number(duration)}")
         if output_step is not None:
@@ -275,6 +283,26 @@ def _point(point: DeckPoint, moves: bool) -> str:
     return f"    {name}: {{kind: free, {place}{words}}}"
 
 
+def _waves(deck: MoorDynDeck, folder: Path | None) -> list[str]:
+    waves = deck.waves
+    if waves is None:
+        return []
+    if waves.file and folder is not None:
+        step = "" if waves.time_step is None else f", time_step: {_number(waves.time_step)}"
+        file = (folder / waves.file).resolve()
+        return [f"waves: {{kind: elevation_record, file: {_word(str(file))}{step}, heading_deg: 0}}"]
+    amplitude, phase = amplitude_and_phase(waves)
+    rows = zip(waves.omega, amplitude, np.degrees(phase), np.degrees(waves.direction), strict=True)
+    return [
+        "waves:", "  kind: components", "  waves:",
+        *(
+            f"    - {{angular_frequency: {_number(omega)}, amplitude: {_number(a)}, phase_deg: {_number(angle)}, "
+            f"heading_deg: {_number(heading)}}}"
+            for omega, a, angle, heading in rows
+        ),
+    ]  # fmt: skip
+
+
 def _current(deck: MoorDynDeck) -> list[str]:
     current = deck.current
     if current is None:
@@ -289,7 +317,13 @@ def _current(deck: MoorDynDeck) -> list[str]:
             path="Currents",
             remedy="run the deck from Python: read_deck, to_network, flow_of",
         )
-    shown = [(z, speed) for z, speed, _ in rows if z <= 0.0]
+    bed = -water_of(deck).depth
+    deep = [(z, speed) for z, speed, _ in rows if z < bed]
+    shown = [(z, speed) for z, speed, _ in rows if bed <= z <= 0.0]
+    if deep and (not shown or shown[0][0] > bed):
+        # profiles of case files end at the bed
+        speeds = np.interp(bed, [z for z, _, _ in rows], [speed for _, speed, _ in rows])
+        shown.insert(0, (bed, float(speeds)))
     if not shown or shown[-1][0] < 0.0:
         above = [(z, speed) for z, speed, _ in rows if z > 0.0]
         last = rows[-1][1]

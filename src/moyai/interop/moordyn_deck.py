@@ -13,7 +13,14 @@ from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.interop.moordyn_bodies import DeckBody, DeckRod, DeckRodType, attachment_word
-from moyai.interop.moordyn_records import CURRENT_FILE, DeckCurrent, DeckOption, StiffnessTable
+from moyai.interop.moordyn_records import (
+    CURRENT_FILE,
+    FREQUENCY_FILE,
+    DeckCurrent,
+    DeckOption,
+    DeckWaves,
+    StiffnessTable,
+)
 
 PointKind = Literal["fixed", "coupled", "free", "body"]
 
@@ -147,6 +154,8 @@ class MoorDynDeck:
         Name of the file.
     notes : tuple of str
         What the reader says about the file that is no fault: options without meaning here, columns in another order.
+    waves : DeckWaves, optional
+        When the option WaveKin is 2, 3 or 7. Decks are written with 7, which needs no grid.
     """
 
     line_types: tuple[DeckLineType, ...]
@@ -162,6 +171,7 @@ class MoorDynDeck:
     title: str = field(default="", compare=False)
     source: str = field(default="", compare=False)
     notes: tuple[str, ...] = field(default=(), compare=False)
+    waves: DeckWaves | None = None
 
     def number(self, key: str) -> float | None:
         """Return an option as a number; the value of the format when the deck leaves it out; ``None`` without one."""
@@ -273,6 +283,12 @@ def _body_sections(deck: MoorDynDeck) -> list[str]:
     return text
 
 
+def _value(option: DeckOption, waves: DeckWaves | None) -> str:
+    if option.key == "WaveKin" and waves is not None:
+        return "7"
+    return option.value if isinstance(option.value, str) else _digits(option.value)
+
+
 def deck_text(deck: MoorDynDeck) -> str:
     """Return the text of a MoorDyn v2 input file; every number keeps all its digits."""
     kinds = [
@@ -319,7 +335,7 @@ def deck_text(deck: MoorDynDeck) -> str:
             keep,
         ),
         _title("OPTIONS"),
-        *[f"{o.value if isinstance(o.value, str) else _digits(o.value):<24}{o.key}" for o in deck.options],
+        *[f"{_value(o, deck.waves):<24}{o.key}" for o in deck.options],
     ]
     if deck.outputs:
         text += [_title("OUTPUTS"), *deck.outputs, "END"]
@@ -327,7 +343,7 @@ def deck_text(deck: MoorDynDeck) -> str:
 
 
 def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
-    """Write a deck and the files that it names (stiffness tables, the profile of the current).
+    """Write a deck and the files that it names (stiffness tables, the profile of the current, the waves).
 
     Parameters
     ----------
@@ -363,6 +379,10 @@ def write_deck(deck: MoorDynDeck, path: str | Path) -> Path:
             (place.parent / table.file).write_text(
                 "\n".join(["Strain Tension", "(-) (N)", *rows, ""]), encoding="utf-8"
             )
+    if deck.waves is not None:
+        columns = (deck.waves.omega, deck.waves.real, deck.waves.imaginary, deck.waves.direction)
+        rows = [" ".join(map(_digits, row)) for row in zip(*columns, strict=True)]
+        (place.parent / FREQUENCY_FILE).write_text("\n".join(["0 0 0 0", *rows, ""]), encoding="utf-8")
     if deck.current is not None:
         rows = [
             f"{_digits(z)} {_digits(u)} {_digits(v)} 0.0"

@@ -102,6 +102,7 @@ OPTIONS_USED = {
     "frictioncoefficient": "FrictionCoefficient", "mu_kt": "FrictionCoefficient",
     "seafloorfile": "SeafloorFile", "bathymetryfile": "SeafloorFile", "bathyfile": "SeafloorFile",
     "wavekin": "WaveKin",
+    "dtwave": "dtWave",
     "currents": "Currents", "currentmod": "Currents",
 }  # fmt: skip
 
@@ -110,16 +111,25 @@ OPTIONS_WITHOUT_MEANING = {
     "dtm": "dtM", "cfl": "cfl", "tscheme": "tScheme", "dtout": "dtOut", "writelog": "writeLog", "echo": "Echo",
     "dtic": "dtIC", "tmaxic": "TmaxIC", "cdscaleic": "CdScaleIC", "icdfac": "CdScaleIC", "threshic": "threshIC",
     "icgendynamic": "ICgenDynamic", "fileic": "fileIC", "disableoutput": "disableOutput",
-    "disableouttime": "disableOutTime", "writeunits": "WriteUnits", "dtwave": "dtWave", "fricdamp": "FricDamp",
+    "disableouttime": "disableOutTime", "writeunits": "WriteUnits", "fricdamp": "FricDamp",
     "statdynfricscale": "StatDynFricScale", "outswitch": "outSwitch",
+}  # fmt: skip
+
+#: Values of WaveKin and what is read.
+WAVES_READ = {
+    0.0: "still water", 1.0: "waves given to the run", 2.0: "wave_frequencies.txt on even frequencies",
+    3.0: "wave_elevation.txt", 7.0: "wave_frequencies.txt, wave by wave",
 }  # fmt: skip
 
 #: Values of WaveKin and Currents that are refused, in words.
 WAVE_KINEMATICS = {
-    2.0: "elevations of a file by Fourier transform",
-    3.0: "elevations on a grid",
     4.0: "Fourier sums at the nodes",
     5.0: "kinematics at the nodes",
     6.0: "kinematics on a grid",
-    7.0: "a sum of wave frequencies",
+}
+CURRENT_KINDS = {
+    2.0: "a profile that changes with time",
+    3.0: "a steady current at the nodes",
+    4.0: "a changing current at the nodes",
+    5.0: "currents on a grid of places and times",
 }

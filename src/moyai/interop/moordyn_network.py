@@ -33,6 +33,7 @@ from moyai.interop.moordyn_deck import (
     PointKind,
 )
 from moyai.interop.moordyn_records import DeckOption, StiffnessTable
+from moyai.interop.moordyn_waves import wave_components
 from moyai.sea.current import table as current_table
 from moyai.sea.water import Water
 
@@ -71,10 +72,20 @@ def water_of(deck: MoorDynDeck) -> Water:
     return Water(depth, thin if thin is not None else math.nan, gravity if gravity is not None else math.nan)
 
 
-def flow_of(deck: MoorDynDeck) -> Flow:
-    """Return the steady current of a deck; still water when it has none."""
+def flow_of(deck: MoorDynDeck, water: Water | None = None) -> Flow:
+    """Return current and waves of a deck; still water when it has none.
+
+    Waves of MoorDyn do not feel the current and end at still water: no stretching, no Doppler shift.
+
+    Parameters
+    ----------
+    deck : MoorDynDeck
+    water : Water, optional
+        Instead of the deck's own.
+    """
+    waves = None if deck.waves is None else wave_components(deck.waves, water or water_of(deck))
     if deck.current is None:
-        return Flow()
+        return Flow(waves=waves, stretching="constant")
     z, velocity = np.array(deck.current.z), np.array(deck.current.velocity)
     wet = z <= 0.0
     if not wet.all() and wet.any() and z[wet][-1] < 0.0:
@@ -83,7 +94,8 @@ def flow_of(deck: MoorDynDeck) -> Flow:
         z, velocity = np.append(z[wet], 0.0), np.vstack([velocity[wet], at_surface])
     else:
         z, velocity = z[wet], velocity[wet]
-    return Flow(current=current_table(z, np.hypot(*velocity.T), np.arctan2(velocity[:, 1], velocity[:, 0])))
+    profile = current_table(z, np.hypot(*velocity.T), np.arctan2(velocity[:, 1], velocity[:, 0]))
+    return Flow(current=profile, waves=waves, stretching="constant")
 
 
 def damping_of(kind: DeckLineType, segment_length: float, axial_stiffness: float) -> float:

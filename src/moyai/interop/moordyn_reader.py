@@ -29,6 +29,7 @@ from moyai.interop.moordyn_bodies import (
 from moyai.interop.moordyn_deck import DeckLine, DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_records import CURRENT_FILE, DeckOption
 from moyai.interop.moordyn_rows import Faults, Row, read_current, read_flat_depth, read_stiffness
+from moyai.interop.moordyn_waves import read_waves
 from moyai.interop.textfiles import parse_number, read_lines
 
 _RULE = re.compile(r"^\s*-{3,}\s*(.*?)\s*-*\s*$")
@@ -282,14 +283,17 @@ def _check_option_values(deck_options: tuple[DeckOption, ...], faults: Faults) -
             faults.add(option.line, f"{option.key} is {value:g}", "greater than 0", path=option.key)
         if option.key in not_negative and value < 0.0:
             faults.add(option.line, f"{option.key} is {value:g}", "0 or more", path=option.key)
-        if option.key == "WaveKin" and value not in (0.0, 1.0):
+        if option.key == "WaveKin" and value not in keys.WAVES_READ:
             words = keys.WAVE_KINEMATICS.get(value, "unknown")
-            faults.add(
-                option.line, f"WaveKin {value:g} ({words}) is not read", "0, or 1: waves given to the run",
-                "give the run its waves", "WaveKin",
-            )  # fmt: skip
+            allowed = ", ".join(f"{number:g}: {text}" for number, text in keys.WAVES_READ.items())
+            faults.add(option.line, f"WaveKin {value:g} ({words}) is not read", allowed, path="WaveKin")
         if option.key == "Currents" and value not in (0.0, 1.0):
-            faults.add(option.line, f"Currents {value:g} is not read", f"0, or 1: {CURRENT_FILE}", path="Currents")
+            words = keys.CURRENT_KINDS.get(value, "unknown")
+            faults.add(
+                option.line, f"Currents {value:g} ({words}) is not read", f"0, or 1: {CURRENT_FILE}", path="Currents"
+            )
+        if option.key == "dtWave" and value <= 0.0:
+            faults.add(option.line, f"dtWave is {value:g}", "greater than 0", path="dtWave")
         if option.key == "StatDynFricScale" and value != 1.0:
             faults.add(option.line, f"StatDynFricScale is {value:g}", "1: friction at rest as in motion")
 
@@ -351,8 +355,12 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     rows = _lines(_table("lines", sections, keys.LINE_COLUMNS, faults)[1], kinds, points, rods, faults)
     options = _options(sections.get("options", (0, []))[1], faults, notes)
     _check_option_values(options, faults)
-    current, depth = None, None
+    current, depth, waves = None, None, None
+    steps = [option.value for option in options if option.key == "dtWave" and isinstance(option.value, float)]
     for option in options:
+        if option.key == "WaveKin" and option.value in (2.0, 3.0, 7.0):
+            step = steps[-1] if steps and steps[-1] > 0.0 else None
+            waves = read_waves(option, step, place.parent, faults, notes)
         if option.key == "Currents" and option.value == 1.0:
             current = read_current(option, place.parent, faults)
         if option.key == "SeafloorFile":
@@ -362,7 +370,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     title = lines[1].strip() if len(lines) > 1 and not _RULE.match(lines[1]) else ""
     deck = MoorDynDeck(
         kinds, points, rows, options, tuple(outputs), current, depth, rod_types, bodies, rods, title, place.name,
-        tuple(notes),
+        tuple(notes), waves,
     )  # fmt: skip
     _check_site(deck, faults)
     if faults.found:

@@ -60,3 +60,38 @@ class DeckCurrent:
 
     z: tuple[float, ...]
     velocity: tuple[tuple[float, float], ...]
+
+
+#: Names that MoorDyn gives the files of waves, beside the deck.
+FREQUENCY_FILE, ELEVATION_FILE = "wave_frequencies.txt", "wave_elevation.txt"
+
+
+@dataclass(frozen=True)
+class DeckWaves:
+    """Waves of the files beside a deck, as the rows of ``wave_frequencies.txt`` for WaveKin 7.
+
+    The elevation at the origin is the sum of Im((real + i imaginary) e^{i omega t}) = real sin + imaginary cos.
+
+    Parameters
+    ----------
+    omega : tuple of float
+        [rad/s].
+    real, imaginary : tuple of float
+        [m].
+    direction : tuple of float
+        Of travel, from +x towards +y [rad].
+    file : str
+        Record of the elevation that they come from, empty for waves given one by one.
+    time_step : float, optional
+        That the record is taken at [s].
+    period : float, optional
+        After which the record repeats [s].
+    """
+
+    omega: tuple[float, ...]
+    real: tuple[float, ...]
+    imaginary: tuple[float, ...]
+    direction: tuple[float, ...]
+    file: str = field(default="", compare=False)
+    time_step: float | None = field(default=None, compare=False)
+    period: float | None = field(default=None, compare=False)

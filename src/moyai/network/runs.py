@@ -16,7 +16,7 @@ from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
-from moyai.sea.states import IrregularSea, RegularSea
+from moyai.sea.states import ComponentSea, IrregularSea, RegularSea
 from moyai.sea.water import Water
 
 #: Periods of a run whose length is left to the program, rows in its shortest period, most components of a sea.
@@ -100,6 +100,8 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
             for period in sea.periods:
                 name = f"{sea.name} {period:.4g} s" if many else sea.name
                 plans.append(_regular(problem, sea, period, name, water))
+        elif isinstance(sea, ComponentSea):
+            plans.append(_components(problem, sea, water))
         else:
             plans.append(_irregular(problem, sea, water))
     if plans:
@@ -175,6 +177,25 @@ def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunP
     return RunPlan(
         sea.name, _flow(problem, water, waves, period), sea.duration, step, period, waves,
         float(sea.spectrum.significant_height), sea.heading, True, sea.seed,
+    )  # fmt: skip
+
+
+def _components(problem: NetworkProblem, sea: ComponentSea, water: Water) -> RunPlan:
+    current = mean_current(problem, water)
+    along = current[0] * np.cos(sea.headings) + current[1] * np.sin(sea.headings)
+    number = np.array(
+        [
+            float(wave_number_in_current(omega, water.depth, water.gravity, float(drift)))
+            for omega, drift in zip(sea.omega, along, strict=True)
+        ]
+    )
+    waves = WaveComponents(sea.omega, sea.amplitude, sea.phase, sea.headings, number, water, sea.omega - number * along)
+    period, single = sea.peak_period, sea.omega.size == 1
+    duration = problem.settings.duration or sea.duration or PERIODS * period
+    step = _output_step(problem, period if single else 0.5 * period, duration)
+    return RunPlan(
+        sea.name, _flow(problem, water, waves, period), duration, step, period, waves, sea.height, sea.heading,
+        not single,
     )  # fmt: skip
 
 

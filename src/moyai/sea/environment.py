@@ -30,6 +30,7 @@ class Environment:
     water_levels : tuple of (str, float)
         Names and elevations above datum [m]; each is run.
     sea_states : tuple of RegularSea or IrregularSea
+        Those of networks may be of `ComponentSea` too.
         Waves; may be empty.
     wind : Wind or None
     current : CurrentProfile or None

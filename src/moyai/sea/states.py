@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 from moyai.sea.spectrum import Spectrum
@@ -66,3 +70,45 @@ class IrregularSea:
 
 
 SeaState = RegularSea | IrregularSea
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentSea:
+    """A sea given wave by wave, or by a record of its elevation at the origin; for networks.
+
+    Parameters
+    ----------
+    name : str
+        Label of the sea state.
+    omega, amplitude, phase, headings : ndarray (n,)
+        Of the waves a cos(k (x cos b + y sin b) - omega t + phase) [rad/s, m, rad, rad].
+    duration : float or None
+        Of the run [s]; ``None``: the case says it elsewhere.
+    period : float
+        After which a record repeats [s]; infinite for waves that were given one by one.
+    """
+
+    name: str
+    omega: NDArray[np.float64]
+    amplitude: NDArray[np.float64]
+    phase: NDArray[np.float64]
+    headings: NDArray[np.float64]
+    duration: float | None = None
+    period: float = math.inf
+
+    @property
+    def heading(self) -> float:
+        """Direction of travel of the highest wave [rad]."""
+        return float(self.headings[int(np.argmax(self.amplitude))])
+
+    @property
+    def peak_period(self) -> float:
+        """Period of the highest wave [s]."""
+        return 2.0 * math.pi / float(self.omega[int(np.argmax(self.amplitude))])
+
+    @property
+    def height(self) -> float:
+        """Height of a single wave; of several four standard deviations of the elevation [m]."""
+        if self.omega.size == 1:
+            return 2.0 * float(self.amplitude[0])
+        return 4.0 * math.sqrt(0.5 * float(np.sum(self.amplitude**2)))

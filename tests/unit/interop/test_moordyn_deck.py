@@ -119,7 +119,7 @@ def test_line_ends_and_foreign_letters(tmp_path):
         ("40            WtrDpth ", "bed.txt       WtrDpth ", 20, ("'bed.txt'", "no number")),
         ("40            WtrDpth ", "-40           WtrDpth ", 20, ("WtrDpth is -40", "greater than 0")),
         ("1.0e5         kBot ", "kBot\n", 21, ("has no key",)),
-        ("1.0e5         kBot ", "3     WaveKin", 21, ("elevations on a grid", "0, or 1")),
+        ("1.0e5         kBot ", "6     WaveKin", 21, ("kinematics on a grid", "7: wave_frequencies.txt")),
         ("1.0e5         kBot ", "1     Currents", 21, ("no current_profile.txt",)),
         ("2     chain      7 ", "2     chian      7 ", 17, ("no line type 'chian'", "did you mean 'chain'")),
         ("2     chain      7        2 ", "2     chain      7        5 ", 17, ("point 5", "1, 2, 7")),
