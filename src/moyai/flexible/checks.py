@@ -185,6 +185,16 @@ def _check_blocks(network: Network) -> None:
             path="blocks.nodes",
             allowed=f"nodes 0 to {len(nodes) - 1}",
         )
+    sheets = network.sheets
+    if (
+        sheets is not None
+        and np.isin(sheets.triangles[np.asarray(sheets.added_mass_per_area) > 0.0], blocks.nodes).any()
+    ):
+        raise InputError(
+            "a sheet with an added mass of its own has nodes in sections of added mass: the water would count twice",
+            path="sheets.added_mass_per_area",
+            allowed="0 where sections hold the added mass",
+        )
     bound = blocks.nodes.ravel()[nodes.kind[blocks.nodes.ravel()] != FREE]
     if bound.size:
         raise InputError(

@@ -22,7 +22,7 @@ from numba import njit
 from moyai.flexible.mass_block_kernel import STALE, block_energy, block_loads, kick_blocks, refresh_inverse, set_frames
 from moyai.flexible.panel_kernel import screen_loads
 from moyai.flexible.ring_kernel import ring_loads
-from moyai.flexible.sheet_kernel import sheet_energy, sheet_forces, sheet_loads
+from moyai.flexible.sheet_kernel import sheet_added_mass, sheet_energy, sheet_forces, sheet_loads
 
 #: Which re-orderings the compiler may make: none that assumes the absence of NaN, which marks a blow-up.
 FAST: Any = {"contract", "arcp", "nsz", "reassoc"}
@@ -117,7 +117,7 @@ def rib_forces(A: Any, runs: Any, curves: Any) -> None:
 def _curved(A: Any, a: int, b: int, k: int, curve: Any) -> None:
     """Write the force of one rib whose tension follows a rope curve (rows: strain, tension, slope)."""
     dx, dy, dz = A[X + b] - A[X + a], A[Y + b] - A[Y + a], A[Z + b] - A[Z + a]
-    size = math.sqrt(dx * dx + dy * dy + dz * dz)
+    size = math.sqrt(dx * dx + dy * dy + dz * dz + TINY)
     strain = size / A[LENGTH + k] - 1.0
     j = 0
     while j + 2 < curve.shape[1] and strain > curve[0, j + 1]:
@@ -466,6 +466,7 @@ def loads(
     table, triangles, light, gauge, _ = sheets
     if triangles.shape[0] > 0:
         gauge[0] = sheet_loads(table, triangles, A, X, A, U, A, WU, A, QX, 1, ROW, light, ahead)
+        sheet_added_mass(table, triangles, A, X, 1, ROW, A, WU, 1, ROW, A, MXX, 1, ROW)
     invert_blocks(A, count)
 
 

@@ -14,6 +14,14 @@ from moyai.core.errors import InputError
 Array = NDArray[np.float64]
 
 
+def _three(values: ArrayLike, path: str) -> Array:
+    """Return three finite numbers; one stands for all."""
+    given = np.asarray(values, dtype=np.float64)
+    if given.shape not in ((), (3,)) or not np.isfinite(given).all():
+        raise InputError(f"{path} is {values!r}", path=path, allowed="three finite numbers, or one for all")
+    return np.asarray(np.broadcast_to(given, (3,)), dtype=np.float64)
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Displacement of a driven point over time: a cubic through displacement and velocity at each grid time.
@@ -112,13 +120,14 @@ class Motion:
         period, duration, ramp, start : float
             [s].
         """
-        if not (0.0 < period < math.inf and 0.0 < duration < math.inf and ramp >= 0.0):
+        if not (0.0 < period < math.inf and 0.0 < duration < math.inf and 0.0 <= ramp < math.inf):
             raise InputError(
                 f"a harmonic motion of period {period:g} s over {duration:g} s with a ramp of {ramp:g} s",
                 path="motion.period",
                 allowed="greater than 0",
             )
-        size, turn, omega = np.broadcast_to(amplitude, (3,)), np.broadcast_to(phase, (3,)), 2.0 * math.pi / period
+        size, turn = _three(amplitude, "motion.amplitude"), _three(phase, "motion.phase")
+        omega = 2.0 * math.pi / period
         step = min(period / 200.0, duration / 4.0)
         time = start + step * np.arange(math.ceil(duration / step - 1e-9) + 1)
         grown, rate = np.ones_like(time), np.zeros_like(time)
@@ -187,7 +196,7 @@ class Motion:
         """
         t = np.asarray(time, dtype=np.float64)
         slack = 1e-9 * max(1.0, abs(self.end))
-        if t.size and (t.min() < self.start - slack or t.max() > self.end + slack):
+        if t.size and not (t.min() >= self.start - slack and t.max() <= self.end + slack):
             raise InputError(
                 f"motion asked at {t.min():g} to {t.max():g} s",
                 path="motion",

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.flexible.checks import whole_numbers
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.panels import NetPanels
 from moyai.flexible.rings import Ring
@@ -33,6 +34,10 @@ BOX, SPHERE = 0, 1
 
 
 def _frozen(values: ArrayLike, dtype: Any, shape: tuple[int, ...], path: str) -> NDArray[Any]:
+    if dtype is np.int64:
+        values = whole_numbers(values, path)
+    if dtype is np.bool_ and not np.isin(np.asarray(values), (0, 1)).all():
+        raise InputError(f"{path} holds what is neither true nor false", path=path, allowed="true or false")
     array = np.array(values, dtype=dtype)
     if array.ndim < len(shape):
         array = np.array(np.broadcast_to(array, shape))
@@ -368,7 +373,7 @@ class Strand:
 
     def __post_init__(self) -> None:
         for name in ("nodes", "bars"):
-            array = np.array(getattr(self, name), dtype=np.int64)
+            array = np.array(whole_numbers(getattr(self, name), f"strand.{name}"))
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 

@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.flexible.checks import whole_number
 from moyai.flexible.network import Bars, Network, Nodes, Strand
 from moyai.flexible.result import State
 
@@ -22,8 +23,7 @@ def refined(network: Network, factor: int, state: State | None = None) -> tuple[
         For a factor below 1, and for a network with sheets, net panels, rings or sections of added mass, which a
         builder has to mesh.
     """
-    if factor < 1:
-        raise InputError(f"a mesh refined {factor} times", path="factor", allowed="1 or more")
+    factor = whole_number(factor, "factor", least=1)
     if network.sheets is not None or network.blocks is not None or network.panels is not None or network.rings:
         raise InputError(
             "sheets, net panels, rings and sections of added mass are not refined here",

@@ -12,6 +12,7 @@ import numpy as np
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
+from moyai.flexible.checks import whole_number
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.refine import refined, with_viscosity
@@ -113,8 +114,17 @@ def peak_sensitivity(
     ConvergenceError
         When one of the runs had to stop.
     """
-    if not 0 <= bar < len(network.bars):
+    bar = whole_number(bar, "bar", least=0)
+    if not bar < len(network.bars):
         raise InputError(f"bar {bar}", path="bar", allowed=f"0 to {len(network.bars) - 1}")
+    if not 0.0 <= after < options.get("duration", math.inf):
+        raise InputError(
+            f"peaks count after {after:g} s of a run of {options['duration']:g} s"
+            if "duration" in options
+            else f"peaks count after {after:g} s",
+            path="after",
+            allowed="0 or more, less than the duration",
+        )
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in network.strands)
 
     def peak(which: str, mesh: Network, begin: State | None, number: int, **more: Any) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.flexible.checks import name_of_node
+from moyai.flexible.checks import name_of_node, whole_number, whole_numbers
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
 from moyai.flexible.fronts import front_notices, fronts_of_rows
@@ -67,6 +67,8 @@ def _check_motions(network: Network, motions: Mapping[str, Motion], start: float
 
 
 def _check_start(network: Network, start: State) -> None:
+    if not math.isfinite(start.time):
+        raise InputError(f"time of the start is {start.time:g} s", path="start.time", allowed="a finite time")
     for name in ("position", "velocity"):
         values = np.asarray(getattr(start, name))
         if values.shape != (len(network.nodes), 3):
@@ -85,9 +87,14 @@ def _check_start(network: Network, start: State) -> None:
 
 
 def _kept(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
-    kept = np.arange(count) if given is None else np.atleast_1d(np.array(given, dtype=np.int64))
-    if kept.size and (kept.min() < 0 or kept.max() >= count):
-        raise InputError(f"{path} names {int(kept.max())} of {count}", path=path, allowed=f"0 to {count - 1}")
+    if given is None:
+        return np.arange(count)
+    kept = np.atleast_1d(whole_numbers(given, path))
+    if kept.ndim != 1:
+        raise InputError(f"{path} has shape {kept.shape}", path=path, allowed="one row of numbers")
+    wrong = kept[(kept < 0) | (kept >= count)]
+    if wrong.size:
+        raise InputError(f"{path} names {int(wrong[0])} of {count}", path=path, allowed=f"0 to {count - 1}")
     return kept
 
 
@@ -118,7 +125,8 @@ def simulate(
     motions : mapping of str to Motion, optional
         One for every name in ``network.motion_names``.
     duration, output_step : float
-        Length of the run and spacing of the rows of the result [s]; peaks are taken at every step all the same.
+        Length of the run and spacing of the rows of the result [s], moved a little so that rows fill the run; peaks are
+        taken at every step all the same.
     flow : Flow, optional
         Motion of the water; still water when left out.
     start : State, optional
@@ -160,18 +168,17 @@ def simulate(
     flow = flow or Flow()
     start = start or State.at_rest(network)
     rows, interval = _rows(duration, output_step)
+    _check_start(network, start)
     _check_motions(network, motions or {}, start.time, start.time + duration)
     if method != "explicit" and method not in TABLEAUS:
         raise InputError(f"unknown method {method!r}", path="method", allowed=", ".join(("explicit", *TABLEAUS)))
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
-    if step is not None and not step > 0.0:
+    if step is not None and not 0.0 < step < math.inf:
         raise InputError(f"step is {step:g} s", path="step", allowed="greater than 0")
     if safety is not None and not 0.0 < safety <= 1.0:
         raise InputError(f"safety is {safety:g}", path="safety", allowed="above 0, at most 1")
-    if load_steps < 1:
-        raise InputError(f"load_steps is {load_steps}", path="load_steps", allowed="1 or more")
-    _check_start(network, start)
+    load_steps = whole_number(load_steps, "load_steps", least=1)
     nodes, bars = _kept(keep_nodes, len(network.nodes), "keep_nodes"), _kept(keep_bars, len(network.bars), "keep_bars")
     run: ExplicitRun | ImplicitRun
     if method == "explicit":

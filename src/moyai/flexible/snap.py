@@ -117,7 +117,7 @@ def find_snaps(
     Raises
     ------
     InputError
-        For records of different lengths, times that do not rise, or a negative level.
+        For records of different lengths, values that are not finite, times that do not rise, or a negative level.
     """
     t, pull = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
     most = pull if peaks is None else np.asarray(peaks, dtype=np.float64)
@@ -125,6 +125,13 @@ def find_snaps(
         raise InputError(
             f"records of {t.shape}, {pull.shape}, {most.shape}", path="tension", allowed="equal, two values or more"
         )
+    for name, values in (("time", t), ("tension", pull), ("peaks", most)):
+        if not np.isfinite(values).all():
+            raise InputError(
+                f"{name} is {values[~np.isfinite(values)][0]:g} in row {int(np.argmin(np.isfinite(values)))}",
+                path=name,
+                allowed="finite numbers",
+            )
     if not np.all(np.diff(t) > 0.0):
         raise InputError("times do not rise", path="time", allowed="rising")
     if not (slack_level >= 0.0 and threshold >= slack_level):
