@@ -100,6 +100,17 @@ def test_workers_stop_in_the_middle_of_a_long_case(tmp_path):
     assert time.monotonic() - began < 20.0
 
 
+def left_after(session: int, seconds: float) -> list[str]:
+    """Return the processes of a session that are still there when the time is up; a loaded machine ends them late."""
+    deadline = time.monotonic() + seconds
+    while True:
+        told = subprocess.run(["pgrep", "-s", str(session)], capture_output=True, text=True, check=False)
+        left = told.stdout.split()
+        if not left or time.monotonic() > deadline:
+            return left
+        time.sleep(0.2)
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="kill -9 is of POSIX")
 def test_kill_9_loses_at_most_the_cases_in_flight_and_leaves_no_process(tmp_path):
@@ -122,9 +133,7 @@ def test_kill_9_loses_at_most_the_cases_in_flight_and_leaves_no_process(tmp_path
         time.sleep(0.05)
     os.kill(process.pid, signal.SIGKILL)
     process.wait()
-    time.sleep(2.0)
-    left = subprocess.run(["pgrep", "-s", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()
-    assert not left
+    assert not left_after(process.pid, 30.0)
     done = len(ledger.read_text(encoding="utf-8").splitlines()) - 1
     assert 5 <= done < 40
     study = load_study(path)
