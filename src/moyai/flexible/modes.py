@@ -16,6 +16,7 @@ from moyai.flexible.network import IntArray, Network
 from moyai.flexible.parts import network_parts
 from moyai.flexible.relaxation import kernel_bed, kernel_system
 from moyai.flexible.result import State
+from moyai.flexible.sheet_kernel import sheet_added_mass
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -94,6 +95,12 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
     still, fluid = np.zeros_like(place), np.array([network.water.density, network.water.gravity, 0.0])
     force, mass, tension = np.zeros((nodes, 3)), np.zeros((nodes, 6)), np.zeros(bars)
     kernel.forces(place, still, water, system, fluid, bed, force, tension, mass)
+    sheets = network.sheets
+    if sheets is not None:
+        sheet_added_mass(
+            sheets.constants(network.water), sheets.triangles, np.ascontiguousarray(place).ravel(), 0, 3, 1,
+            water.ravel(), 0, 1, nodes, mass.reshape(-1), 0, 6, 1,
+        )  # fmt: skip
     bar_law, node_law = np.zeros((2, bars)), np.zeros((2, nodes))
     kernel.laws(place, still, system, fluid, bed, 0.0, 1.0, bar_law, node_law)
     node_block, bar_block = np.zeros((nodes, 3, 3)), np.zeros((bars, 2, 3, 3))

@@ -18,7 +18,15 @@ from moyai.flexible import sheet_kernel as sheet
 from moyai.flexible.front_kernel import add_elements
 from moyai.flexible.panel_kernel import _on_one, panel_forces
 from moyai.flexible.ring_kernel import ring_loads
-from moyai.flexible.sheet_kernel import _strain, sheet_energy, sheet_forces, sheet_loads, tensile_stress, wet_share
+from moyai.flexible.sheet_kernel import (
+    _strain,
+    sheet_added_mass,
+    sheet_energy,
+    sheet_forces,
+    sheet_loads,
+    tensile_stress,
+    wet_share,
+)
 
 
 @njit(cache=True, error_model="numpy")
@@ -46,6 +54,18 @@ def part_forces(x: Any, v: Any, water: Any, parts: Any, inner: bool, force: Any)
     for i in range(count):
         for axis in range(3):
             force[i, axis] += total[axis, i]
+
+
+@njit(cache=True, error_model="numpy")
+def part_masses(x: Any, water: Any, parts: Any, mass: Any) -> None:
+    """Add the water that sheets take along to the mass blocks of the nodes."""
+    (table, _, triangles, _, _), _, _, _ = parts
+    count = x.shape[0]
+    if triangles.shape[0] > 0:
+        sheet_added_mass(
+            table, triangles, x.reshape(3 * count), 0, 3, 1, water.reshape(7 * count), 0, 1, count,
+            mass.reshape(6 * count), 0, 6, 1,
+        )  # fmt: skip
 
 
 @njit(cache=True, error_model="numpy")

@@ -14,11 +14,10 @@ import numpy as np
 from numba import njit
 
 #: Columns of the constants of triangles: inverse of the unstretched edges (2 x 2), area, stiffness C11, C12, C22, C33,
-#: compliance a0 + a1 cos + a2 cos^2 over twice the angle of the pull, damping time, law, mass of a third, weight of a
-#: third, buoyancy of a third, rho/2 Cd, rho/2 Ct, pressure, factor on the water's velocity.
-E11, E12, E21, E22, AREA, C11, C12, C22, C33, A0, A1, A2, DAMPING, LAW, MASS, WEIGHT, LIFT, ACROSS, SKIN, PRESSURE = (
-    range(20)
-)
+#: compliance a0 + a1 cos + a2 cos^2 over twice the angle of the pull, damping time, law, added mass per area across,
+#: displaced mass of a third, buoyancy of a third, rho/2 Cd, rho/2 Ct, pressure, factor on the water's velocity.
+E11, E12, E21, E22, AREA, C11, C12, C22, C33, A0, A1, A2, DAMPING, LAW, ADDED, DISPLACED, LIFT, ACROSS, SKIN = range(19)
+PRESSURE = 19
 SHARE, COLUMNS = 20, 21
 #: Laws: stress also in compression; nearest tensile stress; two families of threads that only pull.
 LINEAR, FIELD, THREADS = 0.0, 1.0, 2.0
@@ -226,9 +225,10 @@ def sheet_loads(
     C: Any, triangles: Any, P: Any, p0: int, V: Any, v0: int, W: Any, w0: int, F: Any, f0: int, node: int, axis: int,
     light: Any, ahead: float,
 ) -> float:  # fmt: skip
-    """Add buoyancy and drag of the water to ``F``; weight stands with the nodes.
+    """Add buoyancy, drag and inertia of moving water to ``F``; weight stands with the nodes.
 
-    The drag of each corner takes its own relative velocity, across and along the triangle [eq:flexible-sheet-drag].
+    The drag of each corner takes its own relative velocity, across and along the triangle [eq:flexible-sheet-drag], the
+    inertia the acceleration of the water there [eq:flexible-sheet-inertia].
     ``W`` holds velocity, acceleration and elevation of the water in the same layout; ``light`` (4, n) is one over the
     own mass of each node and over its mass along a horizontal axis [1/kg], and that axis. Returns the fastest rate at
     which drag damps a node [1/s].
@@ -270,10 +270,58 @@ def sheet_loads(
             fastest = max(fastest, rate)
             quick = ahead * rate
             held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
+            rise = 0.0
             for a in range(3):
-                F[f0 + base + a * axis] += held * (hold * along * n[a] * per + rub * u[a])
+                rise += W[w0 + base + (3 + a) * axis] * n[a] * per
+            push = held * hold * along + wet * C[t, ADDED] * size / 6.0 * rise
+            whole = wet * C[t, DISPLACED]
+            for a in range(3):
+                step = base + a * axis
+                F[f0 + step] += push * n[a] * per + held * rub * u[a] + whole * W[w0 + step + 3 * axis]
             F[f0 + base + 2 * axis] += wet * C[t, LIFT]
     return fastest
+
+
+@njit(cache=True, error_model="numpy")
+def sheet_added_mass(
+    C: Any, triangles: Any, P: Any, p0: int, node: int, axis: int, W: Any, w0: int, place: int, row: int, M: Any,
+    m0: int, block: int, part: int,
+) -> None:  # fmt: skip
+    """Add the water that triangles take along across themselves to the mass blocks (xx, xy, xz, yy, yz, zz) of nodes.
+
+    Elevations of the surface stand at ``w0 + place * i + 6 * row``, blocks at ``m0 + block * i + part * k``
+    [eq:flexible-sheet-inertia].
+    """
+    p, n = np.empty(6), np.empty(3)
+    for t in range(triangles.shape[0]):
+        if C[t, ADDED] == 0.0:
+            continue
+        i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        up, top = p0 + 2 * axis, w0 + 6 * row
+        wet = wet_share(
+            P[up + i * node] - W[top + i * place], P[up + j * node] - W[top + j * place],
+            P[up + k * node] - W[top + k * place],
+        )  # fmt: skip
+        if wet == 0.0:
+            continue
+        for a in range(3):
+            step = p0 + a * axis
+            p[a] = P[step + j * node] - P[step + i * node]
+            p[3 + a] = P[step + k * node] - P[step + i * node]
+        n[0], n[1] = p[1] * p[5] - p[2] * p[4], p[2] * p[3] - p[0] * p[5]
+        n[2] = p[0] * p[4] - p[1] * p[3]
+        size = math.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+        if size == 0.0:
+            continue
+        scale = wet * C[t, ADDED] / (6.0 * size)
+        for corner in range(3):
+            at = m0 + triangles[t, corner] * block
+            M[at] += scale * n[0] * n[0]
+            M[at + part] += scale * n[0] * n[1]
+            M[at + 2 * part] += scale * n[0] * n[2]
+            M[at + 3 * part] += scale * n[1] * n[1]
+            M[at + 4 * part] += scale * n[1] * n[2]
+            M[at + 5 * part] += scale * n[2] * n[2]
 
 
 @njit(cache=True, error_model="numpy")
@@ -281,14 +329,16 @@ def sheet_stiffness(C: Any, triangles: Any, place: Any, stiff: Any, damp: Any) -
     """Add a bound of the stiffness of every taut triangle to the 3x3 blocks of its nodes, shape (n, 6).
 
     The blocks are half of it, as those of a bar are: (sum y_a)^2 <= sum y_a^2 / w_a for shares w_a that add to one
-    [eq:flexible-sheet-step].
+    [eq:flexible-sheet-step]. The present pull counts with it: it stiffens the sheet in all directions.
     """
-    p, block, share = np.empty(6), np.empty((3, 6)), np.empty(3)
+    p, still, block, share = np.empty(6), np.zeros(6), np.empty((3, 6)), np.empty(3)
     for t in range(triangles.shape[0]):
         a, b, c, d = C[t, E11], C[t, E12], C[t, E21], C[t, E22]
         for k in range(3):
             p[k] = place[k, triangles[t, 1]] - place[k, triangles[t, 0]]
             p[3 + k] = place[k, triangles[t, 2]] - place[k, triangles[t, 0]]
+        e11, e22, shear = _strain(C, t, p, still, 0.0)
+        s11, s22, s12, _, _ = tensile_stress(C, t, e11, e22, shear)
         # gathered cloth may be taut before the step is chosen again: its threads count with their full length
         one, two = 0.0, 0.0
         for k in range(3):
@@ -300,6 +350,7 @@ def sheet_stiffness(C: Any, triangles: Any, place: Any, stiff: Any, damp: Any) -
         for corner in range(3):
             g, h = (-a - c, -b - d) if corner == 0 else ((a, b) if corner == 1 else (c, d))
             row, trace = 0, 0.0
+            taut = max(0.0, g * g * s11 + h * h * s22 + 2.0 * g * h * s12)
             for k in range(3):
                 fk, sk = one * (p[k] * a + p[3 + k] * c), two * (p[k] * b + p[3 + k] * d)
                 for m in range(k, 3):
@@ -307,7 +358,7 @@ def sheet_stiffness(C: Any, triangles: Any, place: Any, stiff: Any, damp: Any) -
                     value = C[t, C11] * g * g * fk * fm + C[t, C22] * h * h * sk * sm
                     value += C[t, C12] * g * h * (fk * sm + sk * fm)
                     value += C[t, C33] * (fk * h + sk * g) * (fm * h + sm * g)
-                    block[corner, row] = C[t, AREA] * value
+                    block[corner, row] = C[t, AREA] * (value + taut if k == m else value)
                     if k == m:
                         trace += block[corner, row]
                     row += 1

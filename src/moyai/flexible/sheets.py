@@ -19,7 +19,7 @@ IntArray = NDArray[np.int64]
 
 _POSITIVE_OR_ZERO = (
     "warp_stiffness", "weft_stiffness", "shear_stiffness", "mass_per_area", "volume_per_area", "drag_normal",
-    "drag_tangential", "damping_time", "flow_factor",
+    "drag_tangential", "damping_time", "flow_factor", "added_mass_per_area",
 )  # fmt: skip
 
 
@@ -56,6 +56,10 @@ class Sheets:
         Factor on the water's velocity.
     tension_field : bool
         Whether the sheet wrinkles instead of bearing compression.
+    added_mass_per_area : array_like
+        Water that the sheet takes along across itself, where it is wet [kg/m2]: for a strip of depth d that swings as a
+        whole, both sides wet, pi/4 rho d on average. For sections whose nodes feel each other see
+        :class:`moyai.flexible.mass_blocks.MassBlocks`.
 
     Raises
     ------
@@ -77,6 +81,7 @@ class Sheets:
     pressure: Array | float = 0.0
     flow_factor: Array | float = 1.0
     tension_field: bool = True
+    added_mass_per_area: Array | float = 0.0
 
     def __post_init__(self) -> None:
         nodes = np.array(whole_numbers(self.triangles, "sheets.triangles"))
@@ -222,9 +227,8 @@ class Sheets:
         table[:, kernel.A2] = np.where(threads, 0.0, last)
         law = np.where(threads, kernel.THREADS, kernel.FIELD) if self.tension_field else kernel.LINEAR
         table[:, kernel.LAW] = law
-        mass, volume = self.bulk
-        table[:, kernel.MASS] = mass / 3.0
-        table[:, kernel.WEIGHT] = mass * water.gravity / 3.0
+        volume = self.bulk[1]
+        table[:, kernel.ADDED], table[:, kernel.DISPLACED] = self.added_mass_per_area, volume * water.density / 3.0
         table[:, kernel.LIFT] = volume * water.density * water.gravity / 3.0
         table[:, kernel.ACROSS] = 0.5 * water.density * np.asarray(self.drag_normal)
         table[:, kernel.SKIN] = 0.5 * water.density * np.asarray(self.drag_tangential)

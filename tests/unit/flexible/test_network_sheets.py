@@ -277,3 +277,30 @@ def test_faults(change: dict[str, object], words: str) -> None:
     }  # fmt: skip
     with pytest.raises(InputError, match=words):
         Sheets(**{**given, **change})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("stretch", [1.01, 1.3, 1.8])
+def test_the_step_of_a_stretched_strip_is_stable(stretch: float) -> None:
+    """The pull of the strip itself counts: without it the step of a strip at 1.8 times its length was too long."""
+    cells = 12
+    along = np.linspace(0.0, 2.0, cells + 1)
+    triangles, rest = sheet_grid(np.arange(2 * cells + 2).reshape(2, cells + 1), [0.0, 0.1], along)
+    sheets = Sheets(triangles, rest, 0.0, 1e3, mass_per_area=1.0)
+    place = np.zeros((2 * cells + 2, 3))
+    place[:, 1], place[:, 2] = np.repeat([0.0, 0.1], cells + 1), -stretch * np.tile(along, 2)
+    network = Network(Nodes(place, np.zeros(len(place), dtype=int)), NO_BARS, WATER, sheets=sheets)
+    size, matrix = place.size, np.empty((place.size, place.size))
+    for column in range(size):
+        pulls = []
+        for move in (1e-6, -1e-6):
+            moved = place.copy()
+            moved.ravel()[column] += move
+            pulls.append(forces(sheets, moved).ravel())
+        matrix[:, column] = (pulls[1] - pulls[0]) / 2e-6
+    fastest = math.sqrt(np.max(np.linalg.eigvals(matrix / np.repeat(network.node_mass, 3)[:, None]).real))
+    inverse = np.zeros((6, len(place)))
+    inverse[[0, 3, 5]] = 1.0 / network.node_mass
+    limit, _ = step_limit(
+        kernel_arrays(network), place.T.copy(), inverse, None, (sheets.constants(WATER), sheets.triangles)
+    )
+    assert 0.6 < limit / (2.0 / fastest) < 0.95
