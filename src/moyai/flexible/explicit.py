@@ -112,7 +112,7 @@ class ExplicitRun:
         pulls_only = self.arrays.bar("least_tension") == 0.0
         if not pulls_only.any() or not math.isfinite(limit):
             return SAFETY
-        damping = self.arrays.bar("viscous")[pulls_only] / (self.arrays.bar("spring")[pulls_only] * limit)
+        damping = self.arrays.bar("viscous")[pulls_only] / (self.arrays.greatest_spring[pulls_only] * limit)
         least = float(damping.min())
         sheets = self.network.sheets
         if sheets is not None and sheets.tension_field:

@@ -366,7 +366,9 @@ def _history(
         status,
         message,
         (check,),
-        _fronts(network, run, saved, last, interval) + _doubts(run, check, status),
+        _fronts(network, run, saved, last, interval)
+        + _doubts(network, run, check, status)
+        + _beyond_curves(network, saved[5], saved[2][:last]),
     )
 
 
@@ -381,12 +383,37 @@ def _fronts(
     return front_notices(network, [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced])
 
 
+def _beyond_curves(network: Network, bars: np.ndarray, peaks: np.ndarray) -> tuple[Notice, ...]:
+    """Tell of ropes that were pulled harder than their curves are tabulated: the last slope went on."""
+    found = []
+    for slot, kind in enumerate(network.bars.types):
+        if kind.curve is None:
+            continue
+        highest = float(np.max(peaks[:, network.bars.kind[bars] == slot], initial=0.0))
+        last = float(kind.curve.tension[-1])
+        if highest > last * (1.0 + 1e-9):
+            found.append(
+                Notice(
+                    "beyond-rope-curve",
+                    f"{kind.name!r} bears up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
+                    "its last slope goes on",
+                    highest,
+                    last,
+                    "warning",
+                    "tabulate the rope up to its breaking load",
+                )
+            )
+    return tuple(found)
+
+
 def _at_wave_pace(run: ExplicitRun | ImplicitRun) -> bool:
     """Whether the steps were those of the elastic wave; rows that no whole number of them fills make them shorter."""
     return isinstance(run, ExplicitRun) and run.safety == 1.0 and run.step >= 0.99 * _limit(run)
 
 
-def _doubts(run: ExplicitRun | ImplicitRun, check: IdentityCheck, status: RunStatus) -> tuple[Notice, ...]:
+def _doubts(
+    network: Network, run: ExplicitRun | ImplicitRun, check: IdentityCheck, status: RunStatus
+) -> tuple[Notice, ...]:
     """Return what makes the peaks of a run that came to its end doubtful."""
     found = []
     overstep = getattr(run, "overstep", 0.0)
@@ -409,7 +436,7 @@ def _doubts(run: ExplicitRun | ImplicitRun, check: IdentityCheck, status: RunSta
                 check.value,
                 check.tolerance,
                 "warning",
-                "give a smaller safety or step, more viscosity, or an implicit method with a smaller tolerance",
+                "give a smaller safety or step, or an implicit method with a smaller tolerance" + _advice(network),
             )
         )
     return tuple(found)
