@@ -340,14 +340,21 @@ def accelerate(nodes: Any, mass: Any, result: Any) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
-    """Return kinetic energy of what is free and elastic energy of bars and hinges [J]."""
-    nodes, bars, start, end, curve, curves, hinges, bending, _ = system
-    kinetic = elastic = 0.0
-    for i in range(x.shape[0]):
+def kinetic_energy(v: Any, mass: Any, nodes: Any) -> float:
+    """Return the kinetic energy of what is free [J]."""
+    kinetic = 0.0
+    for i in range(v.shape[0]):
         p, q, s = nodes[9, i] * v[i, 0], nodes[10, i] * v[i, 1], nodes[11, i] * v[i, 2]
         kinetic += 0.5 * (mass[i, 0] * p * p + mass[i, 3] * q * q + mass[i, 5] * s * s)
         kinetic += mass[i, 1] * p * q + mass[i, 2] * p * s + mass[i, 4] * q * s
+    return kinetic
+
+
+@njit(cache=True, error_model="numpy")
+def energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
+    """Return kinetic energy of what is free and elastic energy of bars and hinges [J]."""
+    nodes, bars, start, end, curve, curves, hinges, bending, _ = system
+    elastic = 0.0
     for k in range(start.size):
         size = 0.0
         for axis in range(3):
@@ -368,4 +375,4 @@ def energies(x: Any, v: Any, mass: Any, system: Any) -> tuple[float, float]:
             p = x[hinges[h, 1], axis] - x[hinges[h, 0], axis]
             q = x[hinges[h, 2], axis] - x[hinges[h, 1], axis]
             elastic += 0.5 * bending[h, 0] * (q * bending[h, 2] - p * bending[h, 1]) ** 2
-    return kinetic, elastic
+    return kinetic_energy(v, mass, nodes), elastic

@@ -11,9 +11,19 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from moyai.flexible.force_kernel import accelerate, bend, blocks, cut, elastic_pull, energies, forces, laws
+from moyai.flexible.force_kernel import (
+    accelerate,
+    bend,
+    blocks,
+    cut,
+    elastic_pull,
+    energies,
+    forces,
+    kinetic_energy,
+    laws,
+)
 from moyai.flexible.front_kernel import factor_fronts, solve_fronts, to_fronts
-from moyai.flexible.part_kernel import part_energy, part_forces, part_measure, part_pulls, part_tangent
+from moyai.flexible.part_kernel import part_energy, part_forces, part_masses, part_measure, part_pulls, part_tangent
 
 #: How much smaller the error of a step must be in which a bar turns slack or taut.
 AT_EVENTS = 10.0
@@ -126,6 +136,7 @@ def all_forces(
     forces(x, v, water, system, fluid, bed, force, tension, mass)
     if parts is not None:
         part_forces(x, v, water, parts, False, force)
+        part_masses(x, water, parts, mass)
 
 
 @njit(cache=True, error_model="numpy")
@@ -230,33 +241,41 @@ def _top(first: float, last: float, rise: float, fall: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def _powers(x: Any, v: Any, water: Any, force: Any, system: Any, fluid: Any, parts: Any, own: Any, result: Any) -> None:
-    """Write the power of the loads on what is free and of the driven points on the bars [W]."""
+def _powers(x: Any, v: Any, a: Any, mass: Any, system: Any, fluid: Any, parts: Any, own: Any, result: Any) -> None:
+    """Write the power of the loads on what is free and of the driven points on the bars [W].
+
+    The loads are what mass times acceleration leaves of the pull of bars, hinges and parts.
+    """
     nodes, bars, start, end, curve, curves, hinges, bending, _ = system
     own[:] = 0.0
     for k in range(start.size):
-        a, b = start[k], end[k]
+        one, two = start[k], end[k]
         size = rate = 0.0
         for axis in range(3):
-            t = x[b, axis] - x[a, axis]
+            t = x[two, axis] - x[one, axis]
             size += t * t
-            rate += t * (v[b, axis] - v[a, axis])
+            rate += t * (v[two, axis] - v[one, axis])
         size = max(math.sqrt(size), 1e-100)
         elastic, _ = elastic_pull(bars, k, size, curve[k], curves)
         pull, _ = cut(elastic + bars[2, k] * rate / size, bars[3, k], fluid[2])
         for axis in range(3):
-            t = (x[b, axis] - x[a, axis]) / size
-            own[a, axis] += pull * t
-            own[b, axis] -= pull * t
+            t = (x[two, axis] - x[one, axis]) / size
+            own[one, axis] += pull * t
+            own[two, axis] -= pull * t
     for h in range(hinges.shape[0]):
         bend(x, hinges[h, 0], hinges[h, 1], hinges[h, 2], bending[h], own)
     if parts is not None:
-        part_forces(x, v, water, parts, True, own)
+        part_forces(x, v, np.empty((7, 0)), parts, True, own)
     result[0] = result[1] = 0.0
     for i in range(x.shape[0]):
+        p, q, s = nodes[9, i] * a[i, 0], nodes[10, i] * a[i, 1], nodes[11, i] * a[i, 2]
+        fx = mass[i, 0] * p + mass[i, 1] * q + mass[i, 2] * s
+        fy = mass[i, 1] * p + mass[i, 3] * q + mass[i, 4] * s
+        fz = mass[i, 2] * p + mass[i, 4] * q + mass[i, 5] * s
         for axis in range(3):
             if nodes[9 + axis, i] > 0.0:
-                result[0] += (force[i, axis] - own[i, axis]) * v[i, axis]
+                push = fx if axis == 0 else (fy if axis == 1 else fz)
+                result[0] += (push - own[i, axis]) * v[i, axis]
             else:
                 result[1] -= own[i, axis] * v[i, axis]
 
@@ -285,13 +304,12 @@ def implicit_march(
     force, change, own = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
     mass, old_mass = np.empty((count, 6)), np.empty((count, 6))
     tension, peak, pulled = np.zeros(start.size), np.full(start.size, -1e300), np.zeros(start.size)
-    limits, powers, before = np.zeros(4), np.zeros(2), np.zeros(2)
+    limits, powers, before, work = np.zeros(4), np.zeros(2), np.zeros(2), np.zeros(2)
     begin = time
     _water_at(now_water, base, rate, 0.0, moving)
     acceleration(x, v, now_water, system, fluid, bed, parts, tension, mass, a)
     old_mass[:] = mass
-    all_forces(x, v, now_water, system, fluid, bed, parts, force, tension, mass)
-    _powers(x, v, now_water, force, system, fluid, parts, own, before)
+    _powers(x, v, a, mass, system, fluid, parts, own, before)
     pulled[:] = tension
     rises, risen = np.zeros(start.size), np.zeros(start.size)
     _rises(x, v, a, system, tension, risen)
@@ -312,6 +330,7 @@ def implicit_march(
             gain = gamma * h
             vs[0], accelerations[0] = v, a
             bad, fresh = 0, True
+            work[0], work[1] = h * stages[many - 1, 0] * before[0], h * stages[many - 1, 0] * before[1]
             for s in range(1, many):
                 part = 0.0
                 for j in range(s + 1):
@@ -333,6 +352,9 @@ def implicit_march(
                     break
                 fresh = False
                 vs[s] = speed
+                _powers(place, speed, accelerations[s], mass, system, fluid, parts, own, powers)
+                for which in range(2):
+                    work[which] += h * stages[many - 1, s] * powers[which]
             error = math.inf
             if bad == 0:
                 for i in range(count):
@@ -384,15 +406,14 @@ def implicit_march(
             if parts is not None:
                 slack[:] = loose
                 control[5] = max(control[5], highest)
-            _powers(x, v, now_water, force, system, fluid, parts, own, powers)
             pulled[:] = tension
             risen[:] = rises
-            ledger[0] += 0.5 * h * (powers[0] + before[0])
-            ledger[1] += 0.5 * h * (powers[1] + before[1])
+            ledger[0] += work[0]
+            ledger[1] += work[1]
             before[:] = powers
-            new, _ = energies(x, v, mass, system)
-            old, _ = energies(x, v, old_mass, system)
-            ledger[2] += new - old
+            # the turn of the added mass, at the velocities before and after
+            ledger[2] += 0.5 * (kinetic_energy(v, mass, nodes) - kinetic_energy(v, old_mass, nodes))
+            ledger[2] += 0.5 * (kinetic_energy(vs[0], mass, nodes) - kinetic_energy(vs[0], old_mass, nodes))
             old_mass[:] = mass
             if control[6] == 0.0:
                 control[0] = min(control[2], h * min(4.0, 0.9 * max(error, 1e-8) ** -exponent))

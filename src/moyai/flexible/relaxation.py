@@ -35,7 +35,7 @@ def kernel_system(arrays: KernelArrays) -> tuple[object, ...]:
     )  # fmt: skip
 
 
-def kernel_bed(network: Network, fade: float = 1e-3) -> Array:
+def kernel_bed(network: Network, fade: float = 1e-5) -> Array:
     """Return level, friction, speed below which friction fades [m/s], and whether there is a bed."""
     bed = network.bed
     return np.array([0.0, 0.0, 1.0, 0.0]) if bed is None else np.array([bed.level, bed.friction, fade, 1.0])
@@ -230,9 +230,9 @@ class Relaxation:
         """
         x = place.copy()
         start, end = self.arrays.start, self.arrays.end
-        # rounding of a coordinate times the stiffest bar or sheet
+        # rounding of a coordinate times the stiffest bar or sheet, not that of what went astray
         stiffest = max([float(self.arrays.greatest_spring.max(initial=0.0)), *(p.stiffness for p in self.parts)])
-        noise = 16.0 * np.finfo(np.float64).eps * stiffest * float(np.max(np.abs(x)))
+        noise = 16.0 * np.finfo(np.float64).eps * stiffest * float(np.max(np.abs(self.network.nodes.position)))
         force = self._loads_at(x, 0.0) * self.free
         sizes = np.linalg.norm(force, axis=1)
         load, top = float(sizes.sum()), max(float(sizes.max()), 1e-300)

@@ -16,6 +16,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import FREE, Network
 from moyai.flexible.relaxation import Attempt, Relaxation
+from moyai.flexible.rest_diagnosis import advice, refuse_impossible
 from moyai.flexible.result import State
 
 Array = NDArray[np.float64]
@@ -35,6 +36,8 @@ _STAGE, _LAST = (0.25, 150), (0.25, 400)
 _CURRENTS = (0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0)
 #: Numbers in the factors of all solves together, before a network without rest is given up.
 _MOST_NUMBERS = 2e8
+#: Pseudo steps of dynamic relaxation, which cost about as much as steps of the explicit scheme.
+_RELAXING = 40_000
 #: How often and how long the true motion is asked for help.
 _SHAKES, _SHAKE_INTERVALS = 6, 40
 
@@ -54,7 +57,8 @@ class Equilibrium:
     steps : int
         Solves that it took.
     found : str
-        How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``true motion``.
+        How: ``direct``, ``small steps``, ``rising current``, ``rising stiffness``, ``dynamic relaxation``, ``true
+        motion``.
     """
 
     state: State
@@ -90,8 +94,9 @@ def solve_equilibrium(
     """Find the network at rest.
 
     Newton's method on places and tensions together in pseudo-time steps [eq:flexible-relaxation]; where it fails, again
-    with smaller turns, with a stiffness of sheets or a current that rises from nothing, and last led by the true
-    motion, stopped at every peak of its speed. The bed bears without friction.
+    with smaller turns, with a stiffness of sheets or a current that rises from nothing, led by dynamic relaxation
+    (:func:`moyai.flexible.dynamic_relaxation.relax_network`), and last by the true motion, stopped at every peak of
+    its speed. The bed bears without friction.
 
     Parameters
     ----------
@@ -117,18 +122,20 @@ def solve_equilibrium(
     Raises
     ------
     ConvergenceError
-        When no equilibrium is found; the message names the node, the force left and what may be wrong.
+        When there is no equilibrium or none is found; the message names the node, the force left and what is wrong:
+        what nothing holds, what sinks, rises or drifts for ever, a mechanism.
     """
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0
     place[fixed] = network.nodes.position[fixed]
     place = _apart(network, place)
     calm = Flow() if flow is None else Flow(flow.velocity, flow.current)
+    refuse_impossible(network)
     problem = Relaxation(network, calm, time)
     if most_steps is None:
         most_steps = int(min(max(_MOST_NUMBERS / max(problem.plan.size, 1), 500), 9000))
     best, found, steps = _ladder(problem, place, tolerance, most_steps)
-    if not (best.converged or best.residual <= max(tolerance, _GOOD_ENOUGH)):
+    if not best.residual <= max(tolerance, _GOOD_ENOUGH):
         kept = ""
         if state_file is not None:
             from moyai.flexible.recovery import write_state
@@ -139,7 +146,7 @@ def solve_equilibrium(
             f"{name_of_node(network, best.worst)}, z = {best.place[best.worst, 2]:.4g} m{kept}",
             path="statics",
             allowed=f"at most {max(tolerance, _GOOD_ENOUGH):g}",
-            remedy=_advice(network, best.place, calm),
+            remedy=advice(network, best.place, calm),
         )
     problem.forces(best.place)
     state = State(0.0, best.place, np.zeros_like(best.place))
@@ -182,6 +189,10 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
             x = last.place if np.isfinite(last.place).all() else x
     if best.residual <= _GOOD_ENOUGH:
         return best, found, steps
+    x = _relaxed(problem.network, place, problem.flow)
+    for bold in (moving, True):
+        if go("dynamic relaxation", x, _LAST, bold, 1e-3):
+            return best, found, steps
     x = place
     for shake in range(_SHAKES):
         x = _shake(problem.network, x, problem.flow, not moving or shake % 2 == 1)
@@ -202,6 +213,20 @@ def _shares(problem: Relaxation, place: Array) -> list[float]:
         shares.append(share)
         share *= 10.0
     return [*shares, 1.0]
+
+
+def _relaxed(network: Network, place: Array, flow: Flow) -> Array:
+    """Lead a network by dynamic relaxation, which asks for no matrix; ``place`` again where that runs away."""
+    from moyai.flexible.dynamic_relaxation import relax_network
+
+    start = State(0.0, place, np.zeros_like(place))
+    with contextlib.suppress(ConvergenceError, OverflowError, ValueError):
+        return np.array(
+            relax_network(
+                network, flow=flow, start=start, tolerance=1e-6, good_enough=math.inf, most_steps=_RELAXING
+            ).state.position
+        )
+    return place
 
 
 def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
@@ -230,20 +255,3 @@ def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
             final = history.final
             state = State(0.0, final.position, np.zeros_like(place) if calm else final.velocity)
     return np.array(state.position)
-
-
-def _advice(network: Network, place: Array, flow: Flow) -> str:
-    """Return what most likely hinders an equilibrium."""
-    if not np.isfinite(place).all():
-        return "positions are no longer finite: look for a bar whose stiffness or length is out of proportion"
-    weight = float(np.sum(network.node_mass - network.water.density * network.node_volume)) * network.water.gravity
-    holds = network.nodes.kind != 0
-    if not holds.any() and not network.nodes.held.any():
-        return f"nothing holds the network; its weight less its buoyancy is {weight:.3g} N: add an anchor"
-    away = float(np.max(np.abs(place - network.nodes.position)))
-    extent = float(np.max(np.ptp(network.nodes.position, axis=0))) + 1e-300
-    if away > 3.0 * extent:
-        return f"a node went {away:.3g} m away: something heavy or light hangs on nothing that bears it"
-    if flow.current is not None or np.any(np.asarray(flow.velocity) != 0.0):
-        return "slack parts may flutter in this current and have no rest: lower the current, or run it with time"
-    return "give a better start, more steps, or look for slack parts that may lie anywhere"
