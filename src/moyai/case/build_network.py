@@ -131,9 +131,11 @@ def read_columns(folder: Path, name: str, count: int, path: str) -> np.ndarray:
     file = folder / name
     try:
         text = file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        raise InputError(f"{name} is no text", path=path, allowed="a text file of columns in UTF-8") from None
+    except OSError as error:
         raise InputError(
-            f"{name} cannot be read: {error}", path=path, remedy="paths count from the case file"
+            f"{name} cannot be read: {error.strerror or error}", path=path, remedy="paths count from the case file"
         ) from None
     rows: list[list[float]] = []
     for number, line in enumerate(text.splitlines(), start=1):
@@ -147,8 +149,9 @@ def read_columns(folder: Path, name: str, count: int, path: str) -> np.ndarray:
                 continue  # a heading
             raise InputError(f"{name}, line {number}: '{line.strip()}' holds no numbers", path=path) from None
         if len(row) != count or not all(math.isfinite(value) for value in row):
+            found = f"{len(row)} numbers" if len(row) != count else f"'{line.strip()}' is not finite"
             raise InputError(
-                f"{name}, line {number}: {len(row)} numbers", path=path, allowed=f"{count} finite numbers in each row"
+                f"{name}, line {number}: {found}", path=path, allowed=f"{count} finite numbers in each row"
             )
         rows.append(row)
     if len(rows) < 2:
@@ -345,6 +348,8 @@ def _sheet(name: str, entry: parts.NetworkSheet) -> model.SheetPlan:
         "drag_normal": entry.drag_normal, "drag_tangential": entry.drag_tangential,
         "damping_time": entry.damping_time,
     }  # fmt: skip
+    if entry.added_mass is not None:
+        properties["added_mass_per_area"] = entry.added_mass
     return model.SheetPlan(
         name, (corners[0], corners[1], corners[2], corners[3]), entry.rows, entry.columns, properties,
         entry.fullness, entry.first_row, entry.motion or "", entry.z_from == "still_water",

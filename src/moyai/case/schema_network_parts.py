@@ -40,6 +40,7 @@ Place = tuple[Length, Length, Height]
 Shift = tuple[Length, Length, Length]
 MembraneStiffness = Annotated[float, QuantityOf(quantities.FORCE_PER_LENGTH, least=0.0)]
 MassPerArea = Annotated[float, QuantityOf(quantities.MASS_PER_AREA, above=0.0)]
+AddedMassPerArea = Annotated[float, QuantityOf(quantities.MASS_PER_AREA, least=0.0)]
 Angles = tuple[Heading, Heading, Heading]
 Viscosity = Annotated[float, QuantityOf(quantities.Kind("a viscosity", "N s", "newton seconds", "1e4 N s"), least=0.0)]
 BendingStiffness = Annotated[float, QuantityOf(quantities.BENDING_STIFFNESS, least=0.0)]
@@ -410,6 +411,11 @@ class NetworkSheet(Block):
     thickness: NonNegativeLength = Field(description="Displaced volume per area.")
     drag_normal: NonNegativeNumber = Field(description="Drag coefficient across, on its area.")
     drag_tangential: NonNegativeNumber = Field(description="Drag coefficient along, on its area.")
+    added_mass: AddedMassPerArea | None = Field(
+        default=None,
+        description="Water that the wet sheet takes along across itself, per area; a strip of depth d that moves as a "
+        "whole takes pi/4 times density times d. None is taken along when left out.",
+    )
     damping_time: NonNegativeDuration = Field(
         default=0.0, description="Internal damping: time that multiplies the rate of strain. Default: 0."
     )

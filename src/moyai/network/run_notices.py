@@ -47,6 +47,17 @@ def run_notices(
             Notice("nothing-counted", f"settings.skip of {problem.settings.skip:g} s leaves nothing of the run",
                    problem.settings.skip, plan.duration, "warning", "lower settings.skip")
         )  # fmt: skip
+    for sheet in problem.sheets:
+        if "added_mass_per_area" not in sheet.properties:
+            notices.append(
+                Notice(
+                    "sheet-without-water",
+                    f"the sheet {sheet.name!r} takes no water along: wet cloth moves across itself "
+                    "as quickly as it does in air",
+                    severity="warning",
+                    remedy=f"give structure.sheets.{sheet.name}.added_mass (0 where it stays dry)",
+                )
+            )
     return notices
 
 
