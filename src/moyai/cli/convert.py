@@ -43,8 +43,11 @@ def case_of_deck(
     from moyai.interop.moordyn_case import case_text
     from moyai.interop.moordyn_reader import read_deck
 
-    read = read_deck(deck)
-    text = case_text(read, motions=motions_of(motions), duration=duration, output_step=output_step, folder=deck.parent)
+    read, moved = read_deck(deck), motions_of(motions)
+    text = case_text(read, motions=moved, duration=duration, output_step=output_step, folder=deck.parent)
+    for name, file in moved.items():
+        if not file.is_file():
+            raise InputError(f"there is no file '{file}', which {name} follows", path="--motion")
     write_text(target, text, replace=replace)
     return target
 

@@ -236,7 +236,7 @@ def read_rods(
         if number and any(rod.number == number for rod in found):
             faults.add(row.line, f"two rods have the ID {number}", path="rods")
         name = row.cells.get("rod_type", "")
-        if name not in names:
+        if name not in names and "rod types" not in faults.broken:
             faults.add(row.line, f"no rod type {name!r}", ", ".join(names) or "none", path="rod_type")
         word = row.cells.get("kind", "")
         pinned = re.fullmatch(r"((?:body|bod|b)\d+)(?:pinned|pin)", word.lower())
@@ -247,7 +247,7 @@ def read_rods(
                 row.line, f"attachment of rod is {word!r}",
                 "Fixed, Coupled, CoupledPinned, Pinned, Free, Body1 ..., Body1Pinned ...", path="kind",
             )  # fmt: skip
-        elif body and body not in known:
+        elif body and body not in known and "bodies" not in faults.broken:
             faults.add(
                 row.line, f"rod {number} is on body {body}, which is not there", ", ".join(map(str, known)) or "none"
             )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, Fault, InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_keys import SECTIONS
@@ -72,10 +72,12 @@ def case_text(
     InputError
         When the deck gives no depth, its current turns over the height, or a motion is given for what is not coupled.
     CaseError
-        For bodies and rods that are not run, see :func:`moyai.interop.moordyn_system.bodies_of`.
+        For points under the bed, and for bodies and rods that are not run, see
+        :func:`moyai.interop.moordyn_system.bodies_of`.
     """
     water = water_of(deck)
     bodies, said = bodies_of(deck)
+    _check_bed(deck, bodies, water.depth)
     moved = _moved(deck, bodies, motions or {})
     lines = [
         f"# From {deck.source or 'a deck'} of MoorDyn.",
@@ -128,6 +130,25 @@ def case_text(
             settings.append(f"output_step: {_number(output_step)}")
         lines += ["", f"settings: {{{', '.join(settings)}}}"]
     return "\n".join([*lines, ""])
+
+
+def _check_bed(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], depth: float) -> None:
+    """Refuse points under the bed, with their lines in the deck.
+
+    Raises
+    ------
+    CaseError
+        All of them.
+    """
+    placed = [(point_name(p.number), p.position[2], p.line) for p in deck.points if p.kind != "body"]
+    placed += [(name, place[2], body.line) for body in bodies for name, place in body.points_in_site().items()]
+    faults = [
+        Fault(f"{name} at z = {z:g} m lies under the bed", "z", f"{-depth:g} m or more", "", deck.source, line, 1)
+        for name, z, line in placed
+        if z < -depth * (1.0 + 1e-9)
+    ]
+    if faults:
+        raise CaseError(faults)
 
 
 def _moved(deck: MoorDynDeck, bodies: tuple[BodyOfDeck, ...], motions: Mapping[int | str, Path]) -> dict[str, Path]:

@@ -69,14 +69,28 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
             body = None
         elif sections:
             remedy = _suggest(title, [*keys.SECTIONS, *keys.REFUSED_SECTIONS])
-            faults.add(number, f"unknown section {title!r}", ", ".join(keys.SECTIONS), remedy)
-            body = None
+            faults.add(number, f"unknown section {title!r}", "" if remedy else ", ".join(keys.SECTIONS), remedy)
+            body = _meant(title, number, sections)
         else:
             # rules and remarks above the first section are a heading, unless one was meant to be a section
             meant = difflib.get_close_matches(title, list(keys.SECTIONS), n=1, cutoff=0.8)
             if meant:
                 faults.add(number, f"unknown section {title!r}", remedy=f"did you mean {meant[0]!r}?")
+                body = _meant(title, number, sections)
     return sections
+
+
+def _meant(
+    title: str, number: int, sections: dict[str, tuple[int, list[tuple[int, str]]]]
+) -> list[tuple[int, str]] | None:
+    """Open the section that a misspelt title means, so that one slip is told once; ``None`` where none is meant."""
+    meant = difflib.get_close_matches(title, list(keys.SECTIONS), n=1)
+    name = keys.SECTIONS[meant[0]] if meant else ""
+    if not name or name in sections:
+        return None
+    body: list[tuple[int, str]] = []
+    sections[name] = (number, body)
+    return body
 
 
 def _table(
@@ -110,6 +124,9 @@ def _table(
     missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS[section]]
     if missing:
         faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
+        # its rows, and what refers to them, would be told as faults that follow from this one
+        faults.broken.add(section)
+        return [], []
     if not units[1].lstrip().startswith("("):
         faults.add(
             units[0], f"the row under the names of {section.upper()} holds no units",
@@ -125,7 +142,7 @@ def _table(
             faults.add(number, f"{len(cells)} columns", f"{len(names)}: {' '.join(_tokens(head[1]))}", path=section)
             continue
         rows.append(Row(number, dict(zip(names, cells, strict=False))))
-    return ([] if missing else names), rows
+    return names, rows
 
 
 def _line_types(names: list[str], rows: list[Row], folder: Path, faults: Faults) -> tuple[DeckLineType, ...]:
@@ -168,7 +185,7 @@ def _points(rows: list[Row], bodies: tuple[DeckBody, ...], faults: Faults) -> tu
         word = row.cells.get("kind", "")
         body = body_number(word)
         kind = "body" if body else keys.POINT_KINDS.get(word.lower())
-        if body and body not in known:
+        if body and body not in known and "bodies" not in faults.broken:
             faults.add(
                 row.line, f"the point is on body {body}, which is not there", ", ".join(map(str, known)) or "none"
             )
@@ -210,7 +227,7 @@ def _lines(
             faults.add(row.line, f"two lines have the ID {number}", path="lines")
         name = row.cells.get("line_type", "")
         types = [kind.name for kind in kinds]
-        if name not in types:
+        if name not in types and "line types" not in faults.broken:
             faults.add(row.line, f"no line type {name!r}", ", ".join(types), _suggest(name, types), "line_type")
         ends: list[int | str] = []
         for key in ("start", "end"):
@@ -219,14 +236,14 @@ def _lines(
             if on_rod:
                 ends.append(f"R{on_rod[1]}{on_rod[2].upper()}")
                 there = [rod.number for rod in rods]
-                if int(on_rod[1]) not in there:
+                if int(on_rod[1]) not in there and "rods" not in faults.broken:
                     faults.add(
                         row.line, f"{key} is on rod {on_rod[1]}, which is not there",
                         ", ".join(map(str, there)) or "none", path=key,
                     )  # fmt: skip
                 continue
             end = faults.whole(row, key)
-            if end and end not in known:
+            if end and end not in known and "points" not in faults.broken:
                 faults.add(row.line, f"{key} is point {end}, which is not there", ", ".join(map(str, known)), path=key)
             ends.append(end)
         if ends[0] == ends[1] != 0:
@@ -251,8 +268,9 @@ def _options(body: list[tuple[int, str]], faults: Faults, notes: list[str]) -> t
         key = known.get(words[1].lower())
         if key is None:
             turned = "the value stands before its key" if words[0].lower() in known else ""
-            remedy = turned or _suggest(words[1].lower(), known)
-            allowed = ", ".join(dict.fromkeys(known.values()))
+            close = difflib.get_close_matches(words[1].lower(), list(known), n=1)
+            remedy = turned or (f"did you mean {known[close[0]]!r}?" if close else "")
+            allowed = "" if close else ", ".join(dict.fromkeys(known.values()))
             faults.add(number, f"unknown option {words[1]!r}", allowed, remedy, "options")
             continue
         before = next((option for option in found if option.key == key), None)
@@ -307,7 +325,7 @@ def _check_site(deck: MoorDynDeck, faults: Faults) -> None:
                 point.line, f"point {point.number} at z = {point.position[2]:g} m is under the bed",
                 f"{-depth:g} or more", path="points",
             )  # fmt: skip
-        if point.number not in held and point.kind == "free":
+        if point.number not in held and point.kind == "free" and "lines" not in faults.broken:
             faults.add(point.line, f"free point {point.number} hangs on no line", path="points")
 
 

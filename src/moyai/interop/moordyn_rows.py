@@ -30,10 +30,11 @@ class Row:
 
 
 class Faults:
-    """Collects what is wrong, so that all of it is told at once."""
+    """Collects what is wrong, so that all of it is told at once; ``broken`` sections hold no rows to refer to."""
 
     def __init__(self, file: str) -> None:
         self.file, self.found = file, list[Fault]()
+        self.broken = set[str]()
 
     def add(self, line: int, message: str, allowed: str = "", remedy: str = "", path: str = "") -> None:
         """Note a fault of a line."""

@@ -34,7 +34,7 @@ def leading_numbers(line: str) -> list[float]:
 
 
 def read_lines(path: Path) -> list[str]:
-    """Return the lines of a text file, whatever its line ends; bytes that are not UTF-8 are read as Latin-1.
+    """Return the lines of a text file, whatever its line ends: UTF-8, UTF-16, or Latin-1 where it is neither.
 
     Raises
     ------
@@ -43,14 +43,26 @@ def read_lines(path: Path) -> list[str]:
     """
     if not path.is_file():
         raise InputError(f"no such file: {path}", path="coefficients")
-    raw = path.read_bytes()
-    try:
-        text = raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = raw.decode("latin-1")
+    text = _decoded(path.read_bytes(), path.name)
     if not text.strip():
         raise InputError(f"{path.name} is empty", path="coefficients")
     return text.splitlines()
+
+
+def _decoded(raw: bytes, name: str) -> str:
+    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
+        if raw.startswith(mark):
+            return raw.decode(encoding, errors="replace")
+    if b"\x00" in raw[:4096]:
+        # plain text in UTF-16 without its mark has a zero in every second place
+        for place, encoding in ((1, "utf-16-le"), (0, "utf-16-be")):
+            if len(raw) % 2 == 0 and raw[place:200:2].count(0) > 0.9 * len(raw[place:200:2]):
+                return raw.decode(encoding, errors="replace")
+        raise InputError(f"{name} holds bytes of zero: it is no text file", path="file")
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
 
 
 def read_table(path: Path, widths: Iterable[int]) -> list[list[float]]:

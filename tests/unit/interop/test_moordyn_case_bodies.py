@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.cli.main import app
-from moyai.core.errors import InputError
+from moyai.core.errors import CaseError, InputError
 from moyai.interop.moordyn_case import case_text, is_deck
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_system import to_system
@@ -99,3 +99,23 @@ def test_a_deck_of_rods_alone_runs_from_the_command(tmp_path):
     assert done.exit_code == 0, done.output
     page = (tmp_path / "out" / "report.html").read_text()
     assert "Motion of rod 1" in page
+
+
+def test_points_under_the_bed_are_told_with_the_line_of_the_deck(tmp_path):
+    file = tmp_path / "deck.txt"
+    text = random_deck(2).replace("1 Fixed 0 0 -60", "1 Fixed 0 0 -61")
+    file.write_text(text)
+    line = next(number for number, row in enumerate(text.splitlines(), start=1) if row.startswith("1 Fixed"))
+    with pytest.raises(
+        CaseError, match=rf"deck.txt:{line}:1: .*point 1 at z = -61 m lies under the bed.*-60 m or more"
+    ):
+        case_text(read_deck(file))
+
+
+def test_files_of_motions_that_are_not_there_are_told(tmp_path):
+    file = tmp_path / "deck.txt"
+    file.write_text(random_deck(2))
+    arguments = ["run", str(file), "--motion", f"body2={tmp_path / 'none.csv'}", "-o", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 2
+    assert "none.csv', which body 2 follows" in done.output

@@ -114,7 +114,7 @@ def test_line_ends_and_foreign_letters(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "line", "words"),
     [
-        ("40            WtrDpth ", "40            WtrDpht ", 20, ("unknown option 'WtrDpht'", "wtrdpth")),
+        ("40            WtrDpth ", "40            WtrDpht ", 20, ("unknown option 'WtrDpht'", "'WtrDpth'")),
         ("40            WtrDpth ", "WtrDpth       40 ", 20, ("the value stands before its key",)),
         ("40            WtrDpth ", "bed.txt       WtrDpth ", 20, ("'bed.txt'", "no number")),
         ("40            WtrDpth ", "-40           WtrDpth ", 20, ("WtrDpth is -40", "greater than 0")),
@@ -154,6 +154,45 @@ def test_one_mistake_is_told_with_its_line(tmp_path, old, new, line, words):
     faults = faults_of(tmp_path, VERSION_2.replace(old, new, 1))
     at_line = [str(fault) for fault in faults if fault.line == line and fault.file == "deck.txt"]
     assert any(all(word in text for word in words) for text in at_line), "\n".join(map(str, faults))
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-8-sig"])
+def test_other_encodings_are_read(tmp_path, encoding):
+    path = tmp_path / "wide.txt"
+    path.write_bytes(VERSION_2.encode(encoding))
+    assert read_deck(path) == read_deck(written(tmp_path, VERSION_2, "plain.txt"))
+
+
+def test_tabs_are_blanks(tmp_path):
+    text = VERSION_2.replace("  ", "\t")
+    assert read_deck(written(tmp_path, text)) == read_deck(written(tmp_path, VERSION_2, "plain.txt"))
+
+
+def test_bytes_that_are_no_text_are_told(tmp_path):
+    (tmp_path / "deck.txt").write_bytes(b"--- LINES ---\n\x00\x01\x02")
+    with pytest.raises(InputError, match="no text file"):
+        read_deck(tmp_path / "deck.txt")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "word"),
+    [
+        ("LINE TYPES", "LINE TPYES", 3, "did you mean 'LINE TYPES'"),
+        ("- POINTS -", "- PIONTS -", 7, "did you mean 'POINTS'"),
+        ("- LINES -", "- LINS -", 13, "did you mean 'LINES'"),
+        ("- OPTIONS -", "- OPTION -", 18, "did you mean 'OPTIONS'"),
+        ("CdAx    CaAx", "CdAx", 4, "no column for added mass axial"),
+        ("X       Y       Z", "X       Y", 8, "no column for z"),
+        ("AttachB", "AttachC", 14, "unknown column 'AttachC'"),
+    ],
+)
+def test_one_slip_is_told_once(tmp_path, old, new, line, word):
+    """What follows from it, names and points that are not there, is not told as well."""
+    assert old in VERSION_2
+    faults = faults_of(tmp_path, VERSION_2.replace(old, new, 1))
+    said = "\n".join(map(str, faults))
+    assert {fault.line for fault in faults} == {line}, said
+    assert word in said
 
 
 @pytest.mark.parametrize("section", ["LINE TYPES", "POINTS", "LINES"])
