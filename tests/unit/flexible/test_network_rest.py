@@ -124,15 +124,15 @@ def test_forces_of_a_sheet_at_rest_balance(seed):
 
 
 def test_a_failure_keeps_the_nearest_state(tmp_path):
-    builder = NetworkBuilder(Water(math.inf, 1000.0, 9.81))
-    builder.free("one", (0.0, 0.0, -5.0), mass=10.0)
-    builder.free("two", (1.0, 0.0, -5.0), mass=10.0)
-    builder.line("tie", "one", "two", BarType("tie", 1.0, 1e4, 0.01), length=1.0, segments=2)
+    builder = NetworkBuilder(WATER)
+    builder.free("top", (0.0, 0.0, 0.0), held=(False, False, True))
+    builder.free("low", (10.0, 0.0, -10.0), mass=10.0)
+    builder.line("tie", "top", "low", BarType("tie", 20.0, 1e7, 0.04, drag_normal=1.2), length=20.0, segments=4)
     network = builder.build()
     with pytest.raises(ConvergenceError, match="nearest state in") as told:
-        solve_equilibrium(network, most_steps=40, state_file=tmp_path / "rest.npz")
-    assert "nothing holds the network" in str(told.value)
-    assert read_state(tmp_path / "rest.npz", network).position.shape == (3, 3)
+        solve_equilibrium(network, flow=Flow((0.5, 0.2, 0.0)), most_steps=40, state_file=tmp_path / "rest.npz")
+    assert "along x and y: the current carries them away" in str(told.value)
+    assert read_state(tmp_path / "rest.npz", network).position.shape == (5, 3)
 
 
 def snapping(viscosity=0.0):
