@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from moyai.case import schema_network_parts as parts
+from moyai.case.check_network_parts import check_bodies, check_corners, check_floats, check_sheets
 from moyai.case.check_sea import check_file, check_surroundings, check_waves
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
 
 #: Nodes with which a case still answers in a sitting, and rows of results that a run may reasonably have.
 _MANY_NODES, _MANY_ROWS = 20_000, 2_000_000
-#: Share of its mass by which a body may displace more or less at the draught of its coefficients.
-_FAR_FROM_AFLOAT = 0.1
+#: Nodes times steps of a run, some ten days of computing.
+_MOST_NODE_STEPS = 5e12
 #: Longest run [s], two days: motions are tabulated over the whole run.
 _LONGEST_RUN = 172_800.0
 
@@ -32,6 +33,10 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
     _check_names(model, findings)
     _check_lines(model, findings)
     _check_nets(model, findings)
+    check_bodies(model, findings, folder)
+    check_floats(model, findings)
+    check_corners(model, findings)
+    check_sheets(model, findings)
     _check_files(model, findings, folder)
     _check_settings(model, findings, folder)
     if not findings.sound("site", "waves", "structure", "current", "settings"):
@@ -142,7 +147,7 @@ def _check_lines(model: NetworkCase, findings: Findings) -> None:
             if point not in known and point not in knots:
                 findings.fault(
                     ("structure", "lines", name, key), f"there is no point '{point}'",
-                    allowed=", ".join(known[:12]) or "a name in 'points'",
+                    allowed=", ".join([*known[:12], *_knots(grids)]) or "a name in 'points'",
                     remedy=did_you_mean(point, known),
                 )  # fmt: skip
         if line.start == line.end:
@@ -175,6 +180,11 @@ def _check_lines(model: NetworkCase, findings: Findings) -> None:
                 )
 
 
+def _knots(grids: list[tuple[str, Any]]) -> list[str]:
+    """Return the first and the last knot of nets and sheets, as they are named."""
+    return [f"'{name}[0,0]' to '{name}[{grid.rows - 1},{grid.columns - 1}]'" for name, grid in grids[:3]]
+
+
 def _check_nets(model: NetworkCase, findings: Findings) -> None:
     unit = model.structure
     for name, net in unit.nets.items():
@@ -191,8 +201,6 @@ def _check_nets(model: NetworkCase, findings: Findings) -> None:
                 f"meshes of {net.twine.mesh_pitch:g} m are closed by twines of {net.twine.diameter:g} m",
                 allowed="greater than the diameter",
             )  # fmt: skip
-        for index in duplicates([repr(corner) for corner in net.corners]):
-            findings.fault((*path, "corners", index), "two corners stand at the same place", remedy="move one")
 
 
 def _check_files(model: NetworkCase, findings: Findings, folder: Path) -> None:
@@ -203,42 +211,8 @@ def _check_files(model: NetworkCase, findings: Findings, folder: Path) -> None:
     for name, kind in unit.line_types.items():
         if kind.curve is not None and kind.curve.file is not None:
             check_file(("structure", "line_types", name, "curve", "file"), kind.curve.file, folder, findings)
-    for name, body in unit.bodies.items():
-        if not isinstance(body, parts.AssembledBody) and body.coefficients_file is not None:
-            _check_coefficients(name, body, model.site.density, folder, findings)
     if model.settings.resume is not None:
         check_file(("settings", "resume"), model.settings.resume, folder, findings)
-
-
-def _check_coefficients(
-    name: str, body: parts.BoxBody | parts.CylinderBody, density: float, folder: Path, findings: Findings
-) -> None:
-    given, path = body.coefficients_file, ("structure", "bodies", name, "coefficients_file")
-    assert given is not None
-    check_file((*path, "path"), given.path, folder, findings, folder_allowed=given.program == "nemoh")
-    box = isinstance(body, parts.BoxBody)
-    height = body.size[2] if isinstance(body, parts.BoxBody) else body.height
-    if given.draught >= height:
-        findings.fault(
-            (*path, "draught"), f"a draught of {given.draught:g} m drowns a body of {height:g} m",
-            allowed=f"less than {height:g} m",
-        )  # fmt: skip
-        return
-    if body.centre_of_gravity[0] != 0.0 or body.centre_of_gravity[1] != 0.0:
-        findings.fault(
-            ("structure", "bodies", name, "centre_of_gravity"),
-            "with coefficients the body floats upright: its centre of gravity stands over its middle",
-            allowed="x and y of 0",
-        )  # fmt: skip
-    area = body.size[0] * body.size[1] if isinstance(body, parts.BoxBody) else math.pi / 4.0 * body.diameter**2
-    displaced = density * area * given.draught
-    if abs(displaced / body.mass - 1.0) > _FAR_FROM_AFLOAT:
-        shape = "box" if box else "cylinder"
-        findings.warn(
-            (*path, "draught"),
-            f"the {shape} displaces {displaced:.4g} kg at {given.draught:g} m and weighs {body.mass:.4g} kg: unless "
-            "its lines bear the rest, it floats far from where its coefficients hold",
-        )  # fmt: skip
 
 
 def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> None:
@@ -280,7 +254,9 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
 
     for _, level in problem.environment.water_levels:
         try:
-            for plan in run_plans(problem, problem.environment.water_at(level)):
+            plans = run_plans(problem, problem.environment.water_at(level))
+            _check_steps(problem, level, max(plan.duration for plan in plans), findings)
+            for plan in plans:
                 if plan.duration > _LONGEST_RUN:
                     findings.fault(
                         ("settings", "duration"), f"the run '{plan.name}' of {plan.duration:g} s never ends",
@@ -306,7 +282,9 @@ def _check_runs(problem: NetworkProblem, findings: Findings) -> None:
             fault = error.fault
             path = findings.path_of(fault.path)
             path = path if path in findings.document.values else _longest(fault.path, findings)
-            if path == ("structure",):
+            if fault.path == "current_along_wave":
+                path = ("current",)
+            elif path == ("structure",):
                 path = ("settings",) if ("settings",) in findings.document.values else ("analyses",)
             findings.fault(path, fault.message, allowed=fault.allowed, remedy=fault.remedy)
             return
@@ -359,3 +337,30 @@ def _check_places(model: NetworkCase, problem: NetworkProblem, findings: Finding
                           remedy="give structure.bed")  # fmt: skip
     if len(network.nodes) > _MANY_NODES:
         findings.warn(("structure",), f"{len(network.nodes)} nodes take long")
+
+
+def _check_steps(problem: NetworkProblem, level: float, longest: float, findings: Findings) -> None:
+    """Refuse runs of so many steps that they never end: bars of next to no length, meshes of next to no mass."""
+    import numpy as np
+
+    from moyai.network.assembly import assemble
+
+    assembly = assemble(problem, level)
+    bars = assembly.network.bars
+    if not len(bars) or problem.settings.step is not None or problem.settings.method not in ("auto", "explicit"):
+        return
+    # the pace of the elastic wave along the shortest bar; water, bends and bed only slow it down
+    crossing = bars.length * np.sqrt(bars.of_type("mass_per_length") / bars.of_type("axial_stiffness"))
+    quickest = int(np.argmin(crossing))
+    steps = longest / float(crossing[quickest])
+    if steps * len(assembly.network.nodes) < _MOST_NODE_STEPS:
+        return
+    owner = next((name for name, strand in assembly.lines.items() if quickest in strand.bars), "")
+    path = ("structure", "lines", owner) if owner else ("structure",)
+    findings.fault(
+        path,
+        f"bars of {bars.length[quickest]:.3g} m ask for steps of {crossing[quickest]:.2g} s: {steps:.2g} steps of "
+        f"{len(assembly.network.nodes)} nodes for a run of {longest:g} s never end",
+        allowed=f"{_MOST_NODE_STEPS:g} nodes times steps",
+        remedy="give it fewer segments or more length, or another method",
+    )  # fmt: skip

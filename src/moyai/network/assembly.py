@@ -304,11 +304,17 @@ def _add_sheet(builder: NetworkBuilder, sheet: SheetPlan, level: float, water: W
     wide = 0.5 * float(np.linalg.norm(b - a) + np.linalg.norm(c - d)) * sheet.fullness
     if not (high > 0.0 and wide > 0.0):
         raise InputError("two corners stand at the same place", path=path, remedy="give four different corners")
-    builder.sheet(
-        sheet.name, grid, warp=np.linspace(0.0, high, sheet.rows), weft=np.linspace(0.0, wide, sheet.columns),
-        first_row=sheet.first_row, motion=(sheet.motion or STILL) if sheet.first_row == "driven" else None,
-        **sheet.properties,
-    )  # fmt: skip
+    try:
+        builder.sheet(
+            sheet.name, grid, warp=np.linspace(0.0, high, sheet.rows), weft=np.linspace(0.0, wide, sheet.columns),
+            first_row=sheet.first_row, motion=(sheet.motion or STILL) if sheet.first_row == "driven" else None,
+            **sheet.properties,
+        )  # fmt: skip
+    except InputError as error:
+        fault = error.fault
+        raise InputError(
+            fault.message, path=f"structure.sheets.{sheet.name}", allowed=fault.allowed, remedy=fault.remedy
+        ) from None
 
 
 def _with_rows(network: Network, problem: NetworkProblem, pieces: dict[str, list[str]]) -> Network:

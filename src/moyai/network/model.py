@@ -236,7 +236,9 @@ class MotionPlan:
                 f"{duration:g} s",
                 path=f"structure.motions.{self.name}",
                 allowed="a table over the whole run",
-                remedy=f"lengthen the table, or set settings.duration to {self.table.end:g} s at most",
+                remedy="let its times begin at 0 s"
+                if self.table.start > 1e-9
+                else f"lengthen the table, or set settings.duration to {self.table.end:g} s at most",
             )
         return self.table
 
