@@ -106,34 +106,54 @@ def dynamic_answer(
 def _through(
     span: CurtainSpan, mesh: Mesh, plan: Plan, progress: Progress, place: str
 ) -> tuple[Plan, DynamicRun, tuple[Notice, ...]]:
-    """Run a plan: a snap until it is past its peak; waves with normals that folds of the cloth do not turn.
+    """Run a plan, a snap until it is past its peak.
 
-    Should waves fail with turning normals, they are run with those of the just-taut span.
+    In waves folds of the cloth do not turn the normals of sections; a snap has none at first and takes the normals
+    between neighbours. What stops is run again with steadier normals, in the end with those of the just-taut span.
     """
-    if plan.arguments["flow"].waves is None:
+    wide = replace(mesh, normal_reach=mesh.normal_reach or _NORMAL_REACH * span.skirt_length)
+    held = replace(wide, turning=False)
+    trials = [mesh, wide, held] if plan.arguments["flow"].waves is None else [wide, held]
+    first: tuple[Plan, DynamicRun] | None = None
+    for trial in trials:
+        plan_run = _until_peak(span, trial, plan, progress)
+        if first is None:
+            first = plan_run
+        if plan_run[1].history.status != "not_converged":
+            return *plan_run, _steadied(first[1], plan_run[1], place)
+    assert first is not None
+    return *first, ()
+
+
+def _until_peak(span: CurtainSpan, mesh: Mesh, plan: Plan, progress: Progress) -> tuple[Plan, DynamicRun]:
+    run = run_span(span, mesh, progress=progress, **plan.arguments)
+    for _ in range(_LONGER if plan.open else 0):
+        if run.history.status != "converged" or not still_rises(run):
+            break
+        plan = replace(plan, arguments={**plan.arguments, "duration": 2.0 * plan.arguments["duration"]})
         run = run_span(span, mesh, progress=progress, **plan.arguments)
-        for _ in range(_LONGER if plan.open else 0):
-            if run.history.status != "converged" or not still_rises(run):
-                break
-            plan = replace(plan, arguments={**plan.arguments, "duration": 2.0 * plan.arguments["duration"]})
-            run = run_span(span, mesh, progress=progress, **plan.arguments)
-        return plan, run, ()
-    smooth = replace(mesh, normal_reach=mesh.normal_reach or _NORMAL_REACH * span.skirt_length)
-    run = run_span(span, smooth, progress=progress, **plan.arguments)
-    if run.history.status != "not_converged" or not smooth.turning:
-        return plan, run, ()
-    held = run_span(span, replace(smooth, turning=False), progress=progress, **plan.arguments)
-    if held.history.status == "not_converged":
-        return plan, run, ()
-    told = Notice(
-        "dynamic-turning",
-        f"{place}: with sections of added mass that turn with the cloth the run stopped at "
-        f"{float(run.history.time[-1]):.4g} s, the cloth too much gathered; it is made again with those that keep the "
-        "normals of the just-taut span, whose high peaks lay within a seventh of the others where both ran, weak "
-        "ones within a half",
-        math.nan, math.nan, "warning", "take another mesh, or more viscosity", "guard on the energy of the run",
+    return plan, run
+
+
+def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, ...]:
+    """Tell that a run was made again with steadier normals of its sections."""
+    if run is first:
+        return ()
+    way = (
+        "taken over a third of the skirt's length to either side"
+        if run.built.mesh.turning
+        else "held as in the just-taut span, whose high peaks lay within a seventh of the others where both ran, weak "
+        "ones within a half"
+    )
+    end = float(first.history.time[-1])
+    return (
+        Notice(
+            "dynamic-turning",
+            f"{place}: the cloth gathers, and the run stopped at {end:.4g} s; it is made again with normals of the "
+            f"added mass {way}",
+            math.nan, math.nan, "warning", "take another mesh, or more viscosity", "guard on the energy of the run",
+        ),
     )  # fmt: skip
-    return plan, held, (told,)
 
 
 def _models(unit: LevelCurtain, settings: Settings) -> xr.Dataset | None:

@@ -17,6 +17,8 @@ MOST_VISCOUS = 0.3
 #: Part of the skirt's depth that is left below which a risen toe is told; change of the peaks of two periods beyond
 #: which a motion has not settled; part of a run at its end in which a peak is not known to be one.
 _RISEN, _UNSETTLED, _AT_END = 0.8, 0.1, 0.02
+#: Elastic over kinetic energy of a start that is said to be just taut.
+_STRAINED = 0.05
 
 
 def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
@@ -63,7 +65,7 @@ def run_notices(run: DynamicRun, place: str, period: float, regular: bool) -> tu
     regular : bool
         Whether the waves are regular.
     """
-    found = [_risen(run, place)]
+    found = [_risen(run, place), _strained(run, place)]
     if run.flow.waves is None:
         found.append(_short(run, place, period))
     else:
@@ -92,6 +94,21 @@ def _risen(run: DynamicRun, place: str) -> Notice | None:
         "that of the whole depth",
         left, _RISEN, "information", "take more ballast, or read the peak as high",
         "sections of added mass are those of the skirt that hangs",
+    )  # fmt: skip
+
+
+def _strained(run: DynamicRun, place: str) -> Notice | None:
+    """Tell a start that is strained already: a bulging skirt that is stiff along the span does not fit its cables."""
+    stored, moving = float(run.history.elastic_energy[0]), float(run.history.kinetic_energy[0])
+    span = run.built.span
+    if span.span_stiffness == 0.0 or span.chord >= span.skirt_length or stored <= _STRAINED * moving:
+        return None
+    return Notice(
+        "dynamic-strained-start",
+        f"{place}: a bulging skirt that is stiff along the span holds {stored:.3g} J at the start, its motion "
+        f"{moving:.3g} J: the peak is the release of that, and grows with the mesh",
+        stored / moving if moving > 0.0 else math.inf, _STRAINED, "error", "give a chord as long as the skirt",
+        "elastic energy of the start",
     )  # fmt: skip
 
 

@@ -12,6 +12,8 @@ from moyai.curtain.dynamic import DynamicRun, run_span
 
 #: Change of a peak with step and mesh beyond which it is told, and the share of the highest peak that matters.
 LIMIT, _MATTERS = 0.05, 0.05
+#: Change of the peak with held normals beyond which folds of cloth are suspected.
+_APART = 0.3
 #: The sum of both cables, beside the names of the lines.
 BOTH = "both"
 
@@ -99,7 +101,8 @@ class Worth:
             found.append(
                 Notice("dynamic-normals", f"{place}: with sections of added mass that keep their normals the peak of "
                        f"both cables is {both.held_normals:.4g} N, not {both.peak:.4g} N: what the turn of the curtain "
-                       "is worth, and folded cloth with it", turn, limit, "information", "",
+                       "is worth, and folded cloth with it", turn, limit,
+                       "warning" if turn > _APART else "information", "",
                        "a run with held normals")
             )  # fmt: skip
         return tuple(found)
