@@ -33,8 +33,9 @@ from moyai.network.rest import (
     stiffness_at_driven,
 )
 from moyai.network.resume import earlier_run, read_earlier
+from moyai.network.run_notices import OVER, overturned
 from moyai.network.runs import run_plans, steady_flow
-from moyai.network.summary import contacts_dataset, summary_dataset
+from moyai.network.summary import contacts_dataset, lean_of, summary_dataset
 from moyai.network.variables import labelled
 
 if TYPE_CHECKING:
@@ -212,6 +213,10 @@ def _at_rest(
             if problem.bodies:
                 both = hung[name] = rest_of(problem, assembly.network, flow)
                 found[name] = Equilibrium(both.state, both.tension, both.residual, both.rounds)
+                for body in both.bodies.values():
+                    lean = float(lean_of(np.asarray(body.rotation, dtype=float)))
+                    if lean > OVER:
+                        collected.notices.append(overturned(body.name, lean, f"rests in {name} turned by"))
             else:
                 found[name] = solve_equilibrium(assembly.network, flow=flow, start=begin)
         except ConvergenceError as error:

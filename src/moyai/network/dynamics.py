@@ -19,7 +19,7 @@ from moyai.network.assembly import Assembly
 from moyai.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
 from moyai.network.model import NetworkProblem
 from moyai.network.resume import Earlier, joined, last_good_state, with_ends
-from moyai.network.run_notices import peak_inside, run_notices
+from moyai.network.run_notices import capsized, peak_inside, run_notices
 from moyai.network.runs import RunPlan, motions_of
 from moyai.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
 
@@ -131,6 +131,8 @@ def run(
     worst = _worst_bar(assembly, history, governing, problem.settings.skip)
     notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
     notices += peak_inside(assembly, series, governing, worst)
+    if coupled is not None:
+        notices += capsized(series)
     sensitivity = None
     if problem.settings.sensitivity and history.status == "converged" and worst >= 0:
         if earlier is not None:

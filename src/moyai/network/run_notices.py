@@ -14,12 +14,15 @@ from moyai.flexible.snap import SnapRecord
 from moyai.network.assembly import Assembly
 from moyai.network.model import NetworkProblem
 from moyai.network.runs import RunPlan
+from moyai.network.summary import lean_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
 #: Highest tension over that at the ends of its line, from which a run says that it stands inside.
 INSIDE = 1.2
+#: Lean from which a body counts as turned over [rad].
+OVER = math.radians(60.0)
 
 
 def run_notices(
@@ -84,3 +87,20 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
             "see settings.sensitivity",
         )
     ]  # fmt: skip
+
+
+def capsized(series: xr.Dataset) -> list[Notice]:
+    """Say when a body turns over."""
+    found = []
+    for name, lean in zip(series["solid"].values, lean_of(series["solid_angle"].values).max(axis=0), strict=True):
+        if lean > OVER:
+            found.append(overturned(str(name), float(lean), "leans"))
+    return found
+
+
+def overturned(name: str, lean: float, does: str) -> Notice:
+    """Return the notice of a body that lies on its side or beyond."""
+    return Notice(
+        "body-turned-over", f"body '{name}' {does} {math.degrees(lean):.0f} degrees from upright", lean, OVER,
+        "warning", "check its centre of gravity, its mass, and where its lines pull",
+    )  # fmt: skip

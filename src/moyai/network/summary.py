@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 
 #: Loads on points in the summary, in the order of the measures of :func:`moyai.network.rest.highest_pulls`.
 LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
+#: Motions of bodies in the summary.
+SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
 
 
 def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run], rest: Array | None) -> xr.Dataset:
@@ -46,6 +48,10 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
             data.setdefault(key, []).append(value)
     out: dict[str, Any] = {key: (("run", "line"), np.array(value)) for key, value in rows.items() if lines}
     out |= {key: (("run", "point"), np.array(value)) for key, value in data.items() if names}
+    solids = [body.name for body in problem.bodies]
+    for item in runs if solids else ():
+        for key, found in _solid_summary(problem, item).items():
+            out.setdefault(key, (("run", "solid"), []))[1].append(found)
     known = [item for item in runs if item.sensitivity is not None]
     if known:
         for key in (
@@ -55,7 +61,9 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
             label = "sensitivity_peak" if key == "peak" else key
             values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]
             out[label] = ("run", np.array(values))
-    coords = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
+    coords: dict[str, Any] = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
+    if solids:
+        coords["solid"] = solids
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
     return made
@@ -120,6 +128,26 @@ def _point_summary(problem: NetworkProblem, item: Run, names: list[str], rest: A
         origin = rest[number] if rest is not None else place[0]
         out["excursion"].append(float(np.nanmax(np.linalg.norm(place - origin, axis=1))))
     return out
+
+
+def lean_of(angles: Array) -> Array:
+    """Return the angle between the axis of a body and the vertical [rad] from its roll, pitch and yaw (..., 3)."""
+    return np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
+
+
+def _solid_summary(problem: NetworkProblem, item: Run) -> dict[str, Array]:
+    """Return how far the bodies go and turn from where the run begins."""
+    chosen = _counted(problem, item)
+    place, angle = (item.series[key].values for key in ("solid_position", "solid_angle"))
+    if not chosen.any():
+        return dict.fromkeys(SOLID, np.full(place.shape[1], np.nan))
+    moved, turned = (place - place[0])[chosen], (angle - angle[0])[chosen]
+    offset = np.linalg.norm(moved[..., :2], axis=2)
+    values = (
+        offset.max(axis=0), np.linalg.norm(moved[..., :2].mean(axis=0), axis=1), np.ptp(moved[..., 2], axis=0),
+        *(np.ptp(turned[..., k], axis=0) for k in range(3)), lean_of(angle[chosen]).max(axis=0),
+    )  # fmt: skip
+    return dict(zip(SOLID, values, strict=True))
 
 
 def contacts_dataset(item: Run) -> xr.Dataset | None:

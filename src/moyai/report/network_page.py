@@ -116,6 +116,7 @@ def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Govern
     if loads is not None:
         words = f"{loads[0]}, {run.name}"
         items.append(KeyFigure("largest pull on a fixed point", format_quantity(loads[1], "N"), words))
+    items += _motions(level, run)
     snaps = [dynamic.value("snaps", run=run.name, line=line) for line in dynamic.labels("line")]
     known = [value for value in snaps if math.isfinite(value)]
     if known:
@@ -134,6 +135,18 @@ def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Govern
                       "true runs it again and tells.", quiet=True)
         )  # fmt: skip
     return tuple(block for block in blocks if block is not None)
+
+
+def _motions(level: NetworkLevel, run: Group) -> list[KeyFigure]:
+    """Return the largest offset and lean of the bodies in the run of the highest tension."""
+    dynamic, items = level.part("dynamic"), []
+    for key, label, unit in (("offset", "largest offset of a body", "m"), ("highest_lean", "largest lean", "rad")):
+        found = {name: dynamic.value(key, run=run.name, solid=name) for name in dynamic.labels("solid")}
+        known = {name: value for name, value in found.items() if math.isfinite(value)}
+        if known:
+            worst = max(known, key=lambda name: known[name])
+            items.append(KeyFigure(label, format_quantity(known[worst], unit), f"{worst}, {run.name}"))
+    return items
 
 
 def _worth(error: float, effect: float) -> KeyFigure:
@@ -198,6 +211,7 @@ def _of_runs(level: NetworkLevel, governing: Governing | None) -> Sequence[Block
         found = (
             figures.tension_figure(level, run),
             *figures.body_figures(level, run),
+            tables.bodies_table(level, run),
             tables.peaks_table(level, run),
             tables.points_table(level, run),
             figures.exceedance_figure(level, run),

@@ -196,6 +196,32 @@ def points_table(level: NetworkLevel, run: Group) -> Table | None:
     )
 
 
+def bodies_table(level: NetworkLevel, run: Group) -> Table | None:
+    """Return how far the bodies of a run go and turn."""
+    dynamic = level.part("dynamic")
+    if run.name not in dynamic.labels("run") or not dynamic.labels("solid"):
+        return None
+
+    def of(name: str) -> Array | None:
+        return dynamic.real(name, "solid", run=run.name)
+
+    return _table(
+        slug(level.name, run.name, "bodies"),
+        f"Motions of bodies: {run.name}",
+        [
+            Column("Body", list(dynamic.labels("solid"))),
+            _column("Largest offset", of("offset"), "m"),
+            _column("Mean offset", of("mean_offset"), "m"),
+            _column("Heave", of("heave_range"), "m"),
+            _column("Roll", of("roll_range"), "rad"),
+            _column("Pitch", of("pitch_range"), "rad"),
+            _column("Yaw", of("yaw_range"), "rad"),
+            _column("Largest lean", of("highest_lean"), "rad"),
+        ],
+        "Offsets are horizontal, from where the run begins; heave, roll, pitch and yaw from lowest to highest.",
+    )
+
+
 def worth_table(level: NetworkLevel) -> Table | None:
     """Return what the peaks are worth: the same run with other step, mesh and viscosity."""
     dynamic = level.part("dynamic")

@@ -85,6 +85,33 @@ def test_a_run_with_bodies_goes_on_from_where_it_was_stopped(tmp_path):
     assert any("goes on from an earlier one" in notice.message for notice in rest.notices)
 
 
+def test_motions_of_bodies_stand_in_the_summary(tmp_path):
+    text = CASE.format(analyses="[statics, dynamic]", more=", skip: 1 s", bars=4)
+    path = tmp_path / "case.yaml"
+    path.write_text(text.replace("duration: 7 s", "duration: 3 s"), encoding="utf-8")
+    result = run(build(load_case(path)))
+    summary = result.tree["SWL/dynamic"].to_dataset().sel(run="waves", solid="box")
+    series = result.tree["SWL/time/waves"].to_dataset().sel(solid="box")
+    place, turn = series["solid_position"].values, series["solid_angle"].values
+    late = series["time"].values >= 1.0
+    assert float(summary["heave_range"]) == pytest.approx(np.ptp(place[late, 2]), rel=1e-9)
+    away = place[:, :2] - place[0, :2]
+    assert float(summary["offset"]) == pytest.approx(np.hypot(*away[late].T).max(), rel=1e-9)
+    assert float(summary["pitch_range"]) == pytest.approx(np.ptp(turn[late, 1]), rel=1e-9)
+    upright = np.cos(turn[late, 0]) * np.cos(turn[late, 1])
+    assert float(summary["highest_lean"]) == pytest.approx(np.arccos(upright.min()), rel=1e-6)
+    assert not [item for item in result.notices if item.code == "body-turned-over"]
+
+
+def test_a_body_that_turns_over_is_told(tmp_path):
+    text = CASE.format(analyses="[statics]", more="", bars=4).replace("[0.05 m, 0, -0.1 m]", "[0, 0, 1.5 m]")
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    result = run(build(load_case(path)))
+    told = [item for item in result.notices if item.code == "body-turned-over"]
+    assert told and "from upright" in told[0].message and told[0].value > 1.05
+
+
 def test_a_run_does_not_go_on_with_other_bodies(tmp_path):
     problem = problem_of(tmp_path)
     run(problem, stopping_at(1.0)).write(tmp_path / "results.nc")
