@@ -25,7 +25,7 @@ from moyai.flexible.force_kernel import (
 from moyai.flexible.front_kernel import factor_fronts, solve_fronts, to_fronts
 from moyai.flexible.part_kernel import part_energy, part_forces, part_masses, part_measure, part_pulls, part_tangent
 
-#: How much smaller the error of a step must be in which a bar turns slack or taut.
+#: How much smaller the error of a step must be in which a bar turns slack or taut, or a node meets or leaves the bed.
 AT_EVENTS = 10.0
 #: Outcomes of a march.
 GOOD, STUCK, NOT_FINITE = 0, 1, 2
@@ -94,13 +94,17 @@ def _water_at(water: Any, base: Any, rate: Any, ahead: float, moving: bool) -> N
 
 
 @njit(cache=True, error_model="numpy")
-def _measure(change: Any, x: Any, system: Any, length: float, pull: float) -> float:
-    """Return a change of place in units of what is allowed: [m] for nodes, [N] of tension for bars."""
-    _, bars, start, end, curve, curves, _, _, _ = system
+def _measure(change: Any, x: Any, system: Any, bed: Any, length: float, pull: float) -> float:
+    """Return a change of place in units of what is allowed: [m] for nodes, [N] of tension for bars and of bed push."""
+    nodes, bars, start, end, curve, curves, _, _, _ = system
     most = 0.0
     for i in range(change.shape[0]):
         for axis in range(3):
             size = abs(change[i, axis]) / length
+            if not size <= most:
+                most = size
+        if bed[3] > 0.0 and x[i, 2] < bed[0]:
+            size = abs(change[i, 2]) * nodes[5, i] / pull
             if not size <= most:
                 most = size
     for k in range(start.size):
@@ -192,7 +196,7 @@ def _stage(
                 guess[i, axis] += step
                 # a short step must not hide an error of the velocity behind its own square
                 change[i, axis] = gain * max(gain, 0.02) * step
-        size = _measure(change, place, system, limits[0], limits[1])
+        size = _measure(change, place, system, bed, limits[0], limits[1])
         if parts is not None:
             size = part_measure(change, place, parts, size, limits[1])
         if not size < 1e12:
@@ -209,6 +213,19 @@ def _stage(
             fresh = True
         last = size
     return 1
+
+
+@njit(cache=True, error_model="numpy")
+def _turns(tension: Any, before: Any, x: Any, old: Any, nodes: Any, bed: Any) -> bool:
+    """Whether a bar has turned slack or taut, or a node has met or left the bed."""
+    for k in range(tension.size):
+        if (tension[k] > 0.0) != (before[k] > 0.0):
+            return True
+    if bed[3] > 0.0:
+        for i in range(x.shape[0]):
+            if (x[i, 2] < bed[0]) != (old[i, 2] < bed[0]) and nodes[5, i] * nodes[11, i] > 0.0:
+                return True
+    return False
 
 
 @njit(cache=True, error_model="numpy")
@@ -329,7 +346,7 @@ def implicit_march(
             limits[0], limits[1] = control[3] * control[4], control[3] * control[5]
             gain = gamma * h
             vs[0], accelerations[0] = v, a
-            bad, fresh = 0, True
+            bad, fresh, turned = 0, True, False
             work[0], work[1] = h * stages[many - 1, 0] * before[0], h * stages[many - 1, 0] * before[1]
             for s in range(1, many):
                 part = 0.0
@@ -352,6 +369,7 @@ def implicit_march(
                     break
                 fresh = False
                 vs[s] = speed
+                turned = turned or _turns(tension, pulled, place, x, nodes, bed)
                 _powers(place, speed, accelerations[s], mass, system, fluid, parts, own, powers)
                 for which in range(2):
                     work[which] += h * stages[many - 1, s] * powers[which]
@@ -370,17 +388,13 @@ def implicit_march(
                 for i in range(count):
                     for axis in range(3):
                         change[i, axis] = own[i, axis]
-                error = _measure(change, place, system, limits[0], limits[1])
-                turned = False
+                error = _measure(change, place, system, bed, limits[0], limits[1])
                 if parts is not None:
                     error = part_measure(change, place, parts, error, limits[1])
                     loose[:] = slack
-                    highest, turned = part_pulls(place, speed, parts, loose)
+                    highest, loosened = part_pulls(place, speed, parts, loose)
+                    turned = turned or loosened
                 # across slack and taut the estimate is one of a smooth motion no more: it must be the smaller
-                for k in range(start.size):
-                    if turned:
-                        break
-                    turned = (tension[k] > 0.0) != (pulled[k] > 0.0)
                 if turned:
                     error *= AT_EVENTS
             if control[6] > 0.0:

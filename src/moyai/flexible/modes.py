@@ -31,7 +31,7 @@ class Modes:
     Parameters
     ----------
     omega : ndarray, shape (k,)
-        Angular frequencies, rising [rad/s]; 0 where the network may move freely.
+        Angular frequencies, rising [rad/s]; 0 where the network may move freely or the state is not stable.
     shape : ndarray, shape (k, n, 3)
         Modes, largest component 1.
     """
@@ -76,7 +76,9 @@ def natural_modes(network: Network, state: State, *, count: int = 6, flow: Flow 
 
 
 def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_array, csr_array]:
-    """Return mass with added mass and tangent stiffness about a place, (3n, 3n), without drag and its turn.
+    """Return mass with added mass and tangent stiffness about a place, (3n, 3n), made symmetric, without drag.
+
+    The added mass of sections is that of their frames at this place.
 
     Parameters
     ----------
@@ -93,6 +95,8 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
     system, bed = kernel_system(arrays), kernel_bed(network)
     nodes, bars = len(network.nodes), len(network.bars)
     still, fluid = np.zeros_like(place), np.array([network.water.density, network.water.gravity, 0.0])
+    calm = np.zeros_like(water)
+    calm[6] = water[6]
     force, mass, tension = np.zeros((nodes, 3)), np.zeros((nodes, 6)), np.zeros(bars)
     kernel.forces(place, still, water, system, fluid, bed, force, tension, mass)
     sheets = network.sheets
@@ -109,9 +113,10 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
         place, still, water, system, fluid, mass, np.zeros((2, bars)), np.zeros((2, nodes)), 1.0, 0.0, 0.0, False,
         node_block, bar_block,
     )  # fmt: skip
-    inertia = [(whole, whole, node_block.copy())]
+    inertia = [(whole, whole, node_block.copy()), *_sections(network, place)]
+    # exact, so that rods lose what they are pressed with; no velocity, so that no drag turns with them
     kernel.blocks(
-        place, still, water, system, fluid, mass, bar_law, node_law, 0.0, 0.0, 1.0, False, node_block, bar_block
+        place, still, calm, system, fluid, mass, bar_law, node_law, 0.0, 0.0, 1.0, True, node_block, bar_block
     )  # fmt: skip
     entries = [
         (whole, whole, node_block),
@@ -125,11 +130,10 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
                 scale = arrays.bending[:, 0] * turn[m] * turn[n]
                 entries.append((arrays.hinges[:, m], arrays.hinges[:, n], scale[:, None, None] * np.eye(3)))
     for part in parts:
-        found = part.blocks(place, still, water, 1.0)
+        found = part.blocks(place, still, calm, 1.0)
         for m in range(part.members.shape[1]):
             for n in range(part.members.shape[1]):
-                symmetric = 0.5 * (found[:, m, n] + found[:, n, m].transpose(0, 2, 1))
-                entries.append((part.members[:, m], part.members[:, n], symmetric))
+                entries.append((part.members[:, m], part.members[:, n], found[:, m, n]))
 
     def assembled(blocks: list[tuple[IntArray, IntArray, Array]]) -> csr_array:
         rows = np.concatenate([np.repeat(3 * i[:, None] + np.arange(3), 3, axis=1).ravel() for i, _, _ in blocks])
@@ -137,7 +141,31 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
         values = np.concatenate([b.reshape(-1) for _, _, b in blocks])
         return coo_array((values, (rows, columns)), shape=(3 * nodes, 3 * nodes)).tocsr()
 
-    return assembled(inertia), assembled(entries)
+    stiffness = assembled(entries)
+    return assembled(inertia), (0.5 * (stiffness + stiffness.T)).tocsr()
+
+
+def _sections(network: Network, place: Array) -> list[tuple[IntArray, IntArray, Array]]:
+    """Return the added mass of sections in blocks of node pairs, turned and stretched as their guides are."""
+    sections = network.blocks
+    if sections is None:
+        return []
+
+    def ways(x: Array) -> Array:
+        return np.asarray(x[sections.guides[..., 1], :2] - x[sections.guides[..., 0], :2])
+
+    first = ways(network.nodes.position)
+    way = ways(place) if sections.turning else first
+    size = np.linalg.norm(way, axis=-1)
+    root = np.sqrt(size / np.linalg.norm(first, axis=-1)) if sections.convective else np.ones_like(size)
+    count = sections.nodes.shape[1]
+    # local unknowns: the normal to the right of the way, then the vertical
+    lever = np.zeros((*sections.nodes.shape, 2, 3))
+    lever[..., 0, 0], lever[..., 0, 1] = root * way[..., 1] / size, -root * way[..., 0] / size
+    lever[..., 1, 2] = root
+    local = sections.added_mass.reshape(-1, 2, count, 2, count)
+    added = np.einsum("gipa,gpiqj,gjqb->gijab", lever, local, lever)
+    return [(sections.nodes[:, i], sections.nodes[:, j], added[:, i, j]) for i in range(count) for j in range(count)]
 
 
 def _lowest(stiffness: csr_array, mass: csr_array, count: int) -> tuple[Array, Array]:

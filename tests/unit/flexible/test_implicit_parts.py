@@ -5,17 +5,22 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from test_elastic_rings import circle
+from test_mass_blocks import matrix, small_network
 from test_network_sheets import random_sheet
 
+from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel
+from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
-from moyai.flexible.modes import natural_modes
-from moyai.flexible.network import Bars, BarType, Network, Nodes
+from moyai.flexible.modes import natural_modes, tangent_matrices
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import Bars, BarType, Bed, Network, Nodes
 from moyai.flexible.panels import NetPanels, PanelArrays, PanelLaw, forces_on_panels
 from moyai.flexible.part_kernel import panel_rate_blocks, sheet_blocks, stress_slope
 from moyai.flexible.result import State
@@ -332,3 +337,51 @@ def test_a_ring_swings_with_its_exact_mode(method: Method) -> None:
     when = run.time[turns] + x[turns] / (x[turns] - x[turns + 1]) * run.time[1]
     # second order in the mesh: 1 % at 32 bars
     assert np.diff(when) == pytest.approx(0.5 * period, rel=0.015)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_modes_know_the_added_mass_of_sections(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    network, _ = small_network(rng, convective=bool(seed % 2), turn=rng.uniform(0.0, 6.0))
+    place = np.array(network.nodes.position) + 0.1 * rng.normal(size=(10, 3))
+    mass, stiffness = tangent_matrices(network, place, np.zeros((7, 10)))
+    assert mass.toarray() == pytest.approx(matrix(network, place), abs=1e-9 * float(mass.max()))
+    assert abs(stiffness - stiffness.T).max() == 0.0
+    # what the sections add makes every mode slower
+    bare = natural_modes(replace(network, blocks=None), State(0.0, place, np.zeros_like(place)), count=16).omega
+    whole = natural_modes(network, State(0.0, place, np.zeros_like(place)), count=16).omega
+    assert np.all(whole <= bare) and whole[-1] < 0.5 * bare[-1]
+
+
+def test_what_the_implicit_schemes_do_not_march_is_told() -> None:
+    network, _ = small_network(np.random.default_rng(1), True)
+    with pytest.raises(InputError, match="does not march sections of added mass"):
+        simulate(network, duration=1.0, output_step=0.1, method="tr_bdf2")
+
+
+def test_the_error_estimate_is_real() -> None:
+    """A chain with friction beats on a bed and snaps: the global error falls with the tolerance."""
+    builder = NetworkBuilder(Water(40.0, 1025.0, 9.81), bed=Bed(-40.0, 1e6, 2e5, 0.3))
+    builder.fixed("anchor", (0.0, 0.0, -40.0))
+    builder.driven("end", (45.0, 0.0, -10.0))
+    chain = BarType(
+        "chain", 20.0, 4e7, 0.05, viscosity=8e3, drag_normal=2.0, drag_tangential=0.3, added_mass_normal=1.0
+    )
+    builder.line("chain", "anchor", "end", chain, length=60.0, segments=20)
+    network = builder.build()
+    times = {"duration": 3.0, "output_step": 0.02, "start": solve_equilibrium(network).state}
+    motions = {"end": Motion.harmonic((1.5, 0.0, 1.5), 4.0, duration=3.0, ramp=2.0)}
+    exact = simulate(network, motions, method="esdirk4", tolerance=1e-6, **times)
+    top = float(exact.tension_peak.max())
+    for method in ("tr_bdf2", "esdirk4"):
+        errors = []
+        for tolerance in (1e-2, 1e-3, 1e-4, 1e-5):
+            found = simulate(network, motions, method=method, tolerance=tolerance, **times)
+            assert found.status == "converged" and found.checks[0].value < 0.02
+            assert float(found.tension_peak.max()) == pytest.approx(top, rel=2e-3)
+            errors.append(float(np.max(np.abs(found.position - exact.position))))
+        assert errors[3] < errors[2] < errors[0] and errors[3] < 0.1 * errors[0]
+        assert errors[3] < 1e-3
+    # the explicit scheme comes to the same peak by another law of rubbing: an impulse that may stop a node
+    other = simulate(network, motions, safety=0.1, **times)
+    assert float(other.tension_peak.max()) == pytest.approx(top, rel=1e-3)

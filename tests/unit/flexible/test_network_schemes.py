@@ -320,3 +320,19 @@ def test_wave_front_is_told():
     paced = simulate(network, duration=4.0 * travel, output_step=travel / 10.0, start=start, safety=1.0)
     assert [notice.code for notice in usual.notices] == ["wave-front"]
     assert not paced.notices
+
+
+@pytest.mark.parametrize("share", [-0.5, 0.0, 0.5, 0.9])
+def test_modes_of_a_pressed_column(share):
+    """Pin-ended: the first frequency falls as the root of one less the push over Euler's load."""
+    length, bending, mass, stiffness, count = 8.0, 900.0, 3.0, 1e7, 40
+    load = share * bending * (math.pi / length) ** 2
+    builder = NetworkBuilder(NO_GRAVITY)
+    builder.fixed("low", (0.0, 0.0, DEEP))
+    builder.fixed("high", (0.0, 0.0, DEEP + length * (1.0 - load / stiffness)))
+    kind = BarType("rod", mass, stiffness, 1e-9, bending_stiffness=bending, tension_only=False)
+    builder.line("rod", "low", "high", kind, length=length, segments=count, shape="straight")
+    network = builder.build()
+    omega = natural_modes(network, State.at_rest(network), count=2).omega
+    exact = (math.pi / length) ** 2 * math.sqrt(bending / mass * (1.0 - share))
+    assert omega == pytest.approx(exact, rel=4e-3)
