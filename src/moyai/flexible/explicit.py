@@ -235,6 +235,16 @@ class ExplicitRun:
 
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""
+        done = 0
+        while done < rows:
+            good = self._march(rows - done, first + done, row_interval, wanted, saved)
+            done += abs(good)
+            if good >= 0:
+                break
+        return done
+
+    def _march(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
+        """March with one step; a negative number of good rows asks for another one."""
         step, per_load, per_row = self.choose(row_interval, wanted)
         packed, arrays = self.packed, self.arrays
         if self.step and abs(step - self.step) > 1e-12 * step:
@@ -256,8 +266,10 @@ class ExplicitRun:
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first),
             self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.nets,
-            self.sheets, self.blocks, self.watch.system,
+            self.sheets, self.blocks, (*self.watch.system, DRAG_SHARE),
         )  # fmt: skip
+        if good < 0:
+            end = self.time - good * row_interval
         self.time = end
         if not self.flow.steady:
             self.water = self.flow.at(end, self.place)

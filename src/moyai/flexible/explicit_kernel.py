@@ -277,9 +277,9 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
     """Write the loads of the water on both ends of bars and their added mass, half for each end.
 
     Normal and tangential drag of the relative velocity at each end, buoyancy, and the inertia of the water
-    [eq:flexible-morison]; ``RATE`` is the rate at which drag damps the lighter end [1/s]. Where that rate times the
-    interval
-    ``ahead`` comes near 1, drag is held back so that its continuation stays stable [eq:flexible-drag-limit].
+    [eq:flexible-morison]; ``RATE`` is the rate at which drag damps the lighter end, or at which the added mass turns
+    [1/s]. Where the rate of drag times the interval ``ahead`` comes near 1, drag is held back so that its continuation
+    stays stable [eq:flexible-drag-limit].
     """
     for i in range(count):
         a, b, k = a0 + i, b0 + i, k0 + i
@@ -318,7 +318,13 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         A[EX + k] = other * ux + slide * tx
         A[EY + k] = other * uy + slide * ty
         A[EZ + k] = other * uz + slide * tz + lift - lean
-        A[RATE + k] = (size + other) * A[LIGHT + k]
+        # added mass that is held while its bar turns would give energy: thrice weighted, by its part of the inertia
+        du, dv, dw = A[U + b] - A[U + a], A[V + b] - A[V + a], A[W + b] - A[W + a]
+        along = du * tx + dv * ty + dw * tz
+        square = du * du + dv * dv + dw * dw - along * along
+        turn = math.sqrt(square if square > 0.0 else 0.0) / A[LENGTH + k] * 3.0 * abs(more) * A[LIGHT + k]
+        drag = (size + other) * A[LIGHT + k]
+        A[RATE + k] = drag if drag > turn else turn
     if waves:
         for i in range(count):
             a, b, k = a0 + i, b0 + i, k0 + i
@@ -515,15 +521,36 @@ def screen_work(A: Any, screen: Any, time: float) -> float:
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
-def extrapolate(A: Any, count: int) -> None:
-    """Take the loads in the middle of the coming interval: straight continuation of the last two."""
+def extrapolate(A: Any, count: int, ahead: float) -> None:
+    """Take the loads in the middle of the coming interval: straight continuation of the last two.
+
+    ``ahead`` is half the coming interval over the one before.
+    """
     for i in range(count):
-        A[PX + i] = 1.5 * A[QX + i] - 0.5 * A[BX + i]
-        A[PY + i] = 1.5 * A[QY + i] - 0.5 * A[BY + i]
-        A[PZ + i] = 1.5 * A[QZ + i] - 0.5 * A[BZ + i]
+        A[PX + i] = A[QX + i] + ahead * (A[QX + i] - A[BX + i])
+        A[PY + i] = A[QY + i] + ahead * (A[QY + i] - A[BY + i])
+        A[PZ + i] = A[QZ + i] + ahead * (A[QZ + i] - A[BZ + i])
         A[BX + i], A[BY + i], A[BZ + i] = A[QX + i], A[QY + i], A[QZ + i]
     for i in range(count):
         A[TX + i], A[TY + i], A[TZ + i] = A[PX + i], A[PY + i], A[PZ + i]
+
+
+@njit(cache=True, error_model="numpy")
+def rate_of_drag(A: Any, spine: int, runs: Any, attached: Any, gauge: float) -> float:
+    """Return the fastest rate at which drag damps any node, at the last evaluation of the loads [1/s]."""
+    rate = gauge
+    for i in range(spine):
+        rate = max(rate, A[RATE + i])
+    for r in range(runs.shape[0]):
+        first = RATE + RIB + runs[r, 2]
+        for i in range(runs[r, 3]):
+            rate = max(rate, A[first + i])
+    for n in range(attached.size):
+        i = attached[n]
+        u, v, w = A[WU + i] - A[U + i], A[WV + i] - A[V + i], A[WW + i] - A[W + i]
+        size = 2.0 * A[DRAG + i] * math.sqrt(u * u + v * v + w * w)
+        rate = max(rate, size / (A[MASS + i] + A[ADDED + i]))
+    return rate
 
 
 @njit(cache=True, error_model="numpy", fastmath=FAST)
@@ -693,13 +720,16 @@ def march(
 
     ``waves`` is (water moves, part may be dry, water at the start (7, n), its rate, time of the start); ``timing`` is
     (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0
-    work
-    of the loads, 1 work at driven points, 2 turn of the added mass, 4 whether loads are known, 5 whether the
-    velocities stand half a step behind, and from ``LEDGER`` on the impulses on driven points. ``saved`` is (position
+    work of the loads, 1 work at driven points, 2 turn of the added mass, 3 the last load interval, 4 whether loads are
+    known, 5 whether the velocities stand half a step behind, and from ``LEDGER`` on the impulses on driven points.
+    ``saved`` is (position
     (rows, nodes, 3), tension (rows, bars), highest tension since the last row, energies and work (rows, 3), kept nodes,
     kept bars as places in ``A``). ``nets`` is (panels, their matrices (12, n), rings, their moments). ``watch`` is
     (bars with gauges, gauges, falls on the bed). Returns the number of good rows, fewer than asked for when values are
-    no longer finite.
+    no longer finite, and negative when drag has outrun the step, which has to be chosen anew before the march goes on.
+
+    Load intervals shrink by themselves while drag is faster than at the start: loads that are held while nodes move to
+    and fro would give them energy.
     """
     count, spine = sizes[0], sizes[1]
     driven, rest, tables, table_start, table_step = driving
@@ -710,41 +740,53 @@ def march(
     table, triangles, _, _, sheet_peak = sheets
     cloth, dense = triangles.shape[0] > 0, blocks[0].shape[0] > 0
     floor = level if has_bed else -1e300
-    gauge_bars, gauges, falls = watch
+    gauge_bars, gauges, falls, quickest, most = watch
     panels, screen, rings, ring_moments = nets
     screened, ringed = panels[0].shape[0] > 0, rings[0].size > 0
     spare = np.zeros((3, screen.shape[1]))
     loose = runs.shape[0] > 0 or hinges.shape[0] > 0 or screened or ringed or cloth
     moved, drawn = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3))
     keep = np.empty((3, count))
+    total = per_row * per_load
+    rate = rate_of_drag(A, spine, runs, attached, sheets[3][0])
     for row in range(rows):
-        for part in range(per_row):
-            index = (row * per_row + part) * per_load
+        done = 0
+        while done < total:
+            # one step at first, then at most twice the interval before: what is let go soon flies fast
+            size = min(per_load, total - done, max(1, int(2.0 * ledger[3] / step + 0.5)))
+            if rate * step * size > most:
+                size = max(1, int(most / (rate * step)))
+            index = row * total + done
             now = start + index * step
             if moving:
                 for r in range(7):
                     for i in range(water.shape[1]):
                         A[WU + r * ROW + i] = water[r, i] + (now - water_time) * water_rate[r, i]
             turning = kinetic_energy(A, count) + block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
-            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, per_load * step, sheets)
+            loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, moving, size * step, sheets)
             if screened:
-                screens(A, count, panels, 0.5 * fluid[0], screen, per_load * step, step)
+                screens(A, count, panels, 0.5 * fluid[0], screen, size * step, step)
+            rate = rate_of_drag(A, spine, runs, attached, sheets[3][0])
+            quickest[0] = max(quickest[0], rate * step)
+            if rate * step * size > 1.5 * most:
+                size = max(1, int(most / (rate * step)))
             if dense:
                 section_loads(A, blocks, moving, sheets[2])
             if ledger[4] == 0.0:
                 for axis in range(3):
                     for i in range(count):
                         A[BX + axis * ROW + i] = A[QX + axis * ROW + i]
-                ledger[4] = 1.0
+                ledger[3], ledger[4] = size * step, 1.0
             else:
                 ledger[2] += kinetic_energy(A, count) - turning
                 ledger[2] += block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
-            extrapolate(A, count)
+            extrapolate(A, count, min(0.5 * size * step / ledger[3], 1.0))
+            ledger[3] = size * step
             ledger[0] += _load_work(A, count, -1.0)
-            touching = has_bed and _touching(A, count, level, per_load * step)
+            touching = has_bed and _touching(A, count, level, size * step)
             if touching:
                 note_landings(A, level, falls)
-            for inner in range(per_load):
+            for inner in range(size):
                 if loose:
                     for axis in range(3):
                         for i in range(count):
@@ -768,7 +810,7 @@ def march(
                         drawn[d, axis] = pull
                         moved[d, axis] = A[X + axis * ROW + node]
                         # impulse of bars (half a step at both ends of a row) and of loads, and its moment about start
-                        share = (0.5 if part + inner == 0 else 1.0) * step
+                        share = (0.5 if done + inner == 0 else 1.0) * step
                         gone = (index + inner) * step
                         ledger[LEDGER + 6 * d + axis] += step * A[PX + axis * ROW + node] - share * pull
                         ledger[LEDGER + 6 * d + 3 + axis] += (
@@ -793,6 +835,7 @@ def march(
                 if screened:
                     ledger[0] += screen_work(A, screen, push)
             ledger[0] += _load_work(A, count, 1.0)
+            done += size
         # the state at the time of the row: forces here, half a kick
         if loose:
             for axis in range(3):
@@ -807,7 +850,7 @@ def march(
             if ringed:
                 ring_loads(A[X:], A[Y:], A[Z:], rings, A[TX:], A[TY:], A[TZ:], ring_moments)
         spine_forces(A, spine)
-        gone = (row + 1) * per_row * per_load * step
+        gone = (row + 1) * total * step
         for d in range(driven.shape[0]):
             for axis in range(3):
                 pull = -_node_force(A, driven[d, 0], axis)
@@ -852,4 +895,6 @@ def march(
                 A[PEAK + k] = A[PULL + k]
         if not (kinetic + elastic < np.inf):
             return row
+        if rate * step > most and row + 1 < rows:
+            return -(row + 1)
     return rows

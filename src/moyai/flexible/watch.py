@@ -32,6 +32,8 @@ class Watch:
         See :func:`moyai.flexible.explicit_kernel.read_gauges`.
     falls : ndarray, shape (2, n)
         See :func:`moyai.flexible.explicit_kernel.note_landings`; of no nodes without a bed.
+    quickest : ndarray, shape (1,)
+        Highest rate of drag times the step.
     """
 
     strands: IntArray
@@ -39,11 +41,12 @@ class Watch:
     places: IntArray
     gauges: Array
     falls: Array
+    quickest: Array
 
     @property
     def system(self) -> Any:
         """What the kernels take."""
-        return self.places, self.gauges, self.falls
+        return self.places, self.gauges, self.falls, self.quickest
 
     def at_step(self, step: float) -> None:
         """Fit the blocks of the gauges to the step of the run; a rise is seen over one block to two."""
@@ -72,4 +75,4 @@ def watch_of(network: Network, packed: Packed) -> Watch:
     gauges[:, :2], gauges[:, 3] = np.inf, 1.0
     count = 0 if network.bed is None else len(network.nodes)
     strands = np.array(lines, dtype=np.int64).repeat(2)
-    return Watch(strands, travel, packed.place[ends], gauges, np.zeros((2, count)))
+    return Watch(strands, travel, packed.place[ends], gauges, np.zeros((2, count)), np.zeros(1))
