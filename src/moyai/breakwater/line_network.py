@@ -14,6 +14,7 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck
 from moyai.coupled.rest import point_pulls
 from moyai.flexible.build import NetworkBuilder
+from moyai.flexible.flow import Flow
 from moyai.flexible.network import BarType, Bed, Network, Strand
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.mooring.lines import Line
@@ -160,7 +161,7 @@ def line_network(unit: FloatingUnit, dynamics: LineDynamics) -> LineNetwork | No
         rest,
         tuple(line for _, line, _ in chosen),
         tuple(number for number, _, _ in chosen),
-        point_pulls(network, rest, names),
+        point_pulls(network, rest.state, names, Flow()),
     )
 
 

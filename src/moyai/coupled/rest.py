@@ -13,10 +13,11 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.coupled.bodies import Body
 from moyai.coupled.rigid import RigidBody, RigidCarrier
 from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network, Nodes
 from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
-from moyai.flexible.stepping import carried_nodes
+from moyai.flexible.stepping import SteppedNetwork, carried_nodes
 from moyai.mooring.rotations import roll_pitch_yaw
 
 Array = NDArray[np.float64]
@@ -24,6 +25,8 @@ Array = NDArray[np.float64]
 #: Force left over the largest force at work.
 TOLERANCE = 1e-8
 MOST_ROUNDS = 60
+#: Part of the stable step of the network over which its pull at rest is taken.
+INSTANT = 1e-3
 #: Stiffness over the largest one below which it counts as none; pushes off a balance that would tip over.
 SLACK, MOST_TIPS = 1e-6, 3
 
@@ -69,23 +72,22 @@ def moved_network(network: Network, places: Mapping[str, Array]) -> Network:
     return replace(network, nodes=moved)
 
 
-def point_pulls(network: Network, rest: Equilibrium, names: list[str]) -> Array:
-    """Return the force of a network at rest on its carried points: bars, and weight less buoyancy of half of them."""
-    bars, place = network.bars, rest.state.position
-    along = place[bars.end] - place[bars.start]
-    unit = along / np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
-    water = network.water
-    wet = 0.5 * bars.length * (
-        bars.of_type("mass_per_length") - water.density * bars.of_type("volume_per_length")
-    ) * water.gravity  # fmt: skip
-    out = np.zeros((len(names), 3))
-    for row, node in enumerate(carried_nodes(network, names)):
-        starts, ends = bars.start == node, bars.end == node
-        out[row] = (rest.tension[starts, None] * unit[starts]).sum(axis=0)
-        out[row] -= (rest.tension[ends, None] * unit[ends]).sum(axis=0)
-        own = network.nodes.mass[node] - water.density * network.nodes.volume[node]
-        out[row, 2] -= float(wet[starts | ends].sum()) + float(own) * water.gravity
-    return out
+def point_pulls(network: Network, state: State, names: list[str], calm: Flow) -> Array:
+    """Return the force of a network at rest on its carried points: bars, half bars with weight, water and bed.
+
+    It is what the run through time feels there: the scheme of the run itself, over an instant in which nothing moves.
+    """
+    if not names:
+        return np.zeros((0, 3))
+    carried = {network.motion_names[network.nodes.motion[node]] for node in carried_nodes(network, names)}
+    still = Motion(0.0, 1.0, np.zeros((2, 3)), np.zeros((2, 3)))
+    stepped = SteppedNetwork(
+        network, names, motions={name: still for name in network.motion_names if name not in carried}, flow=calm,
+        start=state, keep_nodes=[0], keep_bars=[0],
+    )  # fmt: skip
+    places = state.position[carried_nodes(network, names)]
+    instant = INSTANT * min(stepped.run.limit()[0], 1.0)
+    return np.asarray(stepped.try_step(instant, places, np.zeros_like(places))[0])
 
 
 def find_rest(
@@ -155,7 +157,7 @@ class _Search:
         self.solves += 1
         self.last = (network, rest)
         self.state = rest.state
-        pulls = point_pulls(network, rest, self.names)
+        pulls = point_pulls(network, rest.state, self.names, self.calm)
         self.scale = max(self.scale, float(np.max(np.abs(pulls), initial=0.0)))
         out, first = [], 0
         for carrier in self.carriers.values():

@@ -103,6 +103,18 @@ def test_motions_of_bodies_stand_in_the_summary(tmp_path):
     assert not [item for item in result.notices if item.code == "body-turned-over"]
 
 
+def test_rest_in_a_current_is_rest_in_the_run(tmp_path):
+    """With a fairlead in the air and half bars that the current drags at: nothing moves."""
+    text = CASE.format(analyses="[dynamic]", more="", bars=5).replace("duration: 7 s", "duration: 4 s")
+    path = tmp_path / "case.yaml"
+    path.write_text("\n".join(line for line in text.splitlines() if "waves" not in line), encoding="utf-8")
+    series = run(build(load_case(path))).tree["SWL/time/current"].to_dataset()
+    assert np.ptp(series["solid_position"].values, axis=0).max() < 1e-7
+    assert np.ptp(series["solid_angle"].values, axis=0).max() < 1e-7
+    # and the current has moved it
+    assert abs(float(series["solid_position"][0, 0, 1])) > 0.5
+
+
 def test_a_body_that_turns_over_is_told(tmp_path):
     text = CASE.format(analyses="[statics]", more="", bars=4).replace("[0.05 m, 0, -0.1 m]", "[0, 0, 1.5 m]")
     path = tmp_path / "case.yaml"
