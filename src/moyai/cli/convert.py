@@ -76,11 +76,13 @@ def convert(
 ) -> None:
     """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck."""
     with guard(as_json):
-        from moyai.interop.moordyn_case import deck_of_case, is_deck
+        from moyai.interop.moordyn_case import is_deck
         from moyai.interop.moordyn_deck import write_deck
+        from moyai.interop.moordyn_from_case import deck_of_case
 
         if not file.is_file():
             raise InputError(f"no such file: {file}", path="FILE")
+        notes: tuple[str, ...] = ()
         if is_deck(file):
             target = case_of_deck(
                 file, output or file.with_suffix(".yaml"), motion or [], duration, None, replace=force
@@ -92,9 +94,13 @@ def convert(
             target = output or file.with_suffix(".txt")
             if target.exists() and not force:
                 raise InputError(f"{target} exists", path="output", remedy="choose another name, or add --force")
-            write_deck(deck_of_case(load_case(file), water_level), target)
+            made = deck_of_case(load_case(file), water_level)
+            write_deck(made, target)
+            notes = made.notes
             following = "the motions of coupled points are given to MoorDyn by the program that runs it"
         if as_json:
-            print_json({"file": str(target), "faults": []})
+            print_json({"file": str(target), "notes": list(notes), "faults": []})
         else:
+            for note in notes:
+                tell(note)
             tell(f"wrote {target}; {following}")

@@ -1,4 +1,4 @@
-"""MoorDyn decks as case files of a network, and case files of a network as decks."""
+"""MoorDyn decks as case files of a network."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.coupled.assembly import RodPart, VolumePart
 from moyai.interop.moordyn_deck import DeckLineType, DeckPoint, MoorDynDeck
 from moyai.interop.moordyn_keys import SECTIONS
-from moyai.interop.moordyn_network import line_name, point_name, to_deck, water_of
+from moyai.interop.moordyn_network import line_name, point_name, water_of
 from moyai.interop.moordyn_records import StiffnessTable
 from moyai.interop.moordyn_system import BodyOfDeck, bodies_of, end_name, rod_knots
 from moyai.interop.moordyn_waves import amplitude_and_phase
@@ -23,7 +23,7 @@ from moyai.interop.textfiles import read_lines
 from moyai.mooring.rotations import roll_pitch_yaw
 
 if TYPE_CHECKING:
-    from moyai.case.reader import Case
+    pass
 
 _RULE = re.compile(r"^\s*-{3,}\s*([A-Za-z][A-Za-z ]*?)\s*-{3,}")
 _PLAIN = re.compile(r"[A-Za-z][\w .()/+-]*")
@@ -357,26 +357,3 @@ def _current(deck: MoorDynDeck) -> list[str]:
     table = ", ".join(f"[{_number(z)}, {_number(speed)}]" for z, speed in shown)
     heading = math.degrees(headings[0])
     return [f"current: {{heading_deg: {_number(heading)}, profile: {{table: [{table}]}}}}"]
-
-
-def deck_of_case(case: Case, water_level: str | None = None) -> MoorDynDeck:
-    """Return the deck of a network case at one water level (the first when left out).
-
-    Raises
-    ------
-    InputError
-        For a case of another structure, or an unknown water level.
-    CaseError
-        All that MoorDyn cannot express, see :func:`moyai.interop.moordyn_network.to_deck`.
-    """
-    from moyai.case.builder import build
-    from moyai.network.assembly import assemble
-
-    if case.kind != "network":
-        raise InputError(f"a case of kind '{case.kind}' has no deck", path="structure.kind", allowed="network")
-    problem = build(case)
-    levels = dict(problem.environment.water_levels)
-    name = water_level or next(iter(levels))
-    if name not in levels:
-        raise InputError(f"there is no water level '{name}'", path="--water-level", allowed=", ".join(levels))
-    return to_deck(assemble(problem, levels[name]).network, title=case.title)

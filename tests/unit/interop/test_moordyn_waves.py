@@ -5,9 +5,10 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.core.errors import CaseError
+from moyai.core.errors import CaseError, InputError
 from moyai.interop.moordyn_case import case_text
 from moyai.interop.moordyn_deck import write_deck
+from moyai.interop.moordyn_from_case import deck_of_case
 from moyai.interop.moordyn_network import flow_of, water_of
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_waves import wave_components
@@ -113,3 +114,63 @@ def test_mistakes_are_told_with_their_place(tmp_path, kind, files, words):
     said = "\n".join(map(str, caught.value.faults))
     assert len(caught.value.faults) == 1
     assert all(word in said for word in words), said
+
+
+CASE = """moyai: 1
+title: a chain in a sea
+site: {{water_depth: 60, density: 1025, gravity: 9.81}}
+waves: {waves}
+current: {{heading_deg: 40, profile: {{table: [[-60, 0.1], [-20, 0.5], [0, 1.2]]}}}}
+structure:
+  kind: network
+  line_types:
+    rope: {{diameter: 0.05, mass: 10, axial_stiffness: 1e6, viscosity: 1e3, drag_normal: 1.1, drag_tangential: 0.1,
+           added_mass_normal: 1}}
+  points:
+    anchor: {{kind: fixed, position: [0, 0, -60]}}
+    top: {{kind: driven, position: [40, 0, 0]}}
+  lines:
+    rope: {{start: anchor, end: top, type: rope, length: 75, segments: 10}}
+analyses: [statics, dynamic]
+settings: {{duration: 20}}
+"""
+
+
+def deck_from(tmp_path, waves):
+    (tmp_path / "case.yaml").write_text(CASE.format(waves=waves))
+    return deck_of_case(load_case(tmp_path / "case.yaml"))
+
+
+def test_a_case_is_written_with_its_current_and_its_sea(tmp_path):
+    deck = deck_from(tmp_path, "{kind: jonswap, significant_height: 3, peak_period: 9, peak_enhancement: 3.3, "
+                               "heading_deg: 25, duration: 60}")  # fmt: skip
+    again = read_deck(write_deck(deck, tmp_path / "deck.txt"))
+    assert again == deck and again.number("WaveKin") == 7.0
+    plan = run_plans(build(load_case(tmp_path / "case.yaml")), water_of(deck))[0]
+    time, flow = np.linspace(0.0, 60.0, 50), flow_of(again)
+    np.testing.assert_allclose(flow.waves.elevation(time), plan.waves.elevation(time), atol=1e-9)
+    np.testing.assert_allclose(flow.waves.heading, np.radians(25.0))
+    z = np.array([-60.0, -31.0, -10.0, 0.0])
+    heading = np.radians(40.0)
+    speed = np.interp(z, [-60.0, -20.0, 0.0], [0.1, 0.5, 1.2])
+    found = flow.current.velocity(z)
+    np.testing.assert_allclose(found, speed[:, None] * [np.cos(heading), np.sin(heading)], atol=0.01)
+    assert any("current_profile.txt" in note for note in deck.notes)
+
+
+def test_several_seas_are_not_written_and_told(tmp_path):
+    deck = deck_from(tmp_path, "{kind: regular, height: 2, periods: [6, 8], heading_deg: 0}")
+    assert deck.waves is None
+    assert any("2 seas, a deck one" in note for note in deck.notes)
+
+
+def test_bodies_of_a_case_are_not_lost_in_a_deck(tmp_path):
+    text = CASE.format(waves="{kind: regular, height: 2, period: 6, heading_deg: 0}")
+    body = """  bodies:
+    buoy: {shape: box, mass: 1000, inertia: [100, 100, 100], position: [40, 0, 0], size: [2, 2, 1], drag: [1, 1, 1],
+           added_mass: [0.5, 0.5, 0.5], points: {top: [0, 0, -0.5]}}
+"""
+    text = text.replace("    top: {kind: driven, position: [40, 0, 0]}\n", "").replace("  lines:", body + "  lines:")
+    (tmp_path / "case.yaml").write_text(text)
+    with pytest.raises(InputError, match="the body 'buoy' cannot be written"):
+        deck_of_case(load_case(tmp_path / "case.yaml"))
