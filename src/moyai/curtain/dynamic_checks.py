@@ -75,6 +75,11 @@ def run_notices(run: DynamicRun, place: str, period: float, regular: bool) -> tu
     return tuple(notice for notice in found if notice is not None)
 
 
+def plain(value: float) -> str:
+    """Return a number with four digits and without powers of ten."""
+    return f"{float(f'{value:.4g}'):.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
+
+
 def still_rises(run: DynamicRun) -> bool:
     """Return whether the highest tension of both cables stands at the very end, where it is not known to be a peak."""
     time = run.history.time
@@ -142,8 +147,8 @@ def _before(run: DynamicRun, place: str) -> Notice | None:
     high, when = float(before.max()), float(run.history.time[~counted][int(np.argmax(before))])
     return Notice(
         "dynamic-before",
-        f"{place}: before {run.from_time:.4g} s, where counting begins, both cables bear {high:.4g} N (at "
-        f"{when:.4g} s), after it {peak:.4g} N",
+        f"{place}: before {run.from_time:.4g} s, where counting begins, both cables bear {plain(high)} N (at "
+        f"{when:.4g} s), after it {plain(peak)} N",
         high / peak, 1.0 + _UNSETTLED, "information", "a sea that comes up this quickly is rare; judge by which one is "
         "asked for", "highest tension of the settling time",
     )  # fmt: skip
@@ -161,7 +166,7 @@ def _unsettled(run: DynamicRun, place: str, period: float) -> Notice | None:
         return None
     return Notice(
         "dynamic-unsettled",
-        f"{place}: from period to period both cables bear at most {', '.join(f'{one:.4g}' for one in peaks)} N: the "
+        f"{place}: from period to period both cables bear at most {', '.join(plain(one) for one in peaks)} N: the "
         "motion has not settled, and the highest is that of these periods only",
         max(peaks) / min(peaks) if min(peaks) > 0.0 else math.inf, 1.0 + _UNSETTLED, "warning",
         "give more 'settings.dynamic.settled_periods' and 'analysed_periods'; snaps in regular waves may never settle",
@@ -169,4 +174,4 @@ def _unsettled(run: DynamicRun, place: str, period: float) -> Notice | None:
     )  # fmt: skip
 
 
-__all__ = ["MOST_VISCOUS", "run_checks", "run_notices", "still_rises"]
+__all__ = ["MOST_VISCOUS", "plain", "run_checks", "run_notices", "still_rises"]

@@ -9,11 +9,16 @@ import numpy as np
 
 from moyai.core.validity import Notice
 from moyai.curtain.dynamic import DynamicRun, run_span
+from moyai.curtain.dynamic_checks import plain
 
 #: Change of a peak with step and mesh beyond which it is told, and the share of the highest peak that matters.
 LIMIT, _MATTERS = 0.05, 0.05
 #: Change of the peak with held normals beyond which folds of cloth are suspected.
 _APART = 0.3
+#: Cables and lines named in one notice.
+_NAMED = 3
+#: Change from half the cells beyond which nothing is extrapolated.
+_POINTING = 0.2
 #: The sum of both cables, beside the names of the lines.
 BOTH = "both"
 
@@ -40,13 +45,16 @@ class PeakWorth:
 
     @property
     def extrapolated(self) -> float:
-        """Value that the two meshes point to when the error falls with the size of the cells [N]."""
-        return 2.0 * self.peak - self.half_mesh
+        """Value that the two meshes point to when the error falls with the size of the cells [N].
+
+        NaN where they are more than a fifth apart: the cells are then too large for an error that falls with them.
+        """
+        return 2.0 * self.peak - self.half_mesh if self.mesh_error <= _POINTING else math.nan
 
     @property
     def mesh_error(self) -> float:
-        """Change from the mesh used to the extrapolated value, over the peak [-]; NaN without the coarser mesh."""
-        return abs(self.extrapolated / self.peak - 1.0) if self.peak > 0.0 else math.nan
+        """Change from half the cells to those used, over the peak [-]; NaN without the coarser mesh."""
+        return abs(self.half_mesh / self.peak - 1.0) if self.peak > 0.0 else math.nan
 
     @property
     def error(self) -> float:
@@ -86,9 +94,12 @@ class Worth:
         if poor:
             said = "; ".join(
                 f"{'both cables' if name == BOTH else name} by {100.0 * worth.error:.1f} % "
-                f"({worth.peak:.4g} N, half the cells {worth.half_mesh:.4g} N, half the step {worth.half_step:.4g} N)"
-                for name, worth in poor.items()
+                f"({plain(worth.peak)} N, half the cells {plain(worth.half_mesh)} N, half the step "
+                f"{plain(worth.half_step)} N)"
+                for name, worth in sorted(poor.items(), key=lambda item: -item[1].error)[:_NAMED]
             )
+            if len(poor) > _NAMED:
+                said += f"; {len(poor) - _NAMED} more by less"
             worst = max(worth.error for worth in poor.values())
             found.append(
                 Notice("dynamic-peak-mesh", f"{place}: peaks move with step and mesh: {said}", worst, limit, "warning",
@@ -100,8 +111,8 @@ class Worth:
         if turn > limit:
             found.append(
                 Notice("dynamic-normals", f"{place}: with sections of added mass that keep their normals the peak of "
-                       f"both cables is {both.held_normals:.4g} N, not {both.peak:.4g} N: what the turn of the curtain "
-                       "is worth, and folded cloth with it", turn, limit,
+                       f"both cables is {plain(both.held_normals)} N, not {plain(both.peak)} N: what the turn of the "
+                       "curtain is worth, and folded cloth with it", turn, limit,
                        "warning" if turn > _APART else "information", "",
                        "a run with held normals")
             )  # fmt: skip

@@ -10,7 +10,19 @@ from numpy.typing import NDArray
 
 from moyai.report.curtain_reading import CurtainLevel, attribute, key
 from moyai.report.decimate import focus_indices, window_around
-from moyai.report.document import Abscissa, Animation, Block, Choice, Column, Figure, Option, Panel, Series, Table
+from moyai.report.document import (
+    Abscissa,
+    Animation,
+    Block,
+    Choice,
+    Column,
+    Figure,
+    Option,
+    Panel,
+    Series,
+    Table,
+    in_one_unit,
+)
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
@@ -77,8 +89,14 @@ def peak_table(level: CurtainLevel) -> Table | None:
     if values is not None:
         pairs = zip(group.labels("dynamic_model"), values, strict=True)
         said = ", ".join(f"{name} {format_quantity(float(value), 'N')}" for name, value in pairs)
-        note += f" Models of the snap at the speed of the current, for comparison: {said}."
-    return Table(key(level, "dynamic-peaks"), "Peaks of the whole span", (Column("Run", list(names)), *columns), note)
+        note += f" Models of the snap with a rigid skirt, at the speed of the current, for comparison: {said}."
+        note += " A toe that gives way, and a skirt that bulges first, bear less."
+    return Table(
+        key(level, "dynamic-peaks"),
+        "Peaks of the whole span",
+        (Column("Run", list(names)), *in_one_unit(columns)),
+        note,
+    )
 
 
 def worth_table(level: CurtainLevel) -> Table | None:
@@ -102,8 +120,8 @@ def worth_table(level: CurtainLevel) -> Table | None:
         return None
     columns = [Column(heading, column, "N") for heading, column in values.items() if np.isfinite(column).any()]
     note = (
-        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells. The spread "
-        "of a row is what the number is worth."
+        "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells; none where "
+        "they are more than a fifth apart. The spread of a row is what the number is worth."
     )
     if "Held normals" in [column.label for column in columns]:
         note += " Held normals: sections of added mass keep the directions of the just-taut span."
@@ -161,8 +179,8 @@ def tension_figure(level: CurtainLevel, run: Group) -> Figure | None:
     panels = [Panel("tension", unit, from_zero=True)]
     if place is not None and toe is not None:
         panels.append(Panel("mid-span, downstream", "m"))
-        series.append(Series("upper edge", x, place[keep], panel=1, tone=0))
-        series.append(Series("toe", x, toe[keep], panel=1, tone=3))
+        series.append(Series("upper edge", x, place[keep], panel=1, tone=4))
+        series.append(Series("toe", x, toe[keep], panel=1, tone=5))
     return Figure(
         key(level, run.name, "dynamic-tension"),
         "Tensions over time",
