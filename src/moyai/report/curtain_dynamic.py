@@ -127,7 +127,10 @@ def worth_table(level: CurtainLevel) -> Table | None:
         note += " Held normals: sections of added mass keep the directions of the just-taut span."
     run_column = (Column("Run", names),) if len(set(names)) > 1 else ()
     return Table(
-        key(level, "dynamic-worth"), "What the peaks are worth", (*run_column, Column("Line", lines), *columns), note
+        key(level, "dynamic-worth"),
+        "What the peaks are worth",
+        (*run_column, Column("Line", lines), *in_one_unit(columns)),
+        note,
     )
 
 
@@ -152,7 +155,7 @@ def snap_table(level: CurtainLevel, run: Group) -> Table | None:
     return Table(
         key(level, run.name, "dynamic-snaps"),
         "Slack and snaps",
-        (Column("Line", list(names)), *columns),
+        (Column("Line", list(names)), *in_one_unit(columns)),
         f"Counted from t = {attribute(run, 'counted_from'):.3g} s, cables at their support; a snap exceeds the "
         "threshold, its rise goes from a tenth to nine tenths.",
     )
