@@ -68,7 +68,7 @@ def water_plane(plan: BodyPlan) -> tuple[float, float, float]:
 
 
 def hydrostatic_stiffness(plan: BodyPlan, draught: float, water: Water) -> Array:
-    """Return the restoring of water about the centre of gravity of an upright box or cylinder (6, 6)."""
+    """Return the restoring of an upright box or cylinder about its centre of gravity [eq:coupled-hydrostatics]."""
     area, about_x, about_y = water_plane(plan)
     weight = water.density * water.gravity
     # the centre of buoyancy under the centre of gravity

@@ -138,11 +138,25 @@ EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples" / "network")
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_are_sound(example):
-    case = load_case(example)
-    assert case.warnings == ()
+    told = [item.message for item in load_case(example).warnings]
+    # the waves of that flume are as steep as they were
+    known = {"flume_box": ["linear theory neglects harmonics"]}.get(example.stem, [])
+    assert len(told) == len(known)
+    assert all(words in message for words, message in zip(known, told, strict=True))
 
 
 def test_there_is_an_example_of_every_part():
     text = "".join(path.read_text(encoding="utf-8") for path in EXAMPLES)
-    for part in ("lines:", "nets:", "sheets:", "bodies:", "motions:", "clump:", "along:", "kind: sphere", "current:"):
+    for part in (
+        "lines:",
+        "nets:",
+        "sheets:",
+        "bodies:",
+        "motions:",
+        "clump:",
+        "along:",
+        "kind: sphere",
+        "current:",
+        "coefficients_file:",
+    ):
         assert part in text, part
