@@ -244,3 +244,22 @@ def test_drag_in_still_water_only_takes_energy(seed):
     assert np.diff(usual.work).max() < 0.05 * stored
     assert np.all(usual.kinetic_energy + usual.elastic_energy <= 1.001 * stored)
     assert usual.tension_peak.max() == pytest.approx(often.tension_peak.max(), rel=0.03)
+
+
+def test_loads_are_continued_at_second_order():
+    """A bob with drag on a soft band in a current: the error falls with the square of the interval of the loads."""
+    builder = NetworkBuilder(Water(math.inf, 1000.0, 9.81))
+    builder.fixed("pivot", (0.0, 0.0, DEEP))
+    builder.free("bob", (1.2, 0.0, DEEP - 1.8), mass=3.0, drag_area=3e-3, added_mass=0.5)
+    builder.line("band", "pivot", "bob", BarType("band", 1e-9, 300.0, 1e-9), length=2.0, segments=1)
+    network, flow = builder.build(), Flow((0.8, 0.5, 0.0))
+
+    def end(load_steps):
+        history = simulate(
+            network, duration=1.6, output_step=0.4, step=1e-4, load_steps=load_steps, flow=flow, keep_bars=[0]
+        )
+        return history.final.position[1]
+
+    errors = [float(np.linalg.norm(end(load_steps) - end(1))) for load_steps in (25, 50, 100)]
+    assert errors[1] / errors[0] == pytest.approx(4.0, rel=0.15)
+    assert errors[2] / errors[1] == pytest.approx(4.0, rel=0.15)
