@@ -16,6 +16,8 @@ from moyai.core.errors import InputError
 if TYPE_CHECKING:
     from moyai.case.schema_curtain import CurtainCase
 
+#: Wave periods of one run of a whole span: a run keeps 20000 rows, and 40 of them draw a period.
+MOST_PERIODS = 500
 _STRENGTHS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("cables", "upper", "breaking_load"), "cable"),
     (("cables", "lower", "breaking_load"), "cable"),
@@ -328,6 +330,16 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
             ("settings", "dynamic", "shear_stiffness"),
             "a shear stiffness of a sheet without 'span_stiffness'",
             remedy="give both, or neither",
+        )
+    # rows of a run are counted out; more periods would be kept more coarsely than their snaps
+    longest = max(1 + given.settled_periods + given.analysed_periods, 1 + given.wave_count)
+    if model.waves and longest > MOST_PERIODS:
+        findings.fault(
+            ("settings", "dynamic"),
+            f"a run of {longest} wave periods",
+            allowed=f"at most {MOST_PERIODS}, with the one in which the waves grow",
+            remedy="give fewer 'settled_periods' and 'analysed_periods', or a smaller 'wave_count'; the analysis "
+            "'waves' takes thousands",
         )
     if given.start == "drifting" and model.current is None and model.settings.impact.start_speed is None:
         findings.fault(

@@ -439,7 +439,9 @@ class Dynamic(Block):
         default=8, description="Peak periods run around the highest crest of an irregular sea. Default: 8."
     )
     duration: Duration | None = Field(
-        default=None, description="Of the run without waves; absent: four times the rise of model A."
+        default=None,
+        description="Of the run without waves; absent: four times the rise of model A, doubled while the tension "
+        "still rises.",
     )
     cable_viscosity: CableViscosity | None = Field(
         default=None, description="Internal damping of the cables in N s; absent: 5 % of critical on the mesh."

@@ -11,11 +11,14 @@ import pytest
 
 import moyai
 from moyai.core.errors import CaseError, InputError
+from moyai.core.progress import silent
+from moyai.curtain import analysis_dynamic
 from moyai.curtain.dynamic import DynamicRun, run_span
 from moyai.curtain.dynamic_assembly import build_span
 from moyai.curtain.dynamic_cable import dynamic_cable
 from moyai.curtain.dynamic_checks import run_checks, run_notices
 from moyai.curtain.dynamic_model import AnchoredSupport, CurtainNetwork, CurtainSpan, Mesh
+from moyai.curtain.dynamic_plans import Plan
 from moyai.curtain.dynamic_section import section_mesh
 from moyai.curtain.dynamic_worth import PeakWorth, Worth, span_worth
 from moyai.curtain.impact import Impact, energy_bound, peak_by_energy
@@ -471,6 +474,29 @@ def test_a_skirt_stiff_along_the_span_starts_unstrained_only_when_flat() -> None
     assert [n.severity for n in run_notices(bulging, "here", 0.0, False) if n.code == "dynamic-strained-start"] == [
         "error"
     ]
+
+
+def test_too_many_periods_are_refused(tmp_path: Path) -> None:
+    text = CASE.replace(
+        "structure:", "waves: {name: swell, kind: regular, height: 0.8 m, periods: [5 s], heading_deg: 0}\nstructure:"
+    ).replace("cells_down: 4", "cells_down: 4, analysed_periods: 1000000")
+    with pytest.raises(CaseError, match="1000002 wave periods"):
+        moyai.load_case(write(tmp_path, text))
+
+
+def test_a_snap_is_run_until_it_is_past_its_peak() -> None:
+    """A plan that begins too short is doubled; one whose length was given is not."""
+    span = CurtainSpan(**BASE)  # type: ignore[arg-type]
+    rise = peak_by_energy(Impact(0.7, 0.8, 0.15, 75.0, 75.0, 0.3, FLUME)).time
+    arguments = {
+        "water": FLUME, "flow": Flow(), "duration": 0.4 * rise, "output_step": rise / 50.0, "speed": 0.3,
+        "weight": False, "deep": True, "profile": "sag",
+    }  # fmt: skip
+    plan, run, told = analysis_dynamic._through(span, Mesh(8, 4), Plan("snap", arguments, rise, open=True), silent, "")
+    assert plan.arguments["duration"] == pytest.approx(1.6 * rise) and not told
+    assert 0.5 * rise < run.peak("both")[1] < 1.5 * rise
+    given = analysis_dynamic._through(span, Mesh(8, 4), Plan("snap", arguments, rise), silent, "")[1]
+    assert given.history.time[-1] == pytest.approx(0.4 * rise)
 
 
 def test_settling_waves_are_told(tmp_path: Path) -> None:
