@@ -218,3 +218,29 @@ def test_faults_of_panels_are_told() -> None:
         NetPanels(np.array([[0, 1, 2, 3]]), (law,), law=np.array([1]))
     with pytest.raises(InputError, match="not finite"):
         PanelLaw("bad", np.array([np.nan, 1.0]), np.zeros(2))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_panel_in_pieces_bears_the_same(seed: int) -> None:
+    """A flat panel cut into quads or triangles, outlines present or given, in uniform water: the same whole force."""
+    rng = np.random.default_rng(seed)
+    law = table_of(["loland", "aarsnes", "kristiansen_faltinsen"][seed], Net.from_solidity(0.002, 0.22))
+    one, two = rng.normal(size=(2, 3))
+    velocity, motion = rng.normal(size=3), 0.2 * rng.normal(size=3)
+    whole = float(np.linalg.norm(np.cross(one, two)))
+    found = []
+    for cells in (1, 2, 5):
+        share = np.linspace(0.0, 1.0, cells + 1)
+        points = (share[:, None, None] * one + share[None, :, None] * two).reshape(-1, 3) - [0.0, 0.0, 30.0]
+        number = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
+        quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], -1).reshape(-1, 4)
+        halves = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+        thirds = np.column_stack([halves, np.full(len(halves), -1)])
+        water = still(len(points))
+        water[:3] = velocity[:, None]
+        for corners in (quads, thirds):
+            for area in (0.0, whole / len(corners)):
+                panels = NetPanels(corners, (law,), area=area)
+                force, _ = forces_on_panels(panels, points, np.tile(motion, (len(points), 1)), water, WATER.density)
+                found.append(force.sum(axis=0))
+    assert np.allclose(found, found[0], rtol=1e-12, atol=1e-12 * float(np.abs(found[0]).max()))
