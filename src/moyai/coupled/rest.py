@@ -178,10 +178,14 @@ class _Search:
 
     def move(self, change: Array) -> None:
         for row, carrier in enumerate(self.carriers.values()):
+            # what is held stays: along the axes of the site, about those of the body
+            free, turn = carrier.free, carrier.rotation
+            part = np.array(change[6 * row : 6 * row + 6])
+            part[:3] *= free[:3]
+            part[3:] = turn @ (free[3:] * (turn.T @ part[3:])) / self.size
             for axis in range(6):
-                amount = float(change[6 * row + axis])
-                if amount != 0.0:
-                    carrier.displace(axis, amount if axis < 3 else amount / self.size)
+                if part[axis] != 0.0:
+                    carrier.displace(axis, float(part[axis]))
 
     def keep(self) -> list[Array]:
         return [carrier.state.copy() for carrier in self.carriers.values()]

@@ -317,6 +317,11 @@ class RigidCarrier:
         return np.concatenate([self.state[7:10], self.rotation @ self.state[10:13]])
 
     @property
+    def free(self) -> Array:
+        """One for what may move, 0 for what is held: along the axes of the site, about those of the body (6,)."""
+        return np.asarray(self._body[8])
+
+    @property
     def body_mass(self) -> float:
         """Mass of the body [kg]."""
         return self.body.mass
