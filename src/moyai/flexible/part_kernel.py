@@ -90,7 +90,7 @@ def stress_slope(C: Any, t: int, e11: float, e22: float, shear: float, D: Any) -
     """Write the derivative (3, 3) of the stresses over the strains (E11, E22, 2 E12); return stresses and state.
 
     The energy of a wrinkled triangle is the largest over all directions of the pull: its second derivative follows
-    from that of the direction.
+    from that of the direction [eq:flexible-wrinkle-slope].
     """
     s11, s22, s12, _, state = tensile_stress(C, t, e11, e22, shear)
     for i in range(3):
