@@ -379,6 +379,8 @@ def read_deck(path: str | Path) -> MoorDynDeck:
         if option.key == "WaveKin" and option.value in (2.0, 3.0, 7.0):
             step = steps[-1] if steps and steps[-1] > 0.0 else None
             waves = read_waves(option, step, place.parent, faults, notes)
+        if option.key == "WaveKin" and option.value == 1.0:
+            notes.append(f"line {option.line}: WaveKin 1: the waves come from the program that runs MoorDyn; none here")
         if option.key == "Currents" and option.value == 1.0:
             current = read_current(option, place.parent, faults)
         if option.key == "SeafloorFile":
