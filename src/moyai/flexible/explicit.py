@@ -134,7 +134,7 @@ class ExplicitRun:
         )  # fmt: skip
         sheets = network.sheets
         count = 0 if sheets is None else len(sheets)
-        table = np.zeros((0, 1)) if sheets is None else sheets.constants(network.water)
+        table = np.zeros((0, 1)) if sheets is None else sheets.constants(network.water, network.nodes.position)
         triangles = np.zeros((0, 3), dtype=np.int64) if sheets is None else sheets.triangles.copy()
         return (table, triangles, packed.light, np.zeros(1), np.zeros(count)), blocks
 

@@ -102,8 +102,8 @@ def tangent_matrices(network: Network, place: Array, water: Array) -> tuple[csr_
     sheets = network.sheets
     if sheets is not None:
         sheet_added_mass(
-            sheets.constants(network.water), sheets.triangles, np.ascontiguousarray(place).ravel(), 0, 3, 1,
-            water.ravel(), 0, 1, nodes, mass.reshape(-1), 0, 6, 1,
+            sheets.constants(network.water, network.nodes.position), sheets.triangles,
+            np.ascontiguousarray(place).ravel(), 0, 3, 1, water.ravel(), 0, 1, nodes, mass.reshape(-1), 0, 6, 1,
         )  # fmt: skip
     bar_law, node_law = np.zeros((2, bars)), np.zeros((2, nodes))
     kernel.laws(place, still, system, fluid, bed, 0.0, 1.0, bar_law, node_law)

@@ -47,7 +47,7 @@ class SheetPart:
     def __init__(self, network: Network) -> None:
         assert network.sheets is not None
         self.members = np.ascontiguousarray(network.sheets.triangles)
-        self.table = network.sheets.constants(network.water)
+        self.table = network.sheets.constants(network.water, network.nodes.position)
         self.peak, self.light = np.zeros(len(self.members)), np.zeros((4, len(network.nodes)))
         self.width = 1e-6 * float(np.sqrt(np.min(network.sheets.area)))
         self.stiffness = float(np.max(self.table[:, [sheet.C11, sheet.C22, sheet.C33]]))
@@ -157,7 +157,10 @@ def kernel_parts(network: Network, pairs: tuple[IntArray, ...]) -> tuple[Any, ..
     no_sheet, no_panel = np.zeros((0, 3, 3, 2), dtype=np.int64), np.zeros((0, 4, 4, 2), dtype=np.int64)
     table, triangles, at = np.zeros((0, sheet.COLUMNS)), np.zeros((0, 3), dtype=np.int64), no_sheet
     if network.sheets is not None and len(network.sheets):
-        table, triangles = network.sheets.constants(network.water), network.sheets.triangles.copy()
+        table, triangles = (
+            network.sheets.constants(network.water, network.nodes.position),
+            network.sheets.triangles.copy(),
+        )
         at = left.pop(0)
     dry = table.copy()
     dry[:, sheet.PRESSURE] = 0.0

@@ -18,7 +18,8 @@ from numba import njit
 #: displaced mass of a third, buoyancy of a third, rho/2 Cd, rho/2 Ct, pressure, factor on the water's velocity.
 E11, E12, E21, E22, AREA, C11, C12, C22, C33, A0, A1, A2, DAMPING, LAW, ADDED, DISPLACED, LIFT, ACROSS, SKIN = range(19)
 PRESSURE = 19
-SHARE, COLUMNS = 20, 21
+#: Unit normal as built, along which the added mass acts.
+SHARE, FACE, COLUMNS = 20, 21, 24
 #: Laws: stress also in compression; nearest tensile stress; two families of threads that only pull.
 LINEAR, FIELD, THREADS = 0.0, 1.0, 2.0
 #: Directions that are tried before Newton's method, as cosine and sine of twice their angle.
@@ -272,12 +273,14 @@ def sheet_loads(
             held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
             rise = 0.0
             for a in range(3):
-                rise += W[w0 + base + (3 + a) * axis] * n[a] * per
-            push = held * hold * along + wet * C[t, ADDED] * size / 6.0 * rise
+                rise += W[w0 + base + (3 + a) * axis] * C[t, FACE + a]
+            rise *= wet * C[t, ADDED] * C[t, AREA] / 3.0
+            push = held * hold * along
             whole = wet * C[t, DISPLACED]
             for a in range(3):
                 step = base + a * axis
-                F[f0 + step] += push * n[a] * per + held * rub * u[a] + whole * W[w0 + step + 3 * axis]
+                F[f0 + step] += push * n[a] * per + held * rub * u[a]
+                F[f0 + step] += rise * C[t, FACE + a] + whole * W[w0 + step + 3 * axis]
             F[f0 + base + 2 * axis] += wet * C[t, LIFT]
     return fastest
 
@@ -289,10 +292,11 @@ def sheet_added_mass(
 ) -> None:  # fmt: skip
     """Add the water that triangles take along across themselves to the mass blocks (xx, xy, xz, yy, yz, zz) of nodes.
 
+    Across is the direction as built: were it that of every fold of the mesh, mass would come and go with the folds.
+
     Elevations of the surface stand at ``w0 + place * i + 6 * row``, blocks at ``m0 + block * i + part * k``
     [eq:flexible-sheet-inertia].
     """
-    p, n = np.empty(6), np.empty(3)
     for t in range(triangles.shape[0]):
         if C[t, ADDED] == 0.0:
             continue
@@ -302,26 +306,16 @@ def sheet_added_mass(
             P[up + i * node] - W[top + i * place], P[up + j * node] - W[top + j * place],
             P[up + k * node] - W[top + k * place],
         )  # fmt: skip
-        if wet == 0.0:
-            continue
-        for a in range(3):
-            step = p0 + a * axis
-            p[a] = P[step + j * node] - P[step + i * node]
-            p[3 + a] = P[step + k * node] - P[step + i * node]
-        n[0], n[1] = p[1] * p[5] - p[2] * p[4], p[2] * p[3] - p[0] * p[5]
-        n[2] = p[0] * p[4] - p[1] * p[3]
-        size = math.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
-        if size == 0.0:
-            continue
-        scale = wet * C[t, ADDED] / (6.0 * size)
+        x, y, z = C[t, FACE], C[t, FACE + 1], C[t, FACE + 2]
+        scale = wet * C[t, ADDED] * C[t, AREA] / 3.0
         for corner in range(3):
             at = m0 + triangles[t, corner] * block
-            M[at] += scale * n[0] * n[0]
-            M[at + part] += scale * n[0] * n[1]
-            M[at + 2 * part] += scale * n[0] * n[2]
-            M[at + 3 * part] += scale * n[1] * n[1]
-            M[at + 4 * part] += scale * n[1] * n[2]
-            M[at + 5 * part] += scale * n[2] * n[2]
+            M[at] += scale * x * x
+            M[at + part] += scale * x * y
+            M[at + 2 * part] += scale * x * z
+            M[at + 3 * part] += scale * y * y
+            M[at + 4 * part] += scale * y * z
+            M[at + 5 * part] += scale * z * z
 
 
 @njit(cache=True, error_model="numpy")

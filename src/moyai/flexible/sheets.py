@@ -57,9 +57,9 @@ class Sheets:
     tension_field : bool
         Whether the sheet wrinkles instead of bearing compression.
     added_mass_per_area : array_like
-        Water that the sheet takes along across itself, where it is wet [kg/m2]: for a strip of depth d that swings as a
-        whole, both sides wet, pi/4 rho d on average. For sections whose nodes feel each other see
-        :class:`moyai.flexible.mass_blocks.MassBlocks`.
+        Water that the sheet takes along across its directions as built, where it is wet [kg/m2]: for a strip of depth d
+        that swings as a whole, both sides wet, pi/4 rho d on average. For sections that turn, and whose nodes feel each
+        other, see :class:`moyai.flexible.mass_blocks.MassBlocks`.
 
     Raises
     ------
@@ -200,8 +200,15 @@ class Sheets:
             np.add.at(share, self.triangles[:, corner], values / 3.0)
         return share
 
-    def constants(self, water: Water) -> Array:
-        """Return the columns that the kernels read, shape (t, 21)."""
+    def constants(self, water: Water, place: Array | None = None) -> Array:
+        """Return the columns that the kernels read, shape (t, 24).
+
+        Parameters
+        ----------
+        water : Water
+        place : ndarray, shape (n, 3), optional
+            Nodes as built, across whose triangles the added mass acts; there is none without them.
+        """
         table = np.zeros((len(self), kernel.COLUMNS))
         one, two = self.rest[:, 1] - self.rest[:, 0], self.rest[:, 2] - self.rest[:, 0]
         double = 2.0 * self.area
@@ -234,6 +241,11 @@ class Sheets:
         table[:, kernel.SKIN] = 0.5 * water.density * np.asarray(self.drag_tangential)
         table[:, kernel.DAMPING], table[:, kernel.PRESSURE] = self.damping_time, self.pressure
         table[:, kernel.SHARE] = self.flow_factor
+        if place is not None:
+            one, two = (place[self.triangles[:, k]] - place[self.triangles[:, 0]] for k in (1, 2))
+            across = np.cross(one, two)
+            size = np.linalg.norm(across, axis=1)
+            table[:, kernel.FACE : kernel.FACE + 3] = across / np.where(size > 0.0, size, 1.0)[:, None]
         return table
 
 
