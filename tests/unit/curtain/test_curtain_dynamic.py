@@ -463,6 +463,7 @@ def test_runs_tell_what_they_did_not_reach() -> None:
     assert "may still rise" in run_notices(short, "here", 0.1 * rise, False)[0].message
 
 
+@pytest.mark.slow
 def test_a_skirt_stiff_along_the_span_starts_unstrained_only_when_flat() -> None:
     """Flat: the same peak on two meshes. Bulging: what its arc adds to the cables strains it, told as an error."""
     stiff = {**BASE, "span_stiffness": 2e4, "shear_stiffness": 8e3}
