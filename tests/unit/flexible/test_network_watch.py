@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -263,3 +264,28 @@ def test_loads_are_continued_at_second_order():
     errors = [float(np.linalg.norm(end(load_steps) - end(1))) for load_steps in (25, 50, 100)]
     assert errors[1] / errors[0] == pytest.approx(4.0, rel=0.15)
     assert errors[2] / errors[1] == pytest.approx(4.0, rel=0.15)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_ledger_keeps_the_energy_of_linear_motion_at_any_step(seed):
+    """Random masses on random springs in a row, at steps near the bound: leapfrog's own energy is constant."""
+    rng = np.random.default_rng(seed)
+    builder = NetworkBuilder(Water(math.inf, 1000.0, 1e-12))
+    builder.fixed("wall", (0.0, 0.0, DEEP))
+    count = int(rng.integers(1, 6))
+    names = ["wall", *(f"mass {i}" for i in range(count))]
+    for i, name in enumerate(names[1:]):
+        builder.free(name, (i + 1.0, 0.0, DEEP), mass=rng.uniform(1.0, 5.0))
+    for i, (one, two) in enumerate(pairwise(names)):
+        spring = BarType("spring", 1e-9, 10.0 ** rng.uniform(2, 4), 1e-9, tension_only=False)
+        builder.line(f"spring {i}", one, two, spring, length=1.0, segments=1, shape="straight")
+    network = builder.build()
+    speed = np.zeros((count + 1, 3))
+    speed[1:, 0] = rng.normal(0.0, 1e-3, count)
+    start = State(0.0, np.array(network.nodes.position), speed)
+    history = simulate(network, duration=20.0, output_step=0.37, start=start, safety=rng.uniform(0.5, 0.97))
+    kinetic = 0.5 * float(network.node_mass @ np.sum(speed**2, axis=1))
+    total = history.kinetic_energy + history.elastic_energy
+    # the first row, at rest in between two steps, has the plain energy
+    assert np.ptp(total[1:]) < 1e-5 * kinetic
+    assert total[1:].mean() == pytest.approx(kinetic, rel=1e-5)
