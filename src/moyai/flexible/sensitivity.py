@@ -139,6 +139,8 @@ def peak_sensitivity(
         if mesh is not network and any(notice.code == "step-not-stable" for notice in history.notices):
             # a step given by hand need not suit a finer mesh or more viscosity
             history = simulate(mesh, motions, start=begin, **{**chosen_options, "step": None})
+        if history.status == "interrupted":
+            raise KeyboardInterrupt
         if history.status != "converged":
             raise ConvergenceError(f"run with {which}: {history.message}", path="sensitivity")
         chosen = history.time >= history.time[0] + after

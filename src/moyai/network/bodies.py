@@ -21,7 +21,7 @@ from moyai.coupled.simulate import CoupledHistory, simulate_coupled
 from moyai.coupled.wave_loads import WaveLoads
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
-from moyai.flexible.refine import refined, with_viscosity
+from moyai.flexible.refine import more_viscous, refined, with_viscosity
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.mooring.rotations import rotation_matrix
@@ -178,11 +178,23 @@ def rest_of(problem: NetworkProblem, network: Network, flow: Flow) -> CoupledRes
 
 @dataclass(frozen=True, eq=False)
 class CoupledRun:
-    """A run of bodies and network: the network's history as that of any network, the bodies', and where they end."""
+    """A run of bodies and network.
+
+    Parameters
+    ----------
+    history : History
+        Of the network, as that of any network.
+    bodies : mapping of str to BodyHistory
+    ends : mapping of str to BodyState
+        Where the bodies end.
+    step : float
+        Of the bodies [s].
+    """
 
     history: History
     bodies: Mapping[str, BodyHistory]
     ends: Mapping[str, BodyState]
+    step: float
 
 
 def _start(
@@ -224,7 +236,7 @@ def run_coupled(
             name: state.carrier(bodies[name], placed.water, flow, start.time) for name, state in states.items()
         }
     found = simulate_coupled(placed, bodies, start=start, progress=progress, **options)
-    return CoupledRun(_as_history(placed, found), found.bodies, found.final_bodies)
+    return CoupledRun(_as_history(placed, found), found.bodies, found.final_bodies, found.body_step)
 
 
 def _as_history(network: Network, found: CoupledHistory) -> History:
@@ -244,11 +256,14 @@ def coupled_sensitivity(
     bar: int,
     after: float,
     peak: float,
-    step: float,
+    steps: tuple[float, float],
     progress: Progress,
     **options: Any,
 ) -> PeakSensitivity:
-    """Run bodies and network with half the step, half the bars, half and twice the viscosity.
+    """Run bodies and network with half of both steps, half the bars, half and twice the viscosity.
+
+    ``steps`` are those of the run, of network and bodies [s]; ``options`` are those of
+    :func:`moyai.coupled.simulate.simulate_coupled`.
 
     Raises
     ------
@@ -258,20 +273,26 @@ def coupled_sensitivity(
     bodies, start, placed = _start(problem, network, rest)
     last = any(strand.bars[-1] == bar and strand.bars.size > 1 for strand in placed.strands)
     finer, state = refined(placed, 2, start)
+    # a step given by hand is as long as the given mesh bears at most
+    shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
     cases: tuple[tuple[str, Network, State, int, dict[str, Any]], ...] = (
-        ("half the step", placed, start, bar, {"step": 0.5 * step}),
-        ("half the mesh", finer, state, 2 * bar + (1 if last else 0), {}),
+        ("half the step", placed, start, bar, {"step": 0.5 * steps[0], "body_step": 0.5 * steps[1]}),
+        ("half the mesh", finer, state, 2 * bar + (1 if last else 0), shorter),
         ("half the viscosity", with_viscosity(placed, 0.5), start, bar, {}),
-        ("twice the viscosity", with_viscosity(placed, 2.0), start, bar, {}),
+        ("twice the viscosity", more_viscous(placed), start, bar, {}),
     )
     peaks = []
-    for number, (which, mesh, begin, chosen, more) in enumerate(cases):
+    for number, (which, mesh, begin, chosen, changed) in enumerate(cases):
         progress("sensitivity", number + 1, 5)
-        found = simulate_coupled(mesh, bodies, start=begin, keep_nodes=[0], keep_bars=[chosen], **{**options, **more})
+        found = simulate_coupled(
+            mesh, bodies, start=begin, keep_nodes=[0], keep_bars=[chosen], **{**options, **changed}
+        )
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
         if found.status != "converged":
             raise ConvergenceError(f"run with {which}: {found.message}", path="sensitivity")
         late = found.time >= found.time[0] + after
         peaks.append(float(np.max(found.network.tension_peak[: found.time.size][late, 0])))
     progress("sensitivity", 5, 5)
-    half, mesh_peak, less, more_viscous = peaks
-    return PeakSensitivity(peak, half, mesh_peak, less, more_viscous, step)
+    half, mesh_peak, less, more = peaks
+    return PeakSensitivity(peak, half, mesh_peak, less, more, steps[0])

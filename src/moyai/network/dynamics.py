@@ -142,10 +142,13 @@ def run(
             )  # fmt: skip
         else:
             try:
-                sensitivity = _sensitivity(problem, assembly, plan, (begin, hung), history, worst, told)
+                sensitivity = _sensitivity(problem, assembly, plan, (begin, hung), (history, coupled), worst, told)
                 notices += list(sensitivity.notices())
             except (ConvergenceError, InputError) as error:
                 notices.append(Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy))
+            except KeyboardInterrupt:
+                message = "interrupted while it was found what its peak is worth; the run itself is complete"
+                history = replace(history, status="interrupted", message=message)
     prefix = f"{plan.name}: "
     return Run(
         plan, history, series, frames, snaps, sensitivity, governing,
@@ -172,18 +175,18 @@ def _sensitivity(
     assembly: Assembly,
     plan: RunPlan,
     starts: tuple[State, CoupledRest | None],
-    history: History,
+    made: tuple[History, CoupledRun | None],
     bar: int,
     progress: Progress,
 ) -> PeakSensitivity:
     """Run again with half the step, half the bars, half and twice the viscosity."""
-    begin, hung = starts
+    (begin, hung), (history, coupled) = starts, made
     after, motions = problem.settings.skip, motions_of(problem, plan.duration)
     options = options_of(problem, plan)
-    if problem.bodies:
+    if coupled is not None:
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
         return coupled_sensitivity(
-            problem, assembly.network, hung, bar, after, peak, history.step, progress, motions=motions,
+            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, motions=motions,
             **_of_bodies(options),
         )  # fmt: skip
     # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself

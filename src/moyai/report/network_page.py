@@ -95,9 +95,10 @@ def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Govern
     if len(levels) > 1:
         where += f", {level.name}"
     error, effect = (dynamic.value(key, run=run.name) for key in ("discretisation_error", "viscosity_effect"))
+    failed = any(notice.code in ("sensitivity-failed", "sensitivity-left-out") for notice in result.notices)
     items = [
         KeyFigure("highest tension", format_quantity(governing.peak, "N", 4), where),
-        _worth(error, effect),
+        _worth(error, effect, failed),
     ]
     ends = [dynamic.value(key, run=run.name, line=governing.line) for key in ("start_peak", "end_peak")]
     if governing.peak > INSIDE * max(ends):
@@ -129,7 +130,7 @@ def _summary(result: Result, levels: tuple[NetworkLevel, ...], governing: Govern
     if mode is not None and mode.size and math.isfinite(mode[0]):
         items.append(KeyFigure("longest natural period", format_quantity(float(mode[0]), "s"), "added mass counted"))
     blocks: list[Block | None] = [KeyFigures(tuple(items)), tables.worth_table(level)]
-    if not math.isfinite(error):
+    if not (math.isfinite(error) or failed):
         blocks.append(
             Paragraph("How far the peak hangs on step, mesh and viscosity was not asked for: settings.sensitivity: "
                       "true runs it again and tells.", quiet=True)
@@ -149,7 +150,9 @@ def _motions(level: NetworkLevel, run: Group) -> list[KeyFigure]:
     return items
 
 
-def _worth(error: float, effect: float) -> KeyFigure:
+def _worth(error: float, effect: float, failed: bool) -> KeyFigure:
+    if not math.isfinite(error) and failed:
+        return KeyFigure("worth of the peak", "not found", "a notice below says why", judgement="caution")
     if not math.isfinite(error):
         return KeyFigure("worth of the peak", "not asked for", "settings.sensitivity: true")
     # a peak that hangs on a viscosity nobody knows is worth no more than one that hangs on the mesh

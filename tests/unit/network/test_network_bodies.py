@@ -124,6 +124,48 @@ def test_a_body_that_turns_over_is_told(tmp_path):
     assert told and "from upright" in told[0].message and told[0].value > 1.05
 
 
+def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
+    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s", bars=4)
+    path = tmp_path / "case.yaml"
+    path.write_text(text.replace("duration: 7 s", "duration: 2 s"), encoding="utf-8")
+    result = run(build(load_case(path)))
+    assert result.status == "converged", result.message
+    summary = result.tree["SWL/dynamic"].to_dataset().sel(run="waves")
+    peak = float(summary["peak"].max())
+    assert float(summary["sensitivity_peak"]) == pytest.approx(peak, rel=1e-9)
+    assert float(summary["half_step"]) == pytest.approx(peak, rel=0.02)
+    for key in ("double_mesh", "half_viscosity", "double_viscosity"):
+        assert float(summary[key]) == pytest.approx(peak, rel=0.3)
+        assert float(summary[key]) != peak
+    assert not [item for item in result.notices if item.code == "sensitivity-failed"]
+
+
+@pytest.mark.parametrize("bodies", [True, False])
+def test_an_interrupt_while_the_worth_is_found_keeps_the_run(tmp_path, bodies):
+    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true", bars=4)
+    text = text.replace("duration: 7 s", "duration: 1.5 s")
+    if not bodies:
+        lines = text.splitlines()
+        first, last = lines.index("  bodies:"), lines.index("  points:")
+        held = ["    west: {kind: fixed, position: [-1 m, 0, 0.3 m]}", "    east: {kind: fixed, position: [1 m, 0, 0]}"]
+        text = "\n".join([*lines[:first], lines[last], *held, *lines[last + 1 :]])
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    complete = []
+
+    def stop(what, done, total):
+        # whatever is told after the run itself belongs to its worth
+        if complete:
+            raise KeyboardInterrupt
+        if what == "waves" and done == total == 1.0:
+            complete.append(True)
+
+    result = run(build(load_case(path)), stop)
+    assert result.status == "interrupted"
+    assert float(result.tree["SWL/time/waves"]["time"].values[-1]) == pytest.approx(1.5)
+    assert "SWL/dynamic" in [name.strip("/") for name in result.tree.groups]
+
+
 def test_a_run_does_not_go_on_with_other_bodies(tmp_path):
     problem = problem_of(tmp_path)
     run(problem, stopping_at(1.0)).write(tmp_path / "results.nc")
