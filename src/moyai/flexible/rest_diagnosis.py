@@ -40,8 +40,11 @@ def refuse_impossible(network: Network) -> None:
     ConvergenceError
         When it sinks without a bed, or is lifted by volume that stays wet however high it rises.
     """
-    part, loose = _free_parts(network)
     nodes, water = network.nodes, network.water
+    if (nodes.kind != FREE).any() and not nodes.held.any():
+        # a network has no part without any hold, unless it has none at all
+        return
+    part, loose = _free_parts(network)
     weight, lift = network.node_mass * water.gravity, water.density * water.gravity * network.node_volume
     always = np.where(nodes.height > 0.0, 0.0, water.density * water.gravity * nodes.volume)
     for number in np.flatnonzero(loose[:, 2]):
