@@ -413,8 +413,8 @@ class NetworkSheet(Block):
     drag_tangential: NonNegativeNumber = Field(description="Drag coefficient along, on its area.")
     added_mass: AddedMassPerArea | None = Field(
         default=None,
-        description="Water that the wet sheet takes along across itself, per area; a strip of depth d that moves as a "
-        "whole takes pi/4 times density times d. None is taken along when left out.",
+        description="Water that the wet sheet takes along across its directions as built, per area; a strip of depth d "
+        "that moves as a whole takes pi/4 times density times d. None is taken along when left out.",
     )
     damping_time: NonNegativeDuration = Field(
         default=0.0, description="Internal damping: time that multiplies the rate of strain. Default: 0."
