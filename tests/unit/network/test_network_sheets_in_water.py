@@ -17,7 +17,8 @@ site: {{water_depth: 30 m, density: 1000 kg/m3, gravity: 9.81 m/s2}}
 structure:
   kind: network
   sheets:
-    flap: {{corners: [[0, 0, -2], [0, 0.2, -2], [0, 0.2, -3], [0, 0, -3]], rows: 17, columns: 2, warp_stiffness: 50 kN/m,
+    flap: {{corners: [[0, 0, -2], [0, 0.2, -2], [0, 0.2, -3], [0, 0, -3]], rows: 17, columns: 2,
+           warp_stiffness: 50 kN/m,
            weft_stiffness: 50 kN/m, shear_stiffness: 2 kN/m, mass: 40 kg/m2, thickness: 2 mm, drag_normal: 0,
            drag_tangential: 0, first_row: fixed{more}}}
 analyses: [modes, dynamic]
