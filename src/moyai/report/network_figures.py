@@ -25,7 +25,7 @@ def _window(run: Group, time: Array, moment: float) -> tuple[int, int]:
 
 
 def tension_figure(level: NetworkLevel, run: Group) -> Figure | None:
-    """Return tensions of the most loaded lines, the surface, and the moving points over time."""
+    """Return tensions of the most loaded lines and the surface over time."""
     time = run.real("time", "time")
     found = peak_of_run(level, run)
     if time is None or time.size < 3 or found is None:
@@ -46,7 +46,6 @@ def tension_figure(level: NetworkLevel, run: Group) -> Figure | None:
         keep = focus_indices(surface, span, BINS)
         series.append(Series("surface", {"time": time[keep]}, surface[keep], len(panels), 5, faint=True))
         panels.append(Panel("surface at the origin", "m"))
-    series += _places(level, run, time, span, panels)
     shown = None if span == (0, time.size) else (float(time[span[0]]), float(time[span[1] - 1]))
     left_out = f" The {len(known) - MOST_LINES} less loaded lines are left out." if len(known) > MOST_LINES else ""
     return Figure(
@@ -63,23 +62,42 @@ def tension_figure(level: NetworkLevel, run: Group) -> Figure | None:
     )
 
 
-def _places(level: NetworkLevel, run: Group, time: Array, span: tuple[int, int], panels: list[Panel]) -> list[Series]:
-    """Return where the driven and free points are, by the directions in which they move."""
+def places_figure(level: NetworkLevel, run: Group) -> Figure | None:
+    """Return where the driven and free points are over time, a panel for each direction in which they move."""
+    time = run.real("time", "time")
+    if time is None or time.size < 3:
+        return None
+    found = peak_of_run(level, run)
+    span = _window(run, time, found.time if found is not None else float(time[0]))
     kinds = dict(zip(level.network.labels("point"), texts(level.network, "point_kind"), strict=False))
-    moving = [name for name in run.labels("point") if kinds.get(name) != "fixed"][:MOST_POINTS]
+    moving = [name for name in run.labels("point") if kinds.get(name) != "fixed"]
+    panels: list[Panel] = []
     series: list[Series] = []
-    for axis in "xyz":
-        records = [(name, run.array("point_position", "time", "axis", point=name)) for name in moving]
-        column = "xyz".index(axis)
+    for column, axis in enumerate("xyz"):
+        records = [(name, run.array("point_position", "time", "axis", point=name)) for name in moving[:MOST_POINTS]]
         curves = [(name, values[:, column]) for name, values in records if values is not None]
-        largest = max((float(np.nanmax(np.ptp(values))) for _, values in curves), default=0.0)
+        largest = max((float(np.nanmax(values) - np.nanmin(values)) for _, values in curves), default=0.0)
         if not largest > 1e-4:
             continue
         for tone, (name, values) in enumerate(curves):
             keep = focus_indices(values, span, BINS)
-            series.append(Series(f"{name}, {axis}", {"time": time[keep]}, values[keep], len(panels), tone))
-        panels.append(Panel(f"{axis} of points", "m"))
-    return series
+            series.append(Series(name, {"time": time[keep]}, values[keep], len(panels), tone))
+        panels.append(Panel(axis, "m"))
+    if not panels:
+        return None
+    shown = None if span == (0, time.size) else (float(time[span[0]]), float(time[span[1] - 1]))
+    left_out = f" The first {MOST_POINTS} of {len(moving)} moving points." if len(moving) > MOST_POINTS else ""
+    return Figure(
+        slug(level.name, run.name, "places"),
+        f"Places of points over time: {run.name}",
+        (Abscissa("time", "time", "s"),),
+        tuple(panels),
+        tuple(series),
+        f"Along the axes of the site; directions in which no point moves are left out.{left_out}",
+        window=shown,
+        slider=shown is not None,
+        height=150 + 150 * len(panels),
+    )
 
 
 def exceedance_figure(level: NetworkLevel, run: Group) -> Figure | None:

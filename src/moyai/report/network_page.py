@@ -213,6 +213,7 @@ def _of_runs(level: NetworkLevel, governing: Governing | None) -> Sequence[Block
     for run in level.runs():
         found = (
             figures.tension_figure(level, run),
+            figures.places_figure(level, run),
             *figures.body_figures(level, run),
             tables.bodies_table(level, run),
             tables.peaks_table(level, run),
