@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.curtain.drag import check_drag
 from moyai.curtain.load_laws import check_section_load
 from moyai.curtain.planning import CURRENT_RULES
@@ -95,7 +96,7 @@ def check_statics(statics: CurtainStatics, speed: float, water: Water) -> tuple[
         notices.append(
             Notice(
                 "curtain-floats-drown",
-                f"the floats lack {-statics.float_reserve:.4g} N/m: the top goes under at this current",
+                f"the floats lack {spoken(-statics.float_reserve, 'N/m')}: the top goes under at this current",
                 statics.float_reserve,
                 0.0,
                 "error",

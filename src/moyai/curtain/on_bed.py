@@ -12,6 +12,7 @@ import math
 from dataclasses import replace
 
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.curtain.plan import PlanLoad, section_load, solve_plan
 from moyai.curtain.section import SectionShape, Skirt, solve_section
 from moyai.curtain.statics import CurtainStatics, HangingCurtain, solve_statics
@@ -132,7 +133,7 @@ def check_on_bed(statics: CurtainStatics, water: Water) -> tuple[Notice, ...]:
         Notice(
             "curtain-on-bed",
             f"{laid:.3g} m of the skirt lie on the bed: assumed are a toe that stays under the top, held by the bed "
-            f"with {hold:.4g} N/m, and no flow under it",
+            f"with {spoken(hold, 'N/m')}, and no flow under it",
             laid,
             0.0,
             "information",

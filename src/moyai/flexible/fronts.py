@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.flexible.network import Network
 
 Array = NDArray[np.float64]
@@ -92,7 +93,7 @@ def front_notices(network: Network, fronts: list[Front]) -> tuple[Notice, ...]:
 
 def _notice(name: str, front: Front) -> Notice:
     said = (
-        f"the tension of {name!r} (highest {front.highest:.4g} N) jumps by {front.rise:.4g} N "
+        f"the tension of {name!r} (highest {spoken(front.highest, 'N')}) jumps by {spoken(front.rise, 'N')} "
         f"within {front.within:.3g} s, a part of the {front.travel:.3g} s of an elastic wave along it"
     )
     if front.fall > 0.0:

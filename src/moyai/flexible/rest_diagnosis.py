@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError
+from moyai.core.wording import spoken
 from moyai.flexible.checks import name_of_node, parts
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import FREE, Network
@@ -55,7 +56,7 @@ def refuse_impossible(network: Network) -> None:
             worst = int(np.flatnonzero(own)[np.argmax((weight - lift)[own])])
             raise ConvergenceError(
                 f"no equilibrium: nothing holds the {int(own.sum())} nodes around {name_of_node(network, worst)}, they "
-                f"weigh {heavy - most:.4g} N more than the water bears and sink for ever",
+                f"weigh {spoken(heavy - most, 'N')} more than the water bears and sink for ever",
                 path="statics", allowed="weight that floats, hangs or stands",
                 remedy="add an anchor, a bed or buoyancy",
             )  # fmt: skip
@@ -63,7 +64,7 @@ def refuse_impossible(network: Network) -> None:
             worst = int(np.flatnonzero(own)[np.argmax(always[own])])
             raise ConvergenceError(
                 f"no equilibrium: the volume of {name_of_node(network, worst)} lifts all {int(own.sum())} nodes that "
-                f"hang on it by {least - heavy:.4g} N, and without a height it never leaves the water",
+                f"hang on it by {spoken(least - heavy, 'N')}, and without a height it never leaves the water",
                 path="statics", allowed="lift that an anchor holds, or that ends at the surface",
                 remedy="give the float its height, or add an anchor",
             )  # fmt: skip

@@ -12,6 +12,7 @@ import numpy as np
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.flexible.checks import whole_number
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
@@ -66,10 +67,11 @@ class PeakSensitivity:
         return (
             Notice(
                 "peak-not-converged",
-                f"the peak of {self.peak:.4g} N is {self.half_step:.4g} N with half the step and "
-                f"{self.double_mesh:.4g} N with bars of half the length: "
+                f"the peak of {spoken(self.peak, 'N')} is {spoken(self.half_step, 'N', like=self.peak)} with half the step and "
+                f"{spoken(self.double_mesh, 'N', like=self.peak)} with bars of half the length: "
                 f"{100 * self.discretisation_error:.1f} % together "
-                f"({self.half_viscosity:.4g} and {self.double_viscosity:.4g} N with half and twice the viscosity)",
+                f"({spoken(self.half_viscosity, 'N', like=self.peak)} and {spoken(self.double_viscosity, 'N', like=self.peak)} "
+                f"with half and twice the viscosity)",
                 self.discretisation_error,
                 limit,
                 "warning",

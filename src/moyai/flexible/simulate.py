@@ -12,14 +12,14 @@ from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
-from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.validity import IdentityCheck
 from moyai.flexible.checks import name_of_node, whole_number, whole_numbers
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
-from moyai.flexible.fronts import front_notices, fronts_of_rows
 from moyai.flexible.implicit import TOLERANCE, ImplicitRun
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
+from moyai.flexible.peak_notices import advice, peak_notices, stable_step
 from moyai.flexible.recovery import write_state
 from moyai.flexible.result import History, RunStatus, State
 from moyai.flexible.tableaus import TABLEAUS
@@ -208,8 +208,8 @@ def simulate(
             count = min(per_chunk, rows - done)
             sound = run.state()
             good = _advance(run, count, 1 + done, interval, parts, step, saved)
-            steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else steps + good * round(interval / run.step)
-            smallest = min(smallest, run.step)
+            steps = int(run.counts[2]) if isinstance(run, ImplicitRun) else run.steps
+            smallest = min(smallest, run.step if isinstance(run, ImplicitRun) else run.smallest)
             energy = saved[3][: 1 + done + good]
             total = energy[:, 0] + energy[:, 1]
             throughput = max(throughput, float(np.max(total)), float(np.max(np.abs(energy[:, 2]))))
@@ -297,7 +297,7 @@ def _failure(
     if isinstance(run, ImplicitRun) and not_finite:
         return (
             f"stopped at t = {run.time:g} s: no step of {run.step:.3g} s or less goes on, {run.force_left:.3g} N are "
-            f"left at {name_of_node(network, run.worst)}{_advice(network)}"
+            f"left at {name_of_node(network, run.worst)}{advice(network)}"
         )
     worst = int(np.argmax(np.abs(np.nan_to_num(run.speed, nan=np.inf)).max(axis=0)))
     why = f"energy of {gain:.3g} J came from nowhere"
@@ -305,24 +305,8 @@ def _failure(
         why = "values are no longer finite" if not_finite else "a node outruns all elastic waves"
     return (
         f"stopped at t = {time:g} s: {why}, fastest at {name_of_node(network, worst)} (node {worst}); "
-        f"step {run.step:.3g} s, stable below {_limit(run):.3g} s{_advice(network)}"
+        f"step {run.step:.3g} s, stable below {stable_step(run):.3g} s{advice(network)}"
     )
-
-
-def _advice(network: Network) -> str:
-    """Return what helps where bars without viscosity go slack and taut: the energy of the mesh has nowhere to go."""
-    bars = network.bars
-    if not len(bars) or not np.any(bars.of_type("tension_only") > 0.0):
-        return ""
-    wanted = 0.05 * float(
-        np.max(bars.length * np.sqrt(bars.of_type("axial_stiffness") * bars.of_type("mass_per_length")))
-    )
-    lacking = bars.of_type("viscosity") < 0.5 * wanted
-    return f"; a viscosity of {wanted:.2g} N s calms bars that go slack on this mesh" if lacking.any() else ""
-
-
-def _limit(run: ExplicitRun | ImplicitRun) -> float:
-    return run.limit()[0] if np.isfinite(run.place).all() else math.nan
 
 
 def _history(
@@ -366,77 +350,5 @@ def _history(
         status,
         message,
         (check,),
-        _fronts(network, run, saved, last, interval)
-        + _doubts(network, run, check, status)
-        + _beyond_curves(network, saved[5], saved[2][:last]),
+        peak_notices(network, run, saved[5], saved[2][:last], check, status == "converged"),
     )
-
-
-def _fronts(
-    network: Network, run: ExplicitRun | ImplicitRun, saved: tuple[np.ndarray, ...], last: int, interval: float
-) -> tuple[Notice, ...]:
-    """Return what is told of wave fronts; those at the pace of the wave are exact but for nodes that land on a bed."""
-    if isinstance(run, ImplicitRun):
-        time = np.asarray(np.arange(last) * interval, dtype=np.float64)
-        return front_notices(network, fronts_of_rows(network, time, saved[5], saved[1][:last]))
-    paced = _at_wave_pace(run)
-    return front_notices(network, [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced])
-
-
-def _beyond_curves(network: Network, bars: np.ndarray, peaks: np.ndarray) -> tuple[Notice, ...]:
-    """Tell of ropes that were pulled harder than their curves are tabulated: the last slope went on."""
-    found = []
-    for slot, kind in enumerate(network.bars.types):
-        if kind.curve is None:
-            continue
-        highest = float(np.max(peaks[:, network.bars.kind[bars] == slot], initial=0.0))
-        last = float(kind.curve.tension[-1])
-        if highest > last * (1.0 + 1e-9):
-            found.append(
-                Notice(
-                    "beyond-rope-curve",
-                    f"{kind.name!r} bears up to {highest:.4g} N, its rope curve ends at {last:.4g} N: "
-                    "its last slope goes on",
-                    highest,
-                    last,
-                    "warning",
-                    "tabulate the rope up to its breaking load",
-                )
-            )
-    return tuple(found)
-
-
-def _at_wave_pace(run: ExplicitRun | ImplicitRun) -> bool:
-    """Whether the steps were those of the elastic wave; rows that no whole number of them fills make them shorter."""
-    return isinstance(run, ExplicitRun) and run.safety == 1.0 and run.step >= 0.99 * _limit(run)
-
-
-def _doubts(
-    network: Network, run: ExplicitRun | ImplicitRun, check: IdentityCheck, status: RunStatus
-) -> tuple[Notice, ...]:
-    """Return what makes the peaks of a run that came to its end doubtful."""
-    found = []
-    overstep = getattr(run, "overstep", 0.0)
-    if overstep > 1.0 + 1e-9:
-        found.append(
-            Notice(
-                "step-not-stable",
-                f"the step of {run.step:.4g} s is {overstep:.3g} times what the network bears: peaks may be wrong",
-                overstep,
-                1.0,
-                "warning",
-                "leave the step out, or give a shorter one",
-            )
-        )
-    if status == "converged" and check.value > check.tolerance:
-        found.append(
-            Notice(
-                "energy-from-nowhere",
-                f"{100.0 * check.value:.3g} % of the energy came from nowhere; peaks may be too high",
-                check.value,
-                check.tolerance,
-                "warning",
-                "give a smaller safety or step, or an implicit method with a smaller tolerance" + _advice(network),
-            )
-        )
-    return tuple(found)

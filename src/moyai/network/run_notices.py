@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.flexible.result import History
 from moyai.flexible.snap import SnapRecord
 from moyai.network.assembly import Assembly
@@ -81,8 +82,8 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
     return [
         Notice(
             "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
-            f"is pulled straight or falls on the bed: {peak:.4g} N there, {ends[0]:.4g} N at its start and "
-            f"{ends[1]:.4g} N at its end", peak, INSIDE * max(ends), "warning",
+            f"is pulled straight or falls on the bed: {spoken(peak, 'N')} there, {spoken(ends[0], 'N', like=peak)} at its "
+            f"start and {spoken(ends[1], 'N', like=peak)} at its end", peak, INSIDE * max(ends), "warning",
             "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
             "see settings.sensitivity",
         )

@@ -180,7 +180,7 @@ def test_fronts_of_landing_lumps_are_told_and_gone_on_a_finer_mesh():
 
 def test_a_peak_that_hangs_on_the_step_is_told_in_numbers():
     (notice,) = PeakSensitivity(1000.0, 900.0, 980.0, 1010.0, 950.0, 1e-3).notices()
-    for words in ("1000 N", "900 N with half the step", "980 N with bars of half", "12.0 %", "1010 and 950 N"):
+    for words in ("1 kN is 0.9 kN with half the step", "0.98 kN with bars of half", "12.0 %", "1.01 kN and 0.95 kN"):
         assert words in notice.message
     assert "viscosity" in notice.remedy
     (notice,) = PeakSensitivity(1000.0, 999.0, 900.0, 1010.0, 950.0, 1e-3).notices()

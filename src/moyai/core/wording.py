@@ -1,0 +1,28 @@
+"""Numbers in sentences for people."""
+
+from __future__ import annotations
+
+import math
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
+
+
+def spoken(value: float, unit: str, digits: int = 4, *, like: float | None = None) -> str:
+    """Return a number with its unit as an engineer writes it: ``49.21 kN``, never ``4.921e+04 N``.
+
+    Parameters
+    ----------
+    value : float
+        In the unit named.
+    unit : str
+        A unit that takes prefixes, for instance ``N``; prefixes enlarge only (millinewtons interest nobody).
+    digits : int
+        Significant digits.
+    like : float, optional
+        Take the prefix that this value would get, so that the numbers of a sentence compare at sight.
+    """
+    if not math.isfinite(value):
+        return f"{value} {unit}"
+    size = abs(float(f"{value if like is None else like:.{digits}g}"))
+    factor, prefix = next((entry for entry in _PREFIXES if size >= entry[0]), (1.0, ""))
+    return f"{value / factor:.{digits}g} {prefix}{unit}"
