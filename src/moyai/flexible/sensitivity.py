@@ -63,15 +63,17 @@ class PeakSensitivity:
         """Tell, with the other peaks, when the peak moves by more than ``limit`` with the discretisation."""
         if self.discretisation_error <= limit:
             return ()
+
+        def of(peak: float) -> str:
+            return spoken(peak, "N", like=self.peak)
+
         by_step = self._change(self.half_step) > self._change(self.double_mesh)
         return (
             Notice(
                 "peak-not-converged",
-                f"the peak of {spoken(self.peak, 'N')} is {spoken(self.half_step, 'N', like=self.peak)} with half the step and "
-                f"{spoken(self.double_mesh, 'N', like=self.peak)} with bars of half the length: "
-                f"{100 * self.discretisation_error:.1f} % together "
-                f"({spoken(self.half_viscosity, 'N', like=self.peak)} and {spoken(self.double_viscosity, 'N', like=self.peak)} "
-                f"with half and twice the viscosity)",
+                f"the peak of {of(self.peak)} is {of(self.half_step)} with half the step and {of(self.double_mesh)} "
+                f"with bars of half the length: {100 * self.discretisation_error:.1f} % together "
+                f"({of(self.half_viscosity)} and {of(self.double_viscosity)} with half and twice the viscosity)",
                 self.discretisation_error,
                 limit,
                 "warning",
