@@ -83,7 +83,8 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
         Notice(
             "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
             f"is pulled straight or falls on the bed: {spoken(peak, 'N')} there, "
-            f"{spoken(ends[0], 'N', like=peak)} at its start and {spoken(ends[1], 'N', like=peak)} at its end", peak, INSIDE * max(ends), "warning",
+            f"{spoken(ends[0], 'N', like=peak)} at its start and {spoken(ends[1], 'N', like=peak)} at its end",
+            peak, INSIDE * max(ends), "warning",
             "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
             "see settings.sensitivity",
         )
