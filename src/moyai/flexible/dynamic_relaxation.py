@@ -16,6 +16,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
+from moyai.flexible.sheet_kernel import sheet_stiffness, stress_field
 from moyai.flexible.statics import Equilibrium
 
 #: Steps between two evaluations of the loads of the water, and between two looks at the current and the surface.
@@ -65,13 +66,14 @@ def relax_network(
     state = State.at_rest(network) if start is None else State(0.0, start.position, np.zeros_like(start.position))
     run = ExplicitRun(network, dict.fromkeys(network.motion_names, still), calm, state, safety=1.0, load_steps=1)
     packed, arrays = run.packed, run.arrays
-    mass = _masses(run)
+    bare = _masses(run)
     pace = np.zeros((3, len(network.nodes)))
     level = -1e300 if network.bed is None else network.bed.level
     fluid = np.array([network.water.density, network.water.gravity])
     done, left, worst, reference = 0, math.inf, 0, 1.0
     while done < most_steps:
         run.water = calm.at(0.0, run.place)
+        mass = bare + 1.1 * _sheet_masses(run)
         packed.node_rows(kernel.WU, 7)[:] = run.water
         taken, left, worst = relax(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
@@ -79,7 +81,7 @@ def relax_network(
             next(keep for begin, keep in reversed(KEEP) if done >= begin),
         )  # fmt: skip
         done += taken
-        reference = max(float(np.max(np.abs(packed.bar_row(kernel.PULL)), initial=0.0)), 1e-9)
+        reference = max(float(np.max(np.abs(packed.bar_row(kernel.PULL)), initial=0.0)), _sheet_pull(run), 1e-9)
         if not np.isfinite(run.place).all() or left <= tolerance * reference:
             break
         progress("rest", done, most_steps)
@@ -117,7 +119,22 @@ def _masses(run: ExplicitRun) -> np.ndarray:
     mass += arrays.node("bed_stiffness") + bob
     for end in (arrays.start, arrays.end):
         np.add.at(mass, end, arrays.bar("buoyancy") / arrays.bar("radius"))
-    sheets = run.network.sheets
-    if sheets is not None:
-        mass += 4.0 * float(np.max(run.sheets[0], initial=0.0))
     return 1.1 * mass + 1e-9
+
+
+def _sheet_masses(run: ExplicitRun) -> np.ndarray:
+    """Return what the triangles as they lie now ask for, by a bound of their stiffness (that of taut ones)."""
+    stiff, damp = np.zeros((len(run.network.nodes), 6)), np.zeros((len(run.network.nodes), 6))
+    sheet_stiffness(run.sheets[0], run.sheets[1], run.place, stiff, damp)
+    # the trace of a block is no less than its largest value
+    return np.asarray(stiff[:, 0] + stiff[:, 3] + stiff[:, 5])
+
+
+def _sheet_pull(run: ExplicitRun) -> float:
+    """Return the largest pull of a triangle [N]."""
+    sheets = run.network.sheets
+    if sheets is None:
+        return 0.0
+    out = np.empty((len(sheets), 6))
+    stress_field(run.sheets[0], run.sheets[1], np.ascontiguousarray(run.place.T), out)
+    return float(np.max(out[:, 3] * np.sqrt(2.0 * sheets.area)))

@@ -28,11 +28,12 @@ class Part(Protocol):
     """A family of elements.
 
     ``members`` (e, k) are its nodes; ``stiffness`` [N/m] is that of the family where a ``share`` of it may be used on
-    the way to the rest, 0 of others.
+    the way to the rest, 0 of others; ``pull`` [N] is the largest of an element when the forces were last asked for.
     """
 
     members: IntArray
     stiffness: float
+    pull: float
 
     def add_forces(self, x: Array, v: Array, water: Array, share: float, force: Array) -> None:
         """Add the forces to ``force`` (n, 3)."""
@@ -51,6 +52,7 @@ class SheetPart:
         self.peak, self.light = np.zeros(len(self.members)), np.zeros((4, len(network.nodes)))
         self.width = 1e-6 * float(np.sqrt(np.min(network.sheets.area)))
         self.stiffness = float(np.max(self.table[:, [sheet.C11, sheet.C22, sheet.C33]]))
+        self.pull, self._across = 0.0, np.sqrt(2.0 * network.sheets.area)
         self._blocks = np.zeros((len(self.members), 3, 3, 3, 3))
 
     def _constants(self, share: float) -> Array:
@@ -68,7 +70,9 @@ class SheetPart:
         table, count = self._constants(share), len(x)
         place, speed = np.ascontiguousarray(x.T).ravel(), np.ascontiguousarray(v.T).ravel()
         total = np.zeros(3 * count)
+        self.peak[:] = 0.0
         sheet_forces(table, self.members, place, 0, speed, 0, total, 0, 1, count, self.peak)
+        self.pull = float(np.max(self.peak * self._across))
         flow = np.ascontiguousarray(water).ravel()
         sheet_loads(table, self.members, place, 0, speed, 0, flow, 0, total, 0, 1, count, self.light, 0.0)
         force += total.reshape(3, count).T
@@ -83,7 +87,7 @@ class SheetPart:
 class PanelPart:
     """The net panels of a network: loads of the water."""
 
-    stiffness = 0.0
+    stiffness = pull = 0.0
 
     def __init__(self, network: Network) -> None:
         panels = PanelArrays.of(network.panels)
@@ -108,7 +112,7 @@ class PanelPart:
 class RingPart:
     """One elastic ring of a network."""
 
-    stiffness = 0.0
+    stiffness = pull = 0.0
 
     def __init__(self, rings: RingArrays, number: int) -> None:
         a, b = int(rings.first[number]), int(rings.first[number + 1])

@@ -194,6 +194,19 @@ class Relaxation:
                 return step, work
         return None, 0.0
 
+    def _least_scale(self, place: Array) -> float:
+        """Return the largest weight or load of a node [N]; the stress of a bad first guess is none."""
+        share, self.share = self.share, 1e-12
+        loads = self._loads_at(place, 0.0) * self.free
+        self.share = share
+        return max(self.own_weight, float(np.abs(loads).max()), 1e-300)
+
+    def look(self, place: Array) -> Attempt:
+        """Return a place as it is, with the force left there."""
+        least, force = self._least_scale(place), self.forces(place)
+        pulls = [float(np.abs(self.tension).max(initial=0.0)), *(part.pull for part in self.parts)]
+        return Attempt(place, *self._residual(force, max(least, *pulls)), 0, False)
+
     def _first_pulls(self, place: Array, load: float, soft: float) -> tuple[Array, Array]:
         """Return tensions and pushes to start with: those of the laws, no more than all loads together."""
         self.fluid[2] = 0.0
@@ -239,7 +252,7 @@ class Relaxation:
         soft, radius = (soft or 0.3) * top, 0.2 * self.typical if soft == 0.0 else 0.0
         pace = math.sqrt(self.typical / max(self.network.water.gravity, 1e-3))
         pulls, pushes = self._first_pulls(x, load, soft)
-        own, before, taken = max(self.own_weight, top), float(np.abs(force).max()), 0
+        own, before, taken = self._least_scale(x), float(np.abs(force).max()), 0
         scale = own
         while taken < most:
             taken += 1
@@ -252,8 +265,6 @@ class Relaxation:
                 if pace < 1e-12 or not np.isfinite(force).all():
                     break
                 continue
-            scale = max(own, float(np.abs(pulls).max(initial=0.0)))
-            enough = max(tolerance * scale, noise)
             big, part = float(np.abs(step).max()) / self.typical, 1.0
             if start.size:
                 along = np.linalg.norm(step[end] - step[start], axis=1)
@@ -267,6 +278,9 @@ class Relaxation:
             left = float(np.abs(force).max())
             if not math.isfinite(left):
                 break
+            # what pulls there now, not before the step
+            scale = max(own, float(np.abs(pulls).max(initial=0.0)), *(p.pull for p in self.parts))
+            enough = max(tolerance * scale, noise)
             ratio = before / max(left, 1e-300)
             if part < 1.0:
                 pace *= max(0.2, math.sqrt(part))

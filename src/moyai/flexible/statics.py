@@ -38,6 +38,8 @@ _CURRENTS = (0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1.0)
 _MOST_NUMBERS = 2e8
 #: Pseudo steps of dynamic relaxation, which cost about as much as steps of the explicit scheme.
 _RELAXING = 40_000
+#: Part of all solves that comes before it where there are sheets: slack cloth has a tangent without a slope.
+_BEFORE = 0.6
 #: How often and how long the true motion is asked for help.
 _SHAKES, _SHAKE_INTERVALS = 6, 40
 
@@ -157,6 +159,8 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
     """Try one way after another; return the nearest to rest, how it was found, and all solves."""
     best = last = Attempt(place, math.inf, 0, 0, False)
     steps, found = 0, ""
+    cloth = any(part.stiffness > 0.0 for part in problem.parts)
+    whole, most = most, int(_BEFORE * most) if cloth else most
 
     def go(name: str, x: Array, way: tuple[float, int], bold: bool, soft: float = 0.0) -> bool:
         nonlocal steps, best, found, last
@@ -170,29 +174,43 @@ def _ladder(problem: Relaxation, place: Array, tolerance: float, most: int) -> t
         return best.converged or steps >= most
 
     moving = bool(np.any(problem.water[:3] != 0.0))
-    if any(part.stiffness > 0.0 for part in problem.parts):
+
+    def early() -> bool:
+        if cloth:
+            x = place
+            for share in _shares(problem, place):
+                problem.share = share
+                if go("rising stiffness", x, _STAGE, moving):
+                    return True
+                x = last.place
+        for turn, limit, bold in _MOVING if moving else _CALM:
+            if go("direct" if turn == 1.0 else "small steps", place, (turn, limit), bold):
+                return True
         x = place
-        for share in _shares(problem, place):
-            problem.share = share
-            if go("rising stiffness", x, _STAGE, moving):
-                return best, found, steps
-            x = last.place
-    for turn, limit, bold in _MOVING if moving else _CALM:
-        if go("direct" if turn == 1.0 else "small steps", place, (turn, limit), bold):
-            return best, found, steps
-    if moving:
-        x = place
-        for factor in _CURRENTS:
+        for factor in _CURRENTS if moving else ():
             problem.raise_current(factor)
             if go("rising current", x, _STAGE, True):
-                return best, found, steps
+                return True
             x = last.place if np.isfinite(last.place).all() else x
-    if best.residual <= _GOOD_ENOUGH:
+        return False
+
+    over = early()
+    problem.share = 1.0
+    problem.raise_current(1.0)
+    most = whole
+    if best.converged or best.residual <= _GOOD_ENOUGH or (over and steps >= most):
         return best, found, steps
     x = _relaxed(problem.network, place, problem.flow)
+    if cloth:
+        # it may be as near as rounding and folds allow already
+        led = problem.look(x)
+        if led.residual < best.residual:
+            best, found = led, "dynamic relaxation"
     for bold in (moving, True):
         if go("dynamic relaxation", x, _LAST, bold, 1e-3):
             return best, found, steps
+    if best.residual <= _GOOD_ENOUGH:
+        return best, found, steps
     x = place
     for shake in range(_SHAKES):
         x = _shake(problem.network, x, problem.flow, not moving or shake % 2 == 1)
@@ -223,7 +241,12 @@ def _relaxed(network: Network, place: Array, flow: Flow) -> Array:
     with contextlib.suppress(ConvergenceError, OverflowError, ValueError):
         return np.array(
             relax_network(
-                network, flow=flow, start=start, tolerance=1e-6, good_enough=math.inf, most_steps=_RELAXING
+                network,
+                flow=flow,
+                start=start,
+                tolerance=1e-6 if network.sheets is None else 1e-8,
+                good_enough=math.inf,
+                most_steps=_RELAXING,
             ).state.position
         )
     return place
