@@ -274,7 +274,7 @@ def _history(
         ending.status,
         ending.message,
         checks,
-        notices,
+        (*notices, *stepped.notices(record, checks[0], ending.status == "converged")),
     )
 
 

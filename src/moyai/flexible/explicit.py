@@ -33,8 +33,12 @@ SAFETY_UNDAMPED, LEAST_DAMPING = 0.5, 0.05
 #: Steps between two evaluations of the loads, at most; with sections of added mass, whose frames turn at these moments
 #: (light sheets that move along themselves gain or lose energy by frames that lag by more).
 LOAD_STEPS, LOAD_STEPS_OF_BLOCKS = 12, 1
-#: Bound of the load interval times the fastest rate of drag.
-DRAG_SHARE = 0.3
+#: Bound of the load interval times the fastest rate of drag; the same for the step, from which a row is broken off.
+DRAG_SHARE, DRAG_BROKEN = 0.3, 0.4
+#: Part of the stable step below which no row is broken off.
+LEAST_PART = 1e-3
+#: Choices of a step at one time after which it is marched with the last.
+MOST_IDLE = 10
 
 
 def driving_tables(network: Network, motions: Mapping[str, Motion]) -> tuple[Any, Any, Any, float, float]:
@@ -84,9 +88,13 @@ class ExplicitRun:
         )  # fmt: skip
         self.driving = driving_tables(network, motions)
         self.time, self.step = start.time, 0.0
+        #: Steps that led to good rows, and the smallest of them [s].
+        self.steps, self.smallest = 0, math.inf
+        #: Steps of the last call, and whether it broke a row off.
+        self.taken, self.parted, self.stable = 0, False, math.inf
         #: Distance over which a node and the surface may approach each other within a chunk [m].
         self.reach = 1.0 + (2.0 * float(np.sum(flow.waves.amplitude)) if flow.waves is not None else 0.0)
-        self.watch = watch_of(network, self.packed)
+        self.watch = watch_of(network, self.packed.place)
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
         # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step
         # behind
@@ -215,7 +223,7 @@ class ExplicitRun:
     def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
         """Return step, steps per load interval and load intervals per row that fill ``row_interval``."""
         fastest, _, inverse = self._survey()
-        stable = self._bound(inverse)[0]
+        self.stable = stable = self._bound(inverse)[0]
         largest = min(self.safety * stable, DRAG_SHARE / max(fastest, 1e-300)) if wanted is None else wanted
         least = max(1, math.ceil(row_interval / largest * (1.0 - 1e-12)))
         if wanted is not None:
@@ -235,19 +243,36 @@ class ExplicitRun:
 
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""
-        done = 0
+        begin, done, left = self.time, 0, row_interval
+        self.taken, self.parted, idle = 0, False, 0
         while done < rows:
-            good = self._march(rows - done, first + done, row_interval, wanted, saved)
-            done += abs(good)
-            if good >= 0:
+            self.parted = self.parted or left < row_interval
+            asked = rows - done if left == row_interval else 1
+            good = self._march(asked, first + done, (left, row_interval - left), wanted, saved, idle < MOST_IDLE)
+            broken = int(self.watch.broken[0])
+            if broken >= 0:
+                # drag has outrun the step within a row: what is left of it goes on with a shorter one
+                idle = idle + 1 if good == -1 and broken == 0 else 0
+                left = (left if good == -1 else row_interval) - broken * self.step
+                done += -good - 1
+                continue
+            idle, left, done = 0, row_interval, done + abs(good)
+            self.time = begin + done * row_interval
+            if 0 <= good < asked:
                 break
         return done
 
-    def _march(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
-        """March with one step; a negative number of good rows asks for another one."""
+    def _march(
+        self, rows: int, first: int, interval: tuple[float, float], wanted: float | None, saved: Any, watchful: bool
+    ) -> int:
+        """March with one step; a negative number of good rows asks for another one.
+
+        ``interval`` is that of the rows, and what is gone of the only one already; rows are broken off when ``watchful``.
+        """
+        row_interval, before = interval
         step, per_load, per_row = self.choose(row_interval, wanted)
         packed, arrays = self.packed, self.arrays
-        if self.step and abs(step - self.step) > 1e-12 * step:
+        if self.ledger[5] > 0.0 and abs(step - self.step) > 1e-12 * step:
             # velocities stand half an old step before now: bring them to half a new step before now
             self.kick(0.5 * (self.step - step))
         self.step, self.per_load = step, per_load
@@ -258,18 +283,25 @@ class ExplicitRun:
             rate = (self.flow.at(end, self.place + (end - self.time) * self.speed) - self.water) / (end - self.time)
         bed = self.network.bed
         places, pulls, peaks, energy, nodes, bars = saved
+        # what blows up for another reason must not be followed down to steps without end
+        bear = DRAG_BROKEN if watchful and step >= LEAST_PART * self.stable else math.inf
         good = kernel.march(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([self.network.water.density, self.network.water.gravity]),
             (not self.flow.steady, self._near_surface(rows * row_interval), self.water, rate, self.time),
             self.driving,
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
-            (self.time, step, per_load, per_row, rows, first),
+            (self.time, step, per_load, per_row, rows, first, before),
             self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.nets,
-            self.sheets, self.blocks, (*self.watch.system, DRAG_SHARE),
+            self.sheets, self.blocks,
+            (*self.watch.system, DRAG_SHARE, bear),
         )  # fmt: skip
+        taken, broken = abs(int(good)) * per_load * per_row, int(self.watch.broken[0])
+        if broken >= 0:
+            taken += broken - per_load * per_row
         if good < 0:
-            end = self.time - good * row_interval
+            end = self.time + taken * step
+        self.taken, self.steps, self.smallest = self.taken + taken, self.steps + taken, min(self.smallest, step)
         self.time = end
         if not self.flow.steady:
             self.water = self.flow.at(end, self.place)

@@ -289,6 +289,9 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         wet, share = A[WET + k], A[SHARE + k]
         across, skin, lift = wet * A[ACROSS + k], wet * A[SKIN + k], wet * A[LIFT + k]
         more, even = wet * (A[ALONG + k] - A[CROSS + k]), wet * A[CROSS + k]
+        # inverse masses across and along: light bars take much more water along across themselves
+        own = 1.0 / A[LIGHT + k] - A[CROSS + k]
+        light, lighter = 1.0 / (own + even), 1.0 / (own + even + more)
         A[DXX + k] = even + more * tx * tx
         A[DXY + k] = more * tx * ty
         A[DXZ + k] = more * tx * tz
@@ -300,7 +303,8 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
         size = across * math.sqrt(ux * ux + uy * uy + uz * uz)
         slide = skin * abs(along)
-        quick = 2.0 * ahead * (size + slide) * A[LIGHT + k]
+        fast = 2.0 * (size * light + slide * lighter)
+        quick = ahead * fast
         held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
         size, slide = held * size, held * slide * along
         A[AX + k] = size * ux + slide * tx
@@ -312,7 +316,8 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
         other = across * math.sqrt(ux * ux + uy * uy + uz * uz)
         slide = skin * abs(along)
-        quick = 2.0 * ahead * (other + slide) * A[LIGHT + k]
+        faster = 2.0 * (other * light + slide * lighter)
+        quick = ahead * faster
         held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
         other, slide = held * other, held * slide * along
         A[EX + k] = other * ux + slide * tx
@@ -322,8 +327,8 @@ def bar_loads(A: Any, a0: int, b0: int, k0: int, count: int, waves: bool, ahead:
         du, dv, dw = A[U + b] - A[U + a], A[V + b] - A[V + a], A[W + b] - A[W + a]
         along = du * tx + dv * ty + dw * tz
         square = du * du + dv * dv + dw * dw - along * along
-        turn = math.sqrt(square if square > 0.0 else 0.0) / A[LENGTH + k] * 3.0 * abs(more) * A[LIGHT + k]
-        drag = (size + other) * A[LIGHT + k]
+        turn = math.sqrt(square if square > 0.0 else 0.0) * inverse * 3.0 * abs(more) * light
+        drag = fast if fast > faster else faster
         A[RATE + k] = drag if drag > turn else turn
     if waves:
         for i in range(count):
@@ -719,14 +724,17 @@ def march(
     """Advance by whole rows of the result; the array ``A`` and the ledger change in place.
 
     ``waves`` is (water moves, part may be dry, water at the start (7, n), its rate, time of the start); ``timing`` is
-    (time of the state, step, steps per load interval, load intervals per row, rows, first row). ``ledger`` holds: 0
+    (time of the state, step, steps per load interval, load intervals per row, rows, first row, time of the row that is
+    gone already). ``ledger`` holds: 0
     work of the loads, 1 work at driven points, 2 turn of the added mass, 3 the last load interval, 4 whether loads are
     known, 5 whether the velocities stand half a step behind, and from ``LEDGER`` on the impulses on driven points.
     ``saved`` is (position
     (rows, nodes, 3), tension (rows, bars), highest tension since the last row, energies and work (rows, 3), kept nodes,
     kept bars as places in ``A``). ``nets`` is (panels, their matrices (12, n), rings, their moments). ``watch`` is
-    (bars with gauges, gauges, falls on the bed). Returns the number of good rows, fewer than asked for when values are
-    no longer finite, and negative when drag has outrun the step, which has to be chosen anew before the march goes on.
+    (bars with gauges, gauges, falls on the bed, steps done of a row that was broken off or -1, bounds of the rate of
+    drag times the load interval and times the step). Returns the number of good rows, fewer than asked for when values
+    are no longer finite, and negative when drag has outrun the step, which has to be chosen anew before the march goes
+    on: at the end of that row, or within it, which then does not count as good.
 
     Load intervals shrink by themselves while drag is faster than at the start: loads that are held while nodes move to
     and fro would give them energy.
@@ -735,12 +743,13 @@ def march(
     driven, rest, tables, table_start, table_step = driving
     level, friction, has_bed = bed
     moving, surface, water, water_rate, water_time = waves
-    start, step, per_load, per_row, rows, first_row = timing
+    start, step, per_load, per_row, rows, first_row, before = timing
     places, pulls, peaks, energy, keep_nodes, keep_bars = saved
     table, triangles, _, _, sheet_peak = sheets
     cloth, dense = triangles.shape[0] > 0, blocks[0].shape[0] > 0
     floor = level if has_bed else -1e300
-    gauge_bars, gauges, falls, quickest, most = watch
+    gauge_bars, gauges, falls, broken, most, bear = watch
+    broken[0] = -1
     panels, screen, rings, ring_moments = nets
     screened, ringed = panels[0].shape[0] > 0, rings[0].size > 0
     spare = np.zeros((3, screen.shape[1]))
@@ -767,7 +776,6 @@ def march(
             if screened:
                 screens(A, count, panels, 0.5 * fluid[0], screen, size * step, step)
             rate = rate_of_drag(A, spine, runs, attached, sheets[3][0])
-            quickest[0] = max(quickest[0], rate * step)
             if rate * step * size > 1.5 * most:
                 size = max(1, int(most / (rate * step)))
             if dense:
@@ -780,6 +788,10 @@ def march(
             else:
                 ledger[2] += kinetic_energy(A, count) - turning
                 ledger[2] += block_energy(blocks[0], blocks[2], blocks[3], A, U, ROW)
+            # beyond that the values are on their way to infinity: the end of the row says so
+            if bear < rate * step < 1e4:
+                broken[0] = done
+                break
             extrapolate(A, count, min(0.5 * size * step / ledger[3], 1.0))
             ledger[3] = size * step
             ledger[0] += _load_work(A, count, -1.0)
@@ -811,7 +823,7 @@ def march(
                         moved[d, axis] = A[X + axis * ROW + node]
                         # impulse of bars (half a step at both ends of a row) and of loads, and its moment about start
                         share = (0.5 if done + inner == 0 else 1.0) * step
-                        gone = (index + inner) * step
+                        gone = before + (index + inner) * step
                         ledger[LEDGER + 6 * d + axis] += step * A[PX + axis * ROW + node] - share * pull
                         ledger[LEDGER + 6 * d + 3 + axis] += (
                             step * (gone + 0.5 * step) * A[PX + axis * ROW + node] - share * gone * pull
@@ -836,6 +848,8 @@ def march(
                     ledger[0] += screen_work(A, screen, push)
             ledger[0] += _load_work(A, count, 1.0)
             done += size
+        if broken[0] == 0:
+            return -(row + 1)
         # the state at the time of the row: forces here, half a kick
         if loose:
             for axis in range(3):
@@ -850,7 +864,7 @@ def march(
             if ringed:
                 ring_loads(A[X:], A[Y:], A[Z:], rings, A[TX:], A[TY:], A[TZ:], ring_moments)
         spine_forces(A, spine)
-        gone = (row + 1) * total * step
+        gone = before + (row * total + done) * step
         for d in range(driven.shape[0]):
             for axis in range(3):
                 pull = -_node_force(A, driven[d, 0], axis)
@@ -859,6 +873,8 @@ def march(
                 moved[d, axis] = 0.0
                 ledger[LEDGER + 6 * d + axis] -= 0.5 * step * pull
                 ledger[LEDGER + 6 * d + 3 + axis] -= 0.5 * step * gone * pull
+        if broken[0] > 0:
+            return -(row + 1)
         for axis in range(3):
             for i in range(count):
                 keep[axis, i] = A[U + axis * ROW + i]

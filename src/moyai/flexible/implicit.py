@@ -20,6 +20,7 @@ from moyai.flexible.parts import kernel_parts, network_parts
 from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system, mean_size, plan_of
 from moyai.flexible.result import State
 from moyai.flexible.tableaus import TABLEAUS
+from moyai.flexible.watch import watch_of
 
 Array = NDArray[np.float64]
 
@@ -85,6 +86,8 @@ class ImplicitRun:
         )
         self.ledger, self.counts = np.zeros(3), np.zeros(4, dtype=np.int64)
         self.step, self.worst = math.inf, 0
+        self.watch = watch_of(network, np.arange(len(network.bars)))
+        self.watch.in_time()
 
     @property
     def place(self) -> Array:
@@ -128,7 +131,7 @@ class ImplicitRun:
         status, good, reached, self.worst = kernel.implicit_march(
             self._place, self._speed, self.acceleration, self.system, self.parts, self.plan, self.fluid, self.bed,
             (self.water.copy(), self.water, rate, not self.flow.steady), self.driving, self.method, self.control,
-            (self.time, row_interval, rows, first), self.ledger, saved, self.counts,
+            (self.time, row_interval, rows, first), self.ledger, saved, self.counts, self.watch.system[:3],
         )  # fmt: skip
         taken = max(1, int(self.counts[2] - before))
         self.step = min(self.step, (reached - self.time) / taken) if status == kernel.GOOD else self.control[0]

@@ -298,18 +298,53 @@ def _powers(x: Any, v: Any, a: Any, mass: Any, system: Any, fluid: Any, parts: A
 
 
 @njit(cache=True, error_model="numpy")
+def _read_gauges(before: Any, now: Any, step: float, bars: Any, gauges: Any) -> None:
+    """Keep the highest rise of the tension of some bars within two blocks of time, and their highest tension.
+
+    A gauge holds: lowest tension in the block before, in this block, time in this block, length of a block [s], highest
+    rise, highest tension. A step longer than two blocks tells nothing: the error estimate made it smooth.
+    """
+    for g in range(bars.size):
+        first, last, block = before[bars[g]], now[bars[g]], gauges[g, 3]
+        gauges[g, 5] = max(gauges[g, 5], first, last)
+        if step > block:
+            if step <= 2.0 * block:
+                gauges[g, 4] = max(gauges[g, 4], last - first)
+            gauges[g, 0], gauges[g, 1], gauges[g, 2] = last, last, 0.0
+            continue
+        gauges[g, 1] = min(gauges[g, 1], first)
+        gauges[g, 2] += step
+        if gauges[g, 2] > block:
+            gauges[g, 0], gauges[g, 1], gauges[g, 2] = gauges[g, 1], first, step
+        gauges[g, 4] = max(gauges[g, 4], last - min(gauges[g, 0], gauges[g, 1]))
+
+
+@njit(cache=True, error_model="numpy")
+def _note_landings(x: Any, v: Any, bed: Any, falls: Any) -> None:
+    """Keep the highest speed with which each node came down on the bed [eq:flexible-landing]."""
+    for i in range(falls.shape[1]):
+        if x[i, 2] > bed[0]:
+            falls[0, i] = -v[i, 2]
+        elif falls[0, i] > 0.0:
+            falls[1, i] = max(falls[1, i], falls[0, i])
+            falls[0, i] = 0.0
+
+
+@njit(cache=True, error_model="numpy")
 def implicit_march(
     x: Any, v: Any, a: Any, system: Any, parts: Any, plan: Any, fluid: Any, bed: Any, water: Any, driving: Any,
-    method: Any, control: Any, timing: Any, ledger: Any, saved: Any, counts: Any,
+    method: Any, control: Any, timing: Any, ledger: Any, saved: Any, counts: Any, watch: Any,
 ) -> tuple[int, int, float, int]:  # fmt: skip
     """Advance by rows of the result with an error-controlled implicit Runge-Kutta method [eq:flexible-dirk].
 
     ``water`` is (now, at the start, rate, moving); ``method`` is (stages, embedded, exponent); ``control`` is 0 step, 1
     smallest step, 2 largest step, 3 tolerance, 4 length for the error of place, 5 largest tension so far, 6 fixed step
     (1) or not (0), 7 force left at a failure [N]; ``counts`` is force evaluations, factorisations, steps, rejected
-    steps. Returns status, good rows, time reached, node of the largest force left.
+    steps; ``watch`` is (bars with gauges, gauges, falls on the bed). Returns status, good rows, time reached, node of
+    the largest force left.
     """
     nodes, start = system[0], system[2]
+    gauge_bars, gauges, falls = watch
     stages, embedded, exponent = method
     now_water, base, rate, moving = water
     time, interval, rows, first_row = timing
@@ -420,6 +455,8 @@ def implicit_march(
             if parts is not None:
                 slack[:] = loose
                 control[5] = max(control[5], highest)
+            _read_gauges(pulled, tension, h, gauge_bars, gauges)
+            _note_landings(x, v, bed, falls)
             pulled[:] = tension
             risen[:] = rises
             ledger[0] += work[0]

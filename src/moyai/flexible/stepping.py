@@ -9,16 +9,19 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, Network
+from moyai.flexible.peak_notices import peak_notices
 from moyai.flexible.result import State
 
 Array = NDArray[np.float64]
@@ -37,6 +40,9 @@ class _SteppedRun(ExplicitRun):
 
     def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
         """Return the last choice for an interval of this length, a fresh one otherwise."""
+        if self.parted:
+            # what is left of a row that drag has broken off
+            return super().choose(row_interval, wanted)
         if self._choice is None or abs(row_interval - self._choice[0]) > 1e-9 * row_interval:
             step, per_load, per_row = super().choose(row_interval, wanted)
             if per_load * per_row < LEAST_STEPS:
@@ -166,7 +172,7 @@ class SteppedNetwork:
         self._row = (*(np.zeros(shape) for shape in shapes), self.keep_nodes, self.keep_bars)
         self.run.first_row(self._row)
         self._history: list[tuple[Array, ...]] = []
-        self._before, self._accepted = start.time, 0
+        self._accepted = 0
         self._peak, self._trough = self._row[2][0].copy(), self._row[1][0].copy()
         self.keep_row()
         self._kept, self._energy, self._fresh = self._snapshot(), self._row[3][0].copy(), True
@@ -214,12 +220,17 @@ class SteppedNetwork:
         width = max(int(packed.sizes.max()), ribs) + 8
         return packed.memory[: kernel.TOTAL_ROWS * kernel.ROW].reshape(kernel.TOTAL_ROWS, kernel.ROW)[:, :width]
 
-    def _snapshot(self) -> tuple[Array, float, float, Array, Array]:
+    def _snapshot(self) -> tuple[Any, ...]:
         run = self.run
-        return self._rows_of_memory().copy(), run.time, run.step, run.water.copy(), run.ledger.copy()
+        return (
+            self._rows_of_memory().copy(), run.time, run.step, run.water.copy(), run.ledger.copy(), run.watch.seen,
+            run.sheets[3].copy(),
+        )  # fmt: skip
 
     def _restore(self) -> None:
-        rows, self.run.time, self.run.step, water, ledger = self._kept
+        rows, self.run.time, self.run.step, water, ledger, seen, gauge = self._kept
+        self.run.watch.see_again(seen)
+        self.run.sheets[3][:] = gauge
         self._rows_of_memory()[:] = rows
         self.run.water, self.run.ledger[:] = water.copy(), ledger
         self._fresh = True
@@ -278,15 +289,14 @@ class SteppedNetwork:
         """Keep the last tried step."""
         self._kept, self._fresh = self._snapshot(), True
         self._accepted += 1
-        if self._accepted % _CHOSEN_FOR == 0:
+        if self._accepted % _CHOSEN_FOR == 0 or self.run.parted:
             self.run.forget()
         self._now = self._next.copy()
         np.maximum(self._peak, self._row[2][0], out=self._peak)
         np.minimum(self._trough, self._row[1][0], out=self._trough)
-        self.steps += round((self.run.time - self._before) / self.run.step) if self.run.step else 0
-        self._before = self.run.time
+        self.steps += self.run.taken
         self._energy = self._row[3][0].copy()
-        self.smallest = min(self.smallest, self.run.step)
+        self.smallest = min(self.smallest, self.run.smallest)
 
     def keep_row(self) -> None:
         """Add the accepted state to the record."""
@@ -295,6 +305,11 @@ class SteppedNetwork:
             (np.array(self.run.time), places[0].copy(), pulls[0].copy(), self._peak, self._trough, energy[0].copy())
         )
         self._peak, self._trough = np.full_like(self._peak, -np.inf), np.full_like(self._trough, np.inf)
+
+    def notices(self, record: StepRecord, check: IdentityCheck, finished: bool) -> tuple[Notice, ...]:
+        """Return what makes the peaks of the record doubtful, as :func:`moyai.flexible.simulate.simulate` tells it."""
+        self._restore()
+        return peak_notices(self.network, self.run, record.bars, record.tension_peak, check, finished)
 
     def record(self) -> StepRecord:
         """Return what the network did at the kept rows."""

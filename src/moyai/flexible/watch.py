@@ -1,4 +1,4 @@
-"""What the explicit scheme watches at every step beside its result: fronts at the ends of lines, falls on the bed."""
+"""What both kinds of schemes watch at every step beside their result: fronts at the ends of lines, falls on the bed."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from moyai.flexible.fronts import WINDOW, Front, travel_time
 from moyai.flexible.network import Network
-from moyai.flexible.packing import Packed
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+#: Part of a rise that the stop of landing nodes could make at most, below which they are not held to have made it.
+LEAST_SHARE = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,45 +31,75 @@ class Watch:
     places : ndarray of int, shape (g,)
         Its bar in the array of the kernels.
     gauges : ndarray, shape (g, 6)
-        See :func:`moyai.flexible.explicit_kernel.read_gauges`.
+        See :func:`moyai.flexible.explicit_kernel.read_gauges`; in the implicit schemes its blocks are counted in
+        seconds.
+    within : ndarray, shape (g,)
+        Longest time within which a rise was seen [s].
     falls : ndarray, shape (2, n)
         See :func:`moyai.flexible.explicit_kernel.note_landings`; of no nodes without a bed.
-    quickest : ndarray, shape (1,)
-        Highest rate of drag times the step.
+    broken : ndarray of int, shape (1,)
+        Steps done of a row that was broken off, -1 when none was.
     """
 
     strands: IntArray
     travel: Array
     places: IntArray
     gauges: Array
+    within: Array
     falls: Array
-    quickest: Array
+    broken: IntArray
+
+    @property
+    def seen(self) -> tuple[Array, Array, Array]:
+        """What a step that is tried again has to give back."""
+        return self.gauges.copy(), self.within.copy(), self.falls.copy()
+
+    def see_again(self, seen: tuple[Array, Array, Array]) -> None:
+        """Return to what was seen before."""
+        self.gauges[:], self.within[:], self.falls[:] = seen
 
     @property
     def system(self) -> Any:
         """What the kernels take."""
-        return self.places, self.gauges, self.falls, self.quickest
+        return self.places, self.gauges, self.falls, self.broken
 
     def at_step(self, step: float) -> None:
         """Fit the blocks of the gauges to the step of the run; a rise is seen over one block to two."""
         self.gauges[:, 3] = np.maximum(1.0, np.floor(0.5 * WINDOW * self.travel / step))
+        # lines of few bars cannot be watched as finely
+        np.maximum(self.within, 2.0 * step * self.gauges[:, 3], out=self.within)
+
+    def in_time(self) -> None:
+        """Count the blocks of the gauges in seconds."""
+        self.gauges[:, 3] = 0.5 * WINDOW * self.travel
 
     def fronts(self, network: Network) -> list[Front]:
         """Return what the gauges have seen, and how fast nodes of the same line came down on the bed."""
         found = []
-        for strand, travel, gauge in zip(self.strands, self.travel, self.gauges, strict=True):
-            nodes = network.strands[strand].nodes
+        for strand, travel, within, gauge in zip(self.strands, self.travel, self.within, self.gauges, strict=True):
+            nodes, bars = network.strands[strand].nodes, network.strands[strand].bars
             fall = float(self.falls[1, nodes].max()) if self.falls.shape[1] else 0.0
-            found.append(
-                Front(
-                    int(strand), float(gauge[5]), max(float(gauge[4]), 0.0), WINDOW * float(travel), float(travel), fall
-                )
-            )
+            rise = max(float(gauge[4]), 0.0)
+            if fall * stiffest_impedance(network, bars) < LEAST_SHARE * rise:
+                # nodes that lie on the bed and quiver there do not make it
+                fall = 0.0
+            found.append(Front(int(strand), float(gauge[5]), rise, float(within), float(travel), fall))
         return found
 
 
-def watch_of(network: Network, packed: Packed) -> Watch:
-    """Return the watch of a network."""
+def stiffest_impedance(network: Network, bars: IntArray) -> float:
+    """Return the highest sqrt(EA m) of some bars [N s/m]: what a stop of one metre per second can make at most."""
+    kinds = [network.bars.types[slot] for slot in np.unique(network.bars.kind[bars])]
+    return max(
+        float(
+            np.sqrt((kind.axial_stiffness if kind.curve is None else kind.curve.stiffness.max()) * kind.mass_per_length)
+        )
+        for kind in kinds
+    )
+
+
+def watch_of(network: Network, places: IntArray) -> Watch:
+    """Return the watch of a network whose bars stand at these places in the array of the kernels."""
     lines = [number for number, strand in enumerate(network.strands) if strand.bars.size > 1]
     ends = np.array([network.strands[number].bars[end] for number in lines for end in (0, -1)], dtype=np.int64)
     travel = np.array([travel_time(network, number) for number in lines]).repeat(2)
@@ -75,4 +107,7 @@ def watch_of(network: Network, packed: Packed) -> Watch:
     gauges[:, :2], gauges[:, 3] = np.inf, 1.0
     count = 0 if network.bed is None else len(network.nodes)
     strands = np.array(lines, dtype=np.int64).repeat(2)
-    return Watch(strands, travel, packed.place[ends], gauges, np.zeros((2, count)), np.zeros(1))
+    return Watch(
+        strands, travel, np.asarray(places, dtype=np.int64)[ends], gauges, WINDOW * travel, np.zeros((2, count)),
+        np.full(1, -1, dtype=np.int64),
+    )  # fmt: skip
