@@ -226,6 +226,9 @@ def _shares(problem: Relaxation, place: Array) -> list[float]:
     load = float(np.linalg.norm(problem._loads_at(place, 0.0) * problem.free, axis=1).sum())
     extent = float(np.max(np.ptp(problem.network.nodes.position, axis=0)))
     stiffest = max(part.stiffness for part in problem.parts) * max(extent, 1e-300)
+    if load <= 1e-9 * stiffest:
+        # next to nothing stretches it: there is no way to go
+        return [1.0]
     share, shares = min(1.0, 10.0 * load / stiffest), []
     while share < 0.2:
         shares.append(share)
