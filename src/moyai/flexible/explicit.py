@@ -267,7 +267,8 @@ class ExplicitRun:
     ) -> int:
         """March with one step; a negative number of good rows asks for another one.
 
-        ``interval`` is that of the rows, and what is gone of the only one already; rows are broken off when ``watchful``.
+        ``interval`` is that of the rows, and what is gone of the only one already; a row is broken off when
+        ``watchful``.
         """
         row_interval, before = interval
         step, per_load, per_row = self.choose(row_interval, wanted)
