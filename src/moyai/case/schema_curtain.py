@@ -432,7 +432,8 @@ class Dynamic(Block):
         default="uniform", description="Speed of a drifting start over the span: the same, or as the sag."
     )
     settled_periods: Annotated[int, Field(ge=0)] = Field(
-        default=1, description="Periods of regular waves left out after the ramp of one period. Default: 1."
+        default=1,
+        description="Periods left out after the ramp of one period; peak periods of an irregular sea. Default: 1.",
     )
     analysed_periods: Whole = Field(default=3, description="Periods of regular waves analysed. Default: 3.")
     wave_count: Annotated[int, Field(ge=2, le=2000)] = Field(

@@ -15,7 +15,7 @@ from moyai.curtain.analysis_dynamic import dynamic_answer
 from moyai.curtain.analysis_impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
 from moyai.curtain.analysis_impact_groups import impact_groups
 from moyai.curtain.analysis_limits import fastest_water, limits_dataset
-from moyai.curtain.analysis_loads import loads_dataset
+from moyai.curtain.analysis_loads import NOT_MOVED, DynamicLoads, dynamic_loads_dataset, loads_dataset
 from moyai.curtain.analysis_record import record_dataset, record_ratios
 from moyai.curtain.analysis_statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.curtain.analysis_waves import wave_answer
@@ -129,6 +129,7 @@ def _level_steps(
         collected.checks.extend(anchor_checks(unit, loads))
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
+    tensions: DynamicLoads = NOT_MOVED
     if "dynamic" in settings.analyses and settings.dynamic is not None:
         moved = dynamic_answer(unit, settings, seas, progress)
         collected.groups.update(
@@ -138,15 +139,20 @@ def _level_steps(
         collected.notices.extend(moved.notices)
         if moved.interrupted:
             raise KeyboardInterrupt
+        tensions = moved.loads
         yield
     if not {"statics", "impact", "waves", "anchor_loads", "limits"} & set(settings.analyses):
+        table, notices = dynamic_loads_dataset(unit, tensions)
+        collected.groups[f"{root}/loads"] = table
+        collected.notices.extend(notices)
+        yield
         return
     curve = drag_curve(unit, fastest_water(unit, settings, waves))
     proportions = answer
     if proportions is None and "waves" in settings.analyses:
         # snaps in waves load the components in the proportions of an impact at the current's speed
         proportions = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
-    table, notices = loads_dataset(unit, settings, waves, tuple(oscillator), answer, proportions, curve)
+    table, notices = loads_dataset(unit, settings, waves, tuple(oscillator), answer, proportions, curve, tensions)
     collected.groups[f"{root}/loads"] = table
     collected.notices.extend(notices)
     yield

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -33,11 +34,12 @@ _LONGER = 4
 
 @dataclass(frozen=True)
 class DynamicAnswer:
-    """Groups of one run, what must be told, its checks, and whether the user stopped it."""
+    """Groups of one run, what must be told, its checks, the highest tensions, and whether the user stopped it."""
 
     groups: dict[str, xr.Dataset]
     checks: tuple[IdentityCheck, ...]
     notices: tuple[Notice, ...]
+    loads: Mapping[str, tuple[float, str]]
     interrupted: bool = False
 
 
@@ -71,7 +73,8 @@ def dynamic_answer(
         interrupted = run.history.status == "interrupted"
         if run.history.status == "not_converged":
             notices.append(
-                Notice("dynamic-stopped", f"{place}: {run.history.message}", math.nan, math.nan, "error",
+                Notice("dynamic-stopped", f"{place}: {run.history.message}; its last instants are no motion of the "
+                       "curtain, and no peak of it is given", math.nan, math.nan, "error",
                        "take a finer mesh or more viscosity", "guard on the energy of the run")
             )  # fmt: skip
         elif given.sensitivity and not interrupted:
@@ -100,7 +103,19 @@ def dynamic_answer(
     models = _models(unit, settings)
     if models is not None:
         groups[""] = groups[""].merge(models)
-    return DynamicAnswer(groups, tuple(checks), tuple(notices), interrupted)
+    return DynamicAnswer(groups, tuple(checks), tuple(notices), _loads(plans, rows), interrupted)
+
+
+def _loads(plans: list[Plan], rows: list[dict[str, float]]) -> dict[str, tuple[float, str]]:
+    """Return the highest tension of each component over the runs, and the run in which it stands."""
+    keys = {"upper cable": "upper_peak", "lower cable": "lower_peak", "skirt": "skirt_peak",
+            "anchor line": "anchor_peak"}  # fmt: skip
+    found: dict[str, tuple[float, str]] = {}
+    for component, key in keys.items():
+        known = [(row[key], plan.name) for row, plan in zip(rows, plans, strict=False) if row[key] > 0.0]
+        if known:
+            found[component] = max(known)
+    return found
 
 
 def _through(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +27,9 @@ from moyai.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Highest tension of components in runs of the whole span [N, N/m], and the run in which each stands.
+DynamicLoads = Mapping[str, tuple[float, str]]
+NOT_MOVED: DynamicLoads = MappingProxyType({})
 _UNITS = {"skirt": "N/m", "float": "N/m"}
 _FIELDS = {
     "upper cable": "upper_cable",
@@ -53,6 +58,7 @@ def loads_dataset(
     answer: ImpactAnswer | None,
     proportions: ImpactAnswer | None,
     curve: DragCurve,
+    moved: DynamicLoads = NOT_MOVED,
 ) -> tuple[xr.Dataset, tuple[Notice, ...]]:
     """Return the group ``loads`` and its notices.
 
@@ -70,9 +76,9 @@ def loads_dataset(
         By which the tension of slack and taut cycles goes to the components; None where they were not run.
     curve : DragCurve
         Loads at rest, up to :func:`moyai.curtain.analysis_limits.fastest_water`.
+    moved : mapping
+        Highest tension of a component in runs of the whole span [N, N/m] and the run in which it stands.
     """
-    import xarray as xr
-
     statics = unit.statics if unit.surface_speed > 0.0 else None
     sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve)
     struck = AddedLoads() if answer is None else impact_load(unit, answer, settings).of_tension(answer.design_tension)
@@ -87,6 +93,23 @@ def loads_dataset(
         if component == "skirt" and answer is not None and math.isnan(answer.half_angle):
             hit = math.nan
         rows.append(_row(unit, component, steady, wave, hit, best.source, name))
+    data, told = _table(unit, rows, moved)
+    return data, (*notices, *told)
+
+
+def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> tuple[xr.Dataset, tuple[Notice, ...]]:
+    """Return the group ``loads`` and its notices where runs of the whole span are all there is."""
+    none = math.nan
+    rows = [_row(unit, component, none, none, none, "", "") for component in COMPONENTS]
+    return _table(unit, [row | {"governing_load": none, "utilisation": none, "governing": ""} for row in rows], moved)
+
+
+def _table(
+    unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads
+) -> tuple[xr.Dataset, tuple[Notice, ...]]:
+    import xarray as xr
+
+    rows = [_with_motion(unit, row, moved) for row in rows]
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
     governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
@@ -95,7 +118,24 @@ def loads_dataset(
         coords={"component": list(COMPONENTS)},
         attrs={"governing_component": "" if governing is None else str(governing["component"])},
     )
-    return labelled(data), (*notices, *_strength_notices(unit, rows))
+    return labelled(data), _strength_notices(unit, rows)
+
+
+def _with_motion(unit: LevelCurtain, row: dict[str, float | str], moved: DynamicLoads) -> dict[str, float | str]:
+    """Return a row with the load of the moving span, which governs where it is higher.
+
+    It bears current, waves and snaps together, so that nothing is added to it.
+    """
+    component = str(row["component"])
+    line, run = moved.get("anchor line" if component == "anchor" else component, (math.nan, ""))
+    load = line * _factor(unit, component) if component == "anchor" else line
+    row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
+    if not math.isfinite(load) or float(row["governing_load"]) >= load:
+        return row
+    row |= {"governing_load": load, "governing": "dynamic"}
+    if math.isfinite(float(row["capacity"])):
+        row["utilisation"] = _strength(unit, component).utilisation(load)
+    return row
 
 
 def _wave_sources(

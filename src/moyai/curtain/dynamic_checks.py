@@ -17,6 +17,9 @@ MOST_VISCOUS = 0.3
 #: Part of the skirt's depth that is left below which a risen toe is told; change of the peaks of two periods beyond
 #: which a motion has not settled; part of a run at its end in which a peak is not known to be one.
 _RISEN, _UNSETTLED, _AT_END = 0.8, 0.1, 0.02
+#: The same below which the added mass of the whole depth is far too large; peak of the first half of what is counted
+#: of an irregular sea over that of the second, from which it is taken for that of the start.
+_FLAT, _STARTED = 0.5, 1.5
 #: Elastic over kinetic energy of a start that is said to be just taut.
 _STRAINED = 0.05
 
@@ -72,6 +75,8 @@ def run_notices(run: DynamicRun, place: str, period: float, regular: bool) -> tu
         found.append(_before(run, place))
         if regular:
             found.append(_unsettled(run, place, period))
+        else:
+            found.append(_started(run, place, period))
     return tuple(notice for notice in found if notice is not None)
 
 
@@ -93,11 +98,11 @@ def _risen(run: DynamicRun, place: str) -> Notice | None:
     left = float(np.min(reach / first[None, :]))
     if left >= _RISEN:
         return None
+    way = f"until {100.0 * left:.0f} % of the skirt's depth are left" if left > 0.0 else "as high as the upper edge"
     return Notice(
         "dynamic-risen-toe",
-        f"{place}: the toe rises until {100.0 * left:.0f} % of the skirt's depth are left; its added mass is "
-        "that of the whole depth",
-        left, _RISEN, "information", "take more ballast, or read the peak as high",
+        f"{place}: the toe rises {way}; the added mass is that of the whole depth",
+        left, _RISEN, "information" if left > _FLAT else "warning", "take more ballast, or read the peak as high",
         "sections of added mass are those of the skirt that hangs",
     )  # fmt: skip
 
@@ -151,6 +156,28 @@ def _before(run: DynamicRun, place: str) -> Notice | None:
         f"{when:.4g} s), after it {plain(peak)} N",
         high / peak, 1.0 + _UNSETTLED, "information", "a sea that comes up this quickly is rare; judge by which one is "
         "asked for", "highest tension of the settling time",
+    )  # fmt: skip
+
+
+def _started(run: DynamicRun, place: str, period: float) -> Notice | None:
+    """Tell a peak of an irregular sea that belongs to the start, while current and waves come up."""
+    if run.history.status != "converged":
+        return None
+    # the highest crest of the sea stands at three fifths of the run
+    time, both = run.history.time, run.both
+    late = time > 0.5 * float(time[-1])
+    peak, when = run.peak("both")
+    after = float(both[late].max())
+    if bool(late[int(np.argmin(np.abs(time - when)))]) or peak <= _STARTED * after:
+        return None
+    return Notice(
+        "dynamic-start",
+        f"{place}: the highest tension of both cables, {plain(peak)} N, stands at {when:.4g} s, {when / period:.2g} "
+        f"peak periods after the start from rest; in the second half of the run, with its highest crest, they bear at "
+        f"most {plain(after)} N: the peaks are those of a current and waves that come up within one period",
+        peak / after if after > 0.0 else math.inf, _STARTED, "warning",
+        "give more 'settings.dynamic.settled_periods' with a larger 'wave_count' to leave the start out",
+        "tensions of both halves of the run",
     )  # fmt: skip
 
 

@@ -73,6 +73,11 @@ def run_dataset(
         "skirt_peak": skirt,
         **{f"{key}_peak": getattr(total, key) for key in _TRIALS},
     }  # fmt: skip
+    if history.status == "not_converged":
+        # the last instants of a run that had to stop are no motion of the span: nobody shall design with them
+        summary = dict.fromkeys(summary, math.nan)
+        for name in ("line_peak", "line_peak_time"):
+            data[name] = ("line", [math.nan] * len(names))
     attributes = {
         "status": history.status, "time_step": history.step, "steps": history.steps, "counted_from": run.from_time,
         "period": plan.period, "cells_along": run.built.mesh.along, "cells_down": run.built.mesh.down,

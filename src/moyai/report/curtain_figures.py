@@ -16,7 +16,8 @@ from moyai.report.reading import Group, common_scale
 Array = NDArray[np.float64]
 
 _BINS = 700  # stretches of a long record whose extremes are drawn
-_SHARES = (("steady", "steady load", 0), ("wave", "added by waves", 2), ("impact", "added by the impact", 1))
+_SHARES = (("steady", "steady load", 0), ("wave", "added by waves", 2), ("impact", "added by the impact", 1),
+           ("dynamic", "whole span through time", 4))  # fmt: skip
 
 
 def _thinned(values: Array) -> NDArray[np.int64]:
@@ -40,8 +41,8 @@ def utilisation_bars(level: CurtainLevel) -> Figure | None:
         (Abscissa("component", "component"),),
         (Panel("load times safety factor over capacity", from_zero=True),),
         tuple(series),
-        "Governing: the steady load with the larger of what waves or impact add. Components without a strength in the "
-        "case are left out.",
+        "Governing: the steady load with the larger of what waves or impact add, or the tension of the whole span. "
+        "Components without a strength in the case are left out.",
         (Mark("limit", y=1.0),),
         categories=names,
         height=330,

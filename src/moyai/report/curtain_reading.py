@@ -28,7 +28,7 @@ LEVEL_GROUPS = (
     "dynamic",
 )
 GIVEN = "given"
-PARTS = ("steady", "wave", "impact", "governing")
+PARTS = ("steady", "wave", "impact", "dynamic", "governing")
 
 
 @dataclass(frozen=True)
@@ -85,14 +85,15 @@ class Component:
     ----------
     name : str
     loads : dict
-        ``steady``, and what ``wave`` and ``impact`` add to it; ``governing`` is the steady load with the larger.
+        ``steady``, and what ``wave`` and ``impact`` add to it; ``dynamic`` is that of the whole span through time;
+        ``governing`` is the steady load with the larger of what is added, or the dynamic one where it is higher.
     unit : str
         ``N`` or ``N/m``.
     capacity, safety_factor, utilisation : float
     governing : str
         Words for what governs.
     sources : tuple of str
-        Where wave and impact come from.
+        Where wave and impact come from, and the run of the whole span.
     """
 
     name: str
@@ -102,7 +103,7 @@ class Component:
     safety_factor: float
     utilisation: float
     governing: str
-    sources: tuple[str, str]
+    sources: tuple[str, str, str]
 
     def share(self, part: str) -> float:
         """Return the utilisation by one part of the load alone, NaN where not known or where it does not count."""
@@ -167,7 +168,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
     capacity, factor, used = column("capacity"), column("safety_factor"), column("utilisation")
     units = words(group, "load_unit", "component", len(names))
     governing = words(group, "governing", "component", len(names))
-    waves, impacts = (words(group, f"{what}_source", "component", len(names)) for what in ("wave", "impact"))
+    sources = [words(group, f"{what}_source", "component", len(names)) for what in ("wave", "impact", "dynamic")]
     return tuple(
         Component(
             name,
@@ -177,7 +178,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
             float(factor[row]),
             float(used[row]),
             governing[row],
-            (waves[row], impacts[row]),
+            (sources[0][row], sources[1][row], sources[2][row]),
         )
         for row, name in enumerate(names)
     )

@@ -95,7 +95,7 @@ def _beyond_current(levels: tuple[CurtainLevel, ...]) -> str:
 
 def _utilisation_figure(worst: tuple[CurtainLevel, Component] | None) -> list[KeyFigure]:
     if worst is None:
-        return [KeyFigure("Utilisation", DASH, "no strength is given in the case")]
+        return [KeyFigure("Utilisation", DASH, "nothing that was computed has a strength in the case")]
     level, entry = worst
     return [
         KeyFigure(

@@ -101,6 +101,8 @@ def load_tables(level: CurtainLevel) -> list[Table]:
     def loads(part: str) -> list[Cell]:
         return [entry.loads[part] * unit.factor for entry, unit in zip(found, shown, strict=True)]
 
+    # only where whole spans were run
+    moving = any(math.isfinite(entry.loads["dynamic"]) for entry in found)
     return [
         Table(
             key(level, "loads"),
@@ -111,6 +113,7 @@ def load_tables(level: CurtainLevel) -> list[Table]:
                 Column("Steady", loads("steady"), uniform=False),
                 Column("Added by waves", loads("wave"), uniform=False),
                 Column("Added by the impact", loads("impact"), uniform=False),
+                *((Column("Whole span", loads("dynamic"), uniform=False),) if moving else ()),
                 Column("Governing", loads("governing"), uniform=False),
                 Column("Governed by", [entry.governing for entry in found]),
                 Column(
@@ -121,8 +124,10 @@ def load_tables(level: CurtainLevel) -> list[Table]:
                 Column("Safety factor", [entry.safety_factor for entry in found]),
                 Column("Utilisation", [entry.utilisation for entry in found]),
             ),
-            note="Governing: the steady load with the larger of what waves or impact add. Utilisation: governing load "
-            "times safety factor over capacity; a dash where the case gives no strength.",
+            note="Governing: the steady load with the larger of what waves or impact add"
+            + (", or the highest tension of the whole span through time where that is higher" if moving else "")
+            + ". Utilisation: governing load times safety factor over capacity; a dash where the case gives no "
+            "strength.",
             emphasised=_worst(level),
             failed=tuple(row for row, entry in enumerate(found) if entry.utilisation > 1.0),
         ),
@@ -133,6 +138,7 @@ def load_tables(level: CurtainLevel) -> list[Table]:
                 Column("Component", [entry.name for entry in found]),
                 Column("Waves", [entry.sources[0] or DASH for entry in found]),
                 Column("Impact", [entry.sources[1] or DASH for entry in found]),
+                *((Column("Whole span", [entry.sources[2] or DASH for entry in found]),) if moving else ()),
             ),
             collapsed=True,
         ),

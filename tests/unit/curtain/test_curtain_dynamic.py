@@ -532,3 +532,75 @@ def test_a_stopped_run_is_kept(tmp_path: Path, part: float) -> None:
     assert run.attrs["status"] == ("interrupted" if part < 1.0 else "converged")
     assert run.sizes["time"] > 100 and float(table["both_peak"][0]) >= 0.0
     assert any(notice.code == "dynamic-interrupted" for notice in result.notices)
+
+
+STRONG = {
+    "{axial_stiffness: 400 kN}, lower": "{axial_stiffness: 400 kN, breaking_load: 9 kN}, lower",
+    "cells_down: 4}": "cells_down: 4, sensitivity: false}, safety_factors: {cable: 3}",
+}
+
+
+def changed(text: str, changes: dict[str, str]) -> str:
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.mark.parametrize("analyses", ["dynamic", "statics, dynamic"])
+def test_moving_spans_are_held_against_the_strengths(tmp_path: Path, analyses: str) -> None:
+    """The table of loads takes the highest tension of a span where it is above that of statics."""
+    text = changed(CASE, STRONG | {"analyses: [dynamic]": f"analyses: [{analyses}]"})
+    result = moyai.run(moyai.load_case(write(tmp_path, text)))
+    peak = float(result.tree["/SWL/dynamic"].to_dataset()["upper_peak"][0])
+    loads = result.tree["/SWL/loads"].to_dataset()
+    row = loads.sel(component="upper cable")
+    assert peak > 3e3
+    assert float(row["governing_load"]) == float(row["dynamic_load"]) == peak
+    assert float(row["utilisation"]) == pytest.approx(peak * 3.0 / 9e3)
+    assert str(row["governing"].values) == "dynamic"
+    assert str(row["dynamic_source"].values) == "snap in the current"
+    assert loads.attrs["governing_component"] == "upper cable"
+    assert [notice.code for notice in result.notices].count("curtain-strength") == 1
+    steady = float(row["steady_load"])
+    assert steady < peak if "statics" in analyses else np.isnan(steady)
+    assert np.isnan(float(loads.sel(component="anchor")["governing_load"]))
+
+
+def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its last instants are no motion of the curtain; the series stays for the search of the cause."""
+    import moyai.curtain.analysis_dynamic as analysis
+
+    def stopping(*given: object, **more: object) -> DynamicRun:
+        run = run_span(*given, **more)  # type: ignore[arg-type]
+        return replace(run, history=replace(run.history, status="not_converged", message="the energy grew at 3 s"))
+
+    monkeypatch.setattr(analysis, "run_span", stopping)
+    result = moyai.run(moyai.load_case(write(tmp_path, changed(CASE, STRONG))))
+    table = result.tree["/SWL/dynamic"].to_dataset()
+    run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
+    assert np.isnan(table["both_peak"]).all() and np.isnan(run["line_peak"]).all()
+    assert float(run["both_tension"].max()) > 0.0
+    assert np.isnan(result.tree["/SWL/loads"].to_dataset()["utilisation"]).sum() >= 6
+    assert any("no peak of it is given" in notice.message for notice in result.notices)
+    moyai.write_report(result, tmp_path / "report")
+
+
+def test_the_start_of_an_irregular_sea_is_told(tmp_path: Path) -> None:
+    """A strong current that comes up in one period pulls harder than the small sea after it."""
+    sea = (
+        "waves: {name: sea, kind: jonswap, significant_height: 0.1 m, significant_period: 3 s, peak_enhancement: 3.3,"
+        " heading_deg: 0, duration: 5 min, seed: 2}\nstructure:\n"
+    )
+    text = changed(CASE, STRONG | {"structure:\n": sea, "speed: 0.3 m/s": "speed: 0.6 m/s"})
+    settled = moyai.run(moyai.load_case(write(tmp_path, text)))
+    assert not any(notice.code == "dynamic-start" for notice in settled.notices)
+    result = moyai.run(
+        moyai.load_case(write(tmp_path, changed(text, {"{cells_along": "{settled_periods: 0, cells_along"})))
+    )
+    told = [notice for notice in result.notices if notice.code == "dynamic-start"]
+    run = result.tree["/SWL/dynamic/sea"].to_dataset()
+    late = run["both_tension"].values[run["time"].values > 0.5 * float(run["time"][-1])]
+    assert len(told) == 1 and told[0].value > 1.5
+    peak = float(result.tree["/SWL/dynamic"].to_dataset()["both_peak"][0])
+    assert told[0].value == pytest.approx(peak / late.max())
