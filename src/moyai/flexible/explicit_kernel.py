@@ -22,7 +22,14 @@ from numba import njit
 from moyai.flexible.mass_block_kernel import STALE, block_energy, block_loads, kick_blocks, refresh_inverse, set_frames
 from moyai.flexible.panel_kernel import screen_loads
 from moyai.flexible.ring_kernel import ring_loads
-from moyai.flexible.sheet_kernel import sheet_added_mass, sheet_energy, sheet_forces, sheet_loads
+from moyai.flexible.sheet_kernel import (
+    PRESSURE,
+    pressure_forces,
+    sheet_added_mass,
+    sheet_energy,
+    sheet_forces,
+    sheet_loads,
+)
 
 #: Which re-orderings the compiler may make: none that assumes the absence of NaN, which marks a blow-up.
 FAST: Any = {"contract", "arcp", "nsz", "reassoc"}
@@ -642,6 +649,26 @@ def _load_work(A: Any, count: int, sign: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
+def _pressure_work(A: Any, count: int, table: Any, triangles: Any, push: Any) -> float:
+    """Return half the work of pressure along the way since the last look, with the push then and with that of now.
+
+    ``push`` (6, n) holds that push and the places then; those of now take their place.
+    """
+    work = 0.0
+    for turn in range(2):
+        for axis in range(3):
+            for i in range(count):
+                gone = A[X + axis * ROW + i] - push[3 + axis, i]
+                work += 0.5 * A[FREE_X + axis * ROW + i] * push[axis, i] * gone
+        if turn == 0:
+            pressure_forces(table, triangles, A, X, ROW, push[:3])
+    for axis in range(3):
+        for i in range(count):
+            push[3 + axis, i] = A[X + axis * ROW + i]
+    return work
+
+
+@njit(cache=True, error_model="numpy")
 def survey(
     A: Any, count: int, arrays: Any, start: Any, end: Any, place: Any, water: Any, gauge: float, drive: float,
     lift: float, reach: float, ahead: float, inverse: Any,
@@ -752,12 +779,17 @@ def march(
     broken[0] = -1
     panels, screen, rings, ring_moments = nets
     screened, ringed = panels[0].shape[0] > 0, rings[0].size > 0
+    pressed = cloth and np.any(table[:, PRESSURE] != 0.0)
+    blown = np.zeros((6, count if pressed else 0))
     spare = np.zeros((3, screen.shape[1]))
     loose = runs.shape[0] > 0 or hinges.shape[0] > 0 or screened or ringed or cloth
     moved, drawn = np.zeros((driven.shape[0], 3)), np.zeros((driven.shape[0], 3))
     keep = np.empty((3, count))
     total = per_row * per_load
     rate = rate_of_drag(A, spine, runs, attached, sheets[3][0])
+    if pressed:
+        # the places of now; there is no way yet
+        _pressure_work(A, count, table, triangles, blown)
     for row in range(rows):
         done = 0
         while done < total:
@@ -847,6 +879,8 @@ def march(
                 if screened:
                     ledger[0] += screen_work(A, screen, push)
             ledger[0] += _load_work(A, count, 1.0)
+            if pressed:
+                ledger[0] += _pressure_work(A, count, table, triangles, blown)
             done += size
         if broken[0] == 0:
             return -(row + 1)

@@ -172,6 +172,24 @@ def sheet_forces(
 
 
 @njit(cache=True, error_model="numpy")
+def pressure_forces(C: Any, triangles: Any, P: Any, p0: int, axis: int, F: Any) -> None:
+    """Write what pressure alone does on the nodes to ``F`` (3, n); places stand one behind the other (node 1)."""
+    p = np.empty(6)
+    F[:, :] = 0.0
+    for t in range(triangles.shape[0]):
+        for a in range(3):
+            step = p0 + a * axis
+            p[a] = P[triangles[t, 1] + step] - P[triangles[t, 0] + step]
+            p[3 + a] = P[triangles[t, 2] + step] - P[triangles[t, 0] + step]
+        push = C[t, PRESSURE] / 6.0
+        for k in range(3):
+            m, n = (k + 1) % 3, (k + 2) % 3
+            out = push * (p[m] * p[3 + n] - p[n] * p[3 + m])
+            for corner in range(3):
+                F[k, triangles[t, corner]] += out
+
+
+@njit(cache=True, error_model="numpy")
 def sheet_energy(C: Any, triangles: Any, P: Any, p0: int, node: int, axis: int) -> float:
     """Return the elastic energy of all triangles [J]."""
     p, q, total = np.empty(6), np.zeros(6), 0.0

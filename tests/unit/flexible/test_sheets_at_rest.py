@@ -1,4 +1,4 @@
-"""Sheets at rest with hardly any load, and partly slack in their plane."""
+"""Sheets at rest with hardly any load, partly slack in their plane, and blown out."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from moyai.flexible.network import FIXED, Bars, Network, Nodes
 from moyai.flexible.relaxation import Relaxation
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid, sheet_stress
+from moyai.flexible.simulate import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 
@@ -145,3 +146,33 @@ def test_sheet_that_nothing_loads_rests_as_built(moved: float) -> None:
     found = solve_equilibrium(network)
     assert found.residual < 1e-5
     assert found.state.position == pytest.approx(place, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_work_of_pressure_is_that_of_the_volume_swept(seed: int) -> None:
+    """Cloth as heavy as water, blown out between fixed edges: p times the volume, and none of it from nowhere."""
+    rng = np.random.default_rng(seed)
+    length, depth, pressure = *rng.uniform(0.5, 3.0, 2), float(rng.choice([-1.0, 1.0]) * rng.uniform(5.0, 50.0))
+    grid = np.arange(30).reshape(6, 5)
+    along, across = np.linspace(0.0, length, 6), np.linspace(0.0, depth, 5)
+    triangles, rest = sheet_grid(grid, along, across)
+    place = np.zeros((30, 3))
+    place[:, :2] = np.stack(np.meshgrid(along, across, indexing="ij"), -1).reshape(-1, 2)
+    place[:, 2] = -3.0
+    kind = np.full(30, FIXED)
+    kind[grid[1:-1, 1:-1].ravel()] = 0
+    sheets = Sheets(
+        triangles, rest, 2e4, 1e4, 3e3, mass_per_area=1.0, volume_per_area=1e-3, pressure=pressure, damping_time=1e-4
+    )
+    network = Network(Nodes(place, kind, np.zeros((30, 3), bool)), NO_BARS, Water(20.0, 1000.0, 9.81), sheets=sheets)
+    run = simulate(network, duration=1.0, output_step=0.05)
+
+    def volume(x: np.ndarray) -> float:
+        a, b, c = (x[sheets.triangles[:, k]] for k in range(3))
+        return float(np.sum(a * np.cross(b, c)) / 6.0)
+
+    swept = np.array([volume(x) for x in run.position]) - volume(run.position[0])
+    assert run.status == "converged"
+    assert not any(notice.code == "energy-from-nowhere" for notice in run.notices)
+    assert np.max(run.work) > 0.0
+    assert run.work - run.work[0] == pytest.approx(pressure * swept, abs=1e-3 * float(np.max(np.abs(pressure * swept))))
