@@ -22,6 +22,8 @@ def check_in_water(problem: CurtainProblem, findings: Findings) -> None:
                 _check_at_rest(unit, findings, where)
             if not findings.faults:
                 _check_impact(problem, unit)
+            if not findings.faults:
+                _check_span(problem, unit)
         except InputError as error:
             _once(findings, said, error, where)
         except ConvergenceError as error:
@@ -58,6 +60,16 @@ _PLACES: dict[str, KeyPath] = {
 def _place(path: str) -> KeyPath:
     """Return where in a case file the solvers' names stand."""
     return _PLACES.get(path, ())
+
+
+def _check_span(problem: CurtainProblem, unit: LevelCurtain) -> None:
+    """Put the whole span together where it is to be run through time: masses, ballast, floats, buoys."""
+    given = problem.settings.dynamic
+    if given is None or "dynamic" not in problem.settings.analyses:
+        return
+    from moyai.curtain.dynamic_span import span_of
+
+    span_of(unit, given)
 
 
 def _check_floats(unit: LevelCurtain, findings: Findings, where: str) -> None:

@@ -20,8 +20,8 @@ _RISEN, _UNSETTLED, _AT_END = 0.8, 0.1, 0.02
 #: The same below which the added mass of the whole depth is far too large; peak of the first half of what is counted
 #: of an irregular sea over that of the second, from which it is taken for that of the start.
 _FLAT, _STARTED = 0.5, 1.5
-#: Elastic over kinetic energy of a start that is said to be just taut.
-_STRAINED = 0.05
+#: Elastic over kinetic energy of a start that is said to be just taut; strain beyond which no rope works.
+_STRAINED, _STRETCHED = 0.05, 0.25
 
 
 def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
@@ -68,7 +68,7 @@ def run_notices(run: DynamicRun, place: str, period: float, regular: bool) -> tu
     regular : bool
         Whether the waves are regular.
     """
-    found = [_risen(run, place), _strained(run, place)]
+    found = [_risen(run, place), _strained(run, place), _stretched(run, place)]
     if run.flow.waves is None:
         found.append(_short(run, place, period))
     else:
@@ -119,6 +119,24 @@ def _strained(run: DynamicRun, place: str) -> Notice | None:
         f"{moving:.3g} J: the peak is the release of that, and grows with the mesh",
         stored / moving if moving > 0.0 else math.inf, _STRAINED, "error", "give a chord as long as the skirt",
         "elastic energy of the start",
+    )  # fmt: skip
+
+
+def _stretched(run: DynamicRun, place: str) -> Notice | None:
+    """Tell cables and lines that stretch as no rope does: more often a wrong unit of EA than a rope."""
+    span = run.built.span
+    lines = 0.0 if span.support is None else span.support.stiffness
+    known = {"upper cable": span.upper_stiffness, "lower cable": span.lower_stiffness}
+    strains = {name: run.peak(name)[0] / known.get(name, lines) for name in run.names}
+    name = max(strains, key=lambda one: strains[one])
+    if run.history.status == "not_converged" or strains[name] <= _STRETCHED:
+        return None
+    return Notice(
+        "dynamic-stretched",
+        f"{place}: {name} is stretched by {100.0 * strains[name]:.0f} %, which ropes and chains are not: its EA is "
+        f"{plain(known.get(name, lines))} N",
+        strains[name], _STRETCHED, "warning", "see whether the stiffness is given in the unit that is meant",
+        "highest tension over EA",
     )  # fmt: skip
 
 

@@ -64,6 +64,12 @@ class AnchorLines:
         """
         if self.slope is not None:
             return self.slope
+        if math.isinf(depth):
+            raise InputError(
+                "anchor lines in water of infinite depth reach no bed",
+                path="site.water_depth",
+                remedy="give the depth, or 'slope_deg' of the lines",
+            )
         if not self.length > depth:
             raise InputError(
                 f"an anchor line of {self.length:g} m in water of {depth:g} m",

@@ -604,3 +604,26 @@ def test_the_start_of_an_irregular_sea_is_told(tmp_path: Path) -> None:
     assert len(told) == 1 and told[0].value > 1.5
     peak = float(result.tree["/SWL/dynamic"].to_dataset()["both_peak"][0])
     assert told[0].value == pytest.approx(peak / late.max())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("mass_per_area: 0.8 kg/m2, sheet_density: 1380 kg/m3", "submerged_weight: 3 N/m2", "cannot weigh 3 N/m2"),
+        ("cells_along: 8", "cells_along: 8, ballast_density: 900 kg/m3", "ballast of 900 kg/m3 floats"),
+    ],
+)
+def test_masses_that_cannot_be_are_found_before_the_run(tmp_path: Path, old: str, new: str, words: str) -> None:
+    text = changed(CASE, {"cells_along: 8": "cells_along: 8, sheet_mass: 0.1 kg/m2", old: new})
+    with pytest.raises(CaseError, match=words):
+        moyai.load_case(write(tmp_path, text))
+
+
+@pytest.mark.slow
+def test_cables_that_stretch_as_no_rope_are_told(tmp_path: Path) -> None:
+    """Newtons for kilonewtons."""
+    text = changed(CASE, STRONG | {"400 kN": "400 N"})
+    result = moyai.run(moyai.load_case(write(tmp_path, text)))
+    told = [notice for notice in result.notices if notice.code == "dynamic-stretched"]
+    run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
+    assert len(told) == 1 and told[0].value == pytest.approx(float(run["line_peak"].max()) / 400.0)
