@@ -108,3 +108,25 @@ def _hung(stiffness, rows, alone):
 def test_every_kind_of_run_tells_of_fronts_and_of_ropes_beyond_their_curves(how, rows):
     codes = [notice.code for notice in _hung(1e4, rows, how).notices]
     assert "wave-front" in codes and "beyond-rope-curve" in codes and "landing-front" not in codes
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_ropes_on_a_falling_body_bear_what_they_bear_on_a_point_that_falls(seed):
+    """Rows are broken off within the steps of the body too; what is tried again starts from what was seen before."""
+    network, _, flow = _strained(seed)
+    place = network.nodes.position[network.points["f"]]
+    body = RigidBody("body", 1e9, (1e9,) * 3, position=tuple(place), points={"f": (0.0, 0.0, 0.0)})
+    held = simulate_coupled(network, {"body": body}, duration=2.0, output_step=0.1, flow=flow)
+    time = np.arange(301) * 0.01
+    still = np.zeros_like(time)
+    fall = Motion(
+        0.0,
+        0.01,
+        np.stack([still, still, -0.5 * 9.81 * time**2], axis=1),
+        np.stack([still, still, -9.81 * time], axis=1),
+    )
+    driven = simulate(network, {"f": fall}, duration=2.0, output_step=0.1, flow=flow)
+    peaks = [held.network.tension_peak[:, strand.bars].max() for strand in network.strands]
+    assert held.status == "converged" and peaks == pytest.approx(_peaks(driven), rel=2e-3)
+    codes = {notice.code for notice in held.notices}
+    assert codes - {"body-step"} == {notice.code for notice in driven.notices}
