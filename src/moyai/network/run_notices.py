@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Highest tension over that at the ends of its line, from which a run says that it stands inside.
 INSIDE = 1.2
+#: Part of the water of sheets that still moves with what is across them, below which a run says that they turned.
+ACROSS = 0.5
 #: Lean from which a body counts as turned over [rad].
 OVER = math.radians(60.0)
 
@@ -62,7 +64,43 @@ def run_notices(
                     remedy=f"give structure.sheets.{sheet.name}.added_mass (0 where it stays dry)",
                 )
             )
-    return notices
+    return [*notices, *_turned_cloth(history)]
+
+
+def _turned_cloth(history: History) -> list[Notice]:
+    """Say when sheets turned far from how they were built: the water that they take along did not turn with them.
+
+    Normals are means around the nodes, so that folds of the mesh do not count.
+    """
+    sheets, count = history.network.sheets, len(history.network.nodes)
+    if sheets is None or not np.any(sheets.added_mass_per_area) or history.nodes.size < count:
+        return []
+    weight, triangles = sheets.area * np.asarray(sheets.added_mass_per_area), sheets.triangles
+
+    def across(place: np.ndarray) -> np.ndarray:
+        sides = (place[triangles[:, k]] - place[triangles[:, 0]] for k in (1, 2))
+        faces, around = np.cross(*sides), np.zeros((count, 3))
+        for corner in range(3):
+            np.add.at(around, triangles[:, corner], faces)
+        smooth = around[triangles].sum(axis=1)
+        return smooth / np.maximum(np.linalg.norm(smooth, axis=1), 1e-300)[:, None]
+
+    built = across(history.network.nodes.position)
+    rows = history.position[:: max(1, len(history.position) // 50)]
+    share = float(np.mean([np.average(np.sum(across(x) * built, axis=1) ** 2, weights=weight) for x in rows]))
+    if share >= ACROSS:
+        return []
+    return [
+        Notice(
+            "sheet-turned",
+            "sheets lie far from how they were built: the water that they take along acts across them as built, "
+            f"only {100.0 * share:.2g} % of it across them as they lie",
+            share,
+            ACROSS,
+            "warning",
+            "build the sheets near the shape in which they work, or leave out their added mass and compare",
+        )
+    ]
 
 
 def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> list[Notice]:

@@ -47,3 +47,18 @@ def test_added_mass_lengthens_the_periods_of_a_flap(tmp_path: Path) -> None:
     chain = 2.0 * np.pi / (1.2024 * np.sqrt(9.81 * 38.0 / 40.0))
     assert slowest[0] == pytest.approx(chain, rel=0.02)
     assert slowest[1] / slowest[0] == pytest.approx(2.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(("speed", "told"), [(0.05, False), (1.5, True)])
+def test_a_run_tells_of_sheets_that_turned_away_from_their_water(speed: float, told: bool, tmp_path: Path) -> None:
+    """A flap that streams in a strong current lies across to where its added mass acts."""
+    text = CASE.replace("mass: 40 kg/m2", "mass: 2.5 kg/m2").replace("drag_normal: 0", "drag_normal: 1.5")
+    text = text.format(more=", added_mass: 20 kg/m2").replace(
+        "analyses:", f"current: {{speed: {speed} m/s, heading_deg: 0}}\nanalyses:"
+    )
+    text = text.replace("output_step: 0.1 s", "output_step: 0.1 s, start: rest_in_current")
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    result = run(build(load_case(path)))
+    assert result.status == "converged"
+    assert any(notice.code == "sheet-turned" for notice in result.notices) is told
