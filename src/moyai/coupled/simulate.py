@@ -54,6 +54,8 @@ class CoupledHistory:
         Of the rigid bodies at the last row.
     status, message : str
     checks, notices : tuple
+    network_steps : int
+        Accepted steps of the network.
     """
 
     time: Array
@@ -68,6 +70,7 @@ class CoupledHistory:
     message: str
     checks: tuple[IdentityCheck, ...] = ()
     notices: tuple[Notice, ...] = ()
+    network_steps: int = 0
 
 
 def simulate_coupled(
@@ -275,6 +278,7 @@ def _history(
         ending.message,
         checks,
         (*notices, *stepped.notices(record, checks[0], ending.status == "converged")),
+        stepped.steps,
     )
 
 

@@ -244,7 +244,7 @@ def _as_history(network: Network, found: CoupledHistory) -> History:
     return History(
         network, found.time, record.nodes, record.bars, record.position[:rows], record.tension[:rows],
         record.tension_peak[:rows], record.kinetic_energy[:rows], record.elastic_energy[:rows], record.work[:rows],
-        found.final, "explicit, with bodies", found.network_step, round(float(np.ptp(found.time)) / found.network_step),
+        found.final, "explicit, with bodies", found.network_step, found.network_steps,
         found.status, found.message, found.checks, found.notices,
     )  # fmt: skip
 
