@@ -242,12 +242,13 @@ def _tension_figures(levels: tuple[CurtainLevel, ...]) -> list[KeyFigure]:
         ]
         if known:
             load, level, entry = max(known, key=lambda found: found[0])
-            steady = format_quantity(entry.loads["steady"], entry.unit)
+            steady = entry.loads["steady"]
+            beside = f", steady {format_quantity(steady, entry.unit)}" if math.isfinite(steady) else ""
             items.append(
                 KeyFigure(
                     f"Largest load, {label.lower()}",
                     format_quantity(load, entry.unit),
-                    f"{entry.governing or 'load'}, steady {steady}: {level.name}",
+                    f"{entry.governing or 'load'}{beside}: {level.name}",
                 )
             )
     return items
