@@ -20,7 +20,7 @@ LEAST_SHARE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Watch:
-    """Gauges on the first and last bar of every line, and the fall of nodes on the bed.
+    """Gauges on the first and last bar of every line, one on a line of one bar, and the fall of nodes on the bed.
 
     Parameters
     ----------
@@ -100,13 +100,16 @@ def stiffest_impedance(network: Network, bars: IntArray) -> float:
 
 def watch_of(network: Network, places: IntArray) -> Watch:
     """Return the watch of a network whose bars stand at these places in the array of the kernels."""
-    lines = [number for number, strand in enumerate(network.strands) if strand.bars.size > 1]
-    ends = np.array([network.strands[number].bars[end] for number in lines for end in (0, -1)], dtype=np.int64)
-    travel = np.array([travel_time(network, number) for number in lines]).repeat(2)
+    counts = np.minimum([strand.bars.size for strand in network.strands], 2).astype(np.int64)
+    strands = np.arange(len(network.strands)).repeat(counts)
+    ends = np.array(
+        [strand.bars[end] for strand, count in zip(network.strands, counts, strict=True) for end in (0, -1)[:count]],
+        dtype=np.int64,
+    )
+    travel = np.array([travel_time(network, int(number)) for number in strands])
     gauges = np.zeros((ends.size, 6))
     gauges[:, :2], gauges[:, 3] = np.inf, 1.0
     count = 0 if network.bed is None else len(network.nodes)
-    strands = np.array(lines, dtype=np.int64).repeat(2)
     return Watch(
         strands, travel, np.asarray(places, dtype=np.int64)[ends], gauges, WINDOW * travel, np.zeros((2, count)),
         np.full(1, -1, dtype=np.int64),
