@@ -152,6 +152,7 @@ class _Search:
         places = {}
         for carrier in self.carriers.values():
             places.update(dict(zip(carrier.points, carrier.place_and_velocity()[0], strict=True)))
+        self.above_the_bed(places)
         network = moved_network(self.network, places) if places else self.network
         rest = solve_equilibrium(network, flow=self.calm, start=self._start(network))
         self.solves += 1
@@ -193,6 +194,20 @@ class _Search:
     def back(self, kept: list[Array]) -> None:
         for carrier, state in zip(self.carriers.values(), kept, strict=True):
             carrier.state[:] = state
+
+    def above_the_bed(self, places: Mapping[str, Array]) -> None:
+        """Stop where a body is on its way through the bed, which carries lines and no bodies."""
+        bed = self.network.bed
+        if bed is None:
+            return
+        for name, carrier in self.carriers.items():
+            lowest = min([float(carrier.position[2]), *(float(places[point][2]) for point in carrier.points)])
+            if lowest < bed.level - 1e-9 * max(1.0, abs(bed.level)):
+                raise ConvergenceError(
+                    f"no rest found: body {name!r} sinks through the bed at z = {bed.level:.4g} m, on which bodies "
+                    "do not come to rest",
+                    remedy="check its mass and its volume; only lines from above can hold what is heavier than water",
+                )
 
     def jacobian(self, base: Array) -> Array:
         count, step = base.size, 1e-5 * self.size

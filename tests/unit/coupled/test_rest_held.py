@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from moyai.core.errors import ConvergenceError
 from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
 from moyai.coupled.rest import find_rest
 from moyai.flexible.build import NetworkBuilder
@@ -68,3 +69,15 @@ def test_motions_that_are_held_stay(held):
     assert np.abs(change[~free]).max() < 1e-8
     assert np.abs(change[free]).max() > 1e-3
     assert rest.residual < 1e-6
+
+
+def test_a_body_that_sinks_is_told_at_once():
+    made = BodyAssembly(WATER.density)
+    made.add(RodPart((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), 2.7, 25e3, 1.0, 1.0, 0.8, 0.8))
+    body = made.body("block", (0.0, 0.0, -5.0), rotation_matrix((0.0, 0.0, 0.0)), {"eye": np.array([0.0, 0.0, -1.0])})
+    builder = NetworkBuilder(WATER, Bed(-20.0, 1e6, 1e5, 0.0))
+    builder.fixed("anchor", (25.0, 0.0, -20.0))
+    builder.driven("eye", body.points_at_start["eye"])
+    builder.line("chain", "anchor", "eye", BarType("chain", 72.0, 3e8, 0.06), length=32.0, segments=12)
+    with pytest.raises(ConvergenceError, match="'block' sinks through the bed at z = -20 m"):
+        find_rest(builder.build(), {"block": body})
