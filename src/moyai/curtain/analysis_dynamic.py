@@ -12,7 +12,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.curtain.analysis_impact import impact_of
 from moyai.curtain.assembly import LevelCurtain
 from moyai.curtain.dynamic import DynamicRun, run_span
-from moyai.curtain.dynamic_checks import run_checks, run_notices, still_rises
+from moyai.curtain.dynamic_checks import crumples, run_checks, run_notices, still_rises
 from moyai.curtain.dynamic_groups import run_dataset, run_frames
 from moyai.curtain.dynamic_model import CurtainSpan, Mesh
 from moyai.curtain.dynamic_plans import Plan, plans_of
@@ -124,7 +124,8 @@ def _through(
     """Run a plan, a snap until it is past its peak.
 
     In waves folds of the cloth do not turn the normals of sections; a snap has none at first and takes the normals
-    between neighbours. What stops is run again with steadier normals, in the end with those of the just-taut span.
+    between neighbours. What stops, or feeds viscosity more than the span ever holds, is run again with steadier
+    normals, in the end with those of the just-taut span.
     """
     wide = replace(mesh, normal_reach=mesh.normal_reach or _NORMAL_REACH * span.skirt_length)
     held = replace(wide, turning=False)
@@ -134,7 +135,7 @@ def _through(
         plan_run = _until_peak(span, trial, plan, progress)
         if first is None:
             first = plan_run
-        if plan_run[1].history.status != "not_converged":
+        if not crumples(plan_run[1]):
             return *plan_run, _steadied(first[1], plan_run[1], place)
     assert first is not None
     return *first, ()
@@ -161,11 +162,14 @@ def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, .
         "ones within a half"
     )
     end = float(first.history.time[-1])
+    why = f"the run stopped at {end:.4g} s"
+    if first.history.status == "converged":
+        taken = next(check.value for check in run_checks(first, "") if not check.passed)
+        why = f"viscosity took {taken:.3g} times in a period what the span ever held"
     return (
         Notice(
             "dynamic-turning",
-            f"{place}: the cloth gathers, and the run stopped at {end:.4g} s; it is made again with normals of the "
-            f"added mass {way}",
+            f"{place}: the cloth gathers, and {why}; it is made again with normals of the added mass {way}",
             math.nan, math.nan, "warning", "take another mesh, or more viscosity", "guard on the energy of the run",
         ),
     )  # fmt: skip

@@ -55,6 +55,13 @@ def run_checks(run: DynamicRun, place: str) -> tuple[IdentityCheck, ...]:
     )
 
 
+def crumples(run: DynamicRun) -> bool:
+    """Return whether a run stopped, or went on with energy that turning sections fed and viscosity ate."""
+    if run.history.status == "not_converged":
+        return True
+    return run.history.status == "converged" and not all(check.passed for check in run_checks(run, ""))
+
+
 def run_notices(run: DynamicRun, place: str, period: float, regular: bool) -> tuple[Notice, ...]:
     """Tell what limits the peaks of a run.
 
