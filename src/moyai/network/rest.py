@@ -14,6 +14,7 @@ from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.network.assembly import Assembly
+from moyai.network.noise import without_noise
 from moyai.network.variables import labelled
 
 if TYPE_CHECKING:
@@ -130,12 +131,14 @@ def rest_dataset(assembly: Assembly, found: dict[str, Equilibrium], stiffness: A
     position = np.stack([rest.state.position for rest in found.values()])
     tension = np.stack([rest.tension for rest in found.values()])
     names, nodes = named_points(assembly)
+    load = pulls(network, nodes, position, tension)
+    size = float(np.max(np.ptp(position, axis=1), initial=0.0))
     data: dict[str, object] = {
         "position": (("condition", "node", "axis"), position),
         "tension": (("condition", "bar"), tension),
         "residual": ("condition", np.array([rest.residual for rest in found.values()])),
-        "point_position": (("condition", "point", "axis"), position[:, nodes]),
-        "load": (("condition", "point", "axis"), pulls(network, nodes, position, tension)),
+        "point_position": (("condition", "point", "axis"), without_noise(position[:, nodes], size)),
+        "load": (("condition", "point", "axis"), without_noise(load, float(np.max(np.abs(load), initial=0.0)))),
     }
     for key, values in line_numbers(assembly, tension).items():
         data[key] = (("condition", "line"), values)
@@ -154,6 +157,8 @@ def bodies_at_rest(dataset: xr.Dataset, found: dict[str, CoupledRest]) -> xr.Dat
     names = list(next(iter(found.values())).bodies)
     place = np.array([[rest.bodies[name].position for name in names] for rest in found.values()])
     angle = np.array([[rest.bodies[name].rotation for name in names] for rest in found.values()])
+    size = float(np.ptp(dataset["position"].values, axis=1).max())
+    place, angle = without_noise(place, size), without_noise(angle, 1.0)
     return labelled(
         dataset.assign(
             {"solid_position": (("condition", "solid", "axis"), place),

@@ -14,6 +14,7 @@ from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.network.assembly import Assembly
 from moyai.network.bodies import CoupledRun
 from moyai.network.model import NetworkProblem
+from moyai.network.noise import without_noise
 from moyai.network.rest import AXES, MEASURES, TURNS, highest_pulls, line_numbers, named_points, pulls
 from moyai.network.resume import last_good_state
 from moyai.network.runs import RunPlan
@@ -161,6 +162,8 @@ def with_bodies(series: xr.Dataset, frames: xr.Dataset, coupled: CoupledRun) -> 
     place = np.stack([body.position for body in found], axis=1)[:size]
     angle = np.stack([body.angles for body in found], axis=1)[:size]
     turn = np.stack([body.rotation for body in found], axis=1)[:size]
+    first = float(np.nanmax(np.abs(frames["position"].values[0]), initial=0.0))
+    place, angle = without_noise(place, first), without_noise(angle, 1.0)
     rows = np.searchsorted(series["time"].values, frames["frame"].values).clip(0, place.shape[0] - 1)
     series = series.assign(
         {"solid_position": (("time", "solid", "axis"), place), "solid_angle": (("time", "solid", "turn"), angle)}

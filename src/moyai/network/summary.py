@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.network.assembly import Assembly
 from moyai.network.model import NetworkProblem
+from moyai.network.noise import without_noise
 from moyai.network.rest import named_points
 from moyai.network.variables import labelled
 
@@ -141,7 +142,8 @@ def _solid_summary(problem: NetworkProblem, item: Run) -> dict[str, Array]:
     place, angle = (item.series[key].values for key in ("solid_position", "solid_angle"))
     if not chosen.any():
         return dict.fromkeys(SOLID, np.full(place.shape[1], np.nan))
-    moved, turned = (place - place[0])[chosen], (angle - angle[0])[chosen]
+    size = max(1.0, float(np.nanmax(np.abs(place[0]), initial=0.0)))
+    moved, turned = without_noise(place - place[0], size)[chosen], without_noise(angle - angle[0], 1.0)[chosen]
     offset = np.linalg.norm(moved[..., :2], axis=2)
     values = (
         offset.max(axis=0), np.linalg.norm(moved[..., :2].mean(axis=0), axis=1), np.ptp(moved[..., 2], axis=0),
