@@ -456,29 +456,25 @@ def test_gathered_cloth_goes_on_with_turning_sections(tmp_path: Path) -> None:
     assert 0.0 < taken.value < 0.1
 
 
-@pytest.mark.slow
-def test_cloth_that_crumples_is_run_again_with_held_normals(tmp_path: Path) -> None:
-    """On this mesh turning sections feed the cloth 8 MJ at 31 s, which viscosity eats: 136 kN where others have 8."""
-    result = moyai.run(moyai.load_case(slack_span_in_oblique_waves(tmp_path, "cells_along: 40, cells_down: 4")))
-    assert result.status == "converged", result.message
-    (told,) = [notice for notice in result.notices if notice.code == "dynamic-turning"]
-    assert "viscosity took" in told.message
-    taken = next(check for check in result.checks if "viscosity" in check.name)
-    assert 0.0 < taken.value < 0.05
-    assert float(result.tree["/SWL/dynamic"]["both_peak"][0]) < 15e3
-
-
-def test_a_run_that_turning_sections_stop_is_made_again_with_held_normals(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("way", ["stopped", "viscosity took"])
+def test_a_run_that_turning_sections_spoil_is_made_again_with_held_normals(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, way: str
 ) -> None:
+    """Which meshes crumple hangs on rounding, so that the spoilt run is made here: it stops, or feeds viscosity."""
     import moyai.curtain.analysis_dynamic as analysis
 
     kept: list[DynamicRun] = []
 
     def stopping(*given: object, **more: object) -> DynamicRun:
         run = run_span(*given, **more)  # type: ignore[arg-type]
+        history = run.history
+        if run.built.mesh.turning and way == "stopped":
+            return replace(run, history=replace(history, status="not_converged", message="the energy grew"))
         if run.built.mesh.turning:
-            return replace(run, history=replace(run.history, status="not_converged", message="the energy grew"))
+            # work that went through the span into viscosity within a row
+            work = np.array(history.work)
+            work[-1] += 40.0 * float(np.max(history.kinetic_energy + history.elastic_energy))
+            return replace(run, history=replace(history, work=work))
         kept.append(run)
         return run
 
@@ -486,7 +482,7 @@ def test_a_run_that_turning_sections_stop_is_made_again_with_held_normals(
     result = moyai.run(moyai.load_case(slack_span_in_oblique_waves(tmp_path, "cells_along: 8, cells_down: 4")))
     assert result.status == "converged", result.message
     (told,) = [notice for notice in result.notices if notice.code == "dynamic-turning"]
-    assert "held as in the just-taut span" in told.message
+    assert "held as in the just-taut span" in told.message and way in told.message
     taken = next(check for check in result.checks if "viscosity" in check.name)
     assert 0.0 < taken.value < 0.05
     (run,) = kept
