@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from moyai.core.headline import Criterion, Headline, judge
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
 
@@ -65,6 +66,8 @@ class Collected:
         *,
         notices: Iterable[Notice] | None = None,
         fulfilled: str = "all identities hold",
+        headlines: Iterable[Headline] = (),
+        criteria: Iterable[Criterion] = (),
     ) -> Result:
         """Close the run: status, message, notices by their weight, provenance.
 
@@ -78,10 +81,15 @@ class Collected:
             In place of those that were collected, where the structure words them anew.
         fulfilled : str
             The sentence of a run of which nothing is to be said.
+        headlines : iterable of Headline
+            The numbers of the first page, the governing one first.
+        criteria : iterable of Criterion
+            What they are judged against.
         """
         import xarray as xr
 
         status, message = self.status(fulfilled)
+        numbers = tuple(headlines)
         known = {name: attributes[name] for name in ("title", "case_hash", "structure")}
         return Result(
             tree=xr.DataTree.from_dict({"/": xr.Dataset(attrs=dict(attributes)), **self.groups}),
@@ -90,6 +98,8 @@ class Collected:
             checks=tuple(self.checks),
             notices=by_weight(self.notices if notices is None else notices),
             provenance=make_provenance(**known, seeds=list(seeds)),
+            headlines=numbers,
+            verdict=judge(numbers, criteria, computed=status == "converged"),
         )
 
 

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from moyai.core.errors import InputError, MoyaiError
+from moyai.core.headline import Headline, Verdict
 from moyai.core.validity import IdentityCheck, Notice
 
 if TYPE_CHECKING:
@@ -48,6 +49,10 @@ class Result:
         Validity notices.
     provenance : mapping
         Version, inputs, conventions, seed, time of the run.
+    headlines : tuple of Headline
+        The numbers of the first page, the governing one first.
+    verdict : Verdict
+        Whether the design keeps its criteria; apart from ``status``, which speaks of the computation.
     """
 
     tree: xr.DataTree
@@ -56,6 +61,8 @@ class Result:
     checks: tuple[IdentityCheck, ...] = ()
     notices: tuple[Notice, ...] = ()
     provenance: Mapping[str, Any] = field(default_factory=dict)
+    headlines: tuple[Headline, ...] = ()
+    verdict: Verdict = field(default_factory=Verdict)
 
     def with_notices(self, *notices: Notice) -> Result:
         """Return the same result with further notices; an ``error`` among them lowers the status."""
@@ -180,6 +187,8 @@ def write_result(result: Result, path: Path) -> Path:
         "checks": json.dumps([check.as_dict() for check in result.checks]),
         "notices": json.dumps([notice.as_dict() for notice in result.notices]),
         "provenance": json.dumps(dict(result.provenance), default=str),
+        "headlines": json.dumps([headline.as_dict() for headline in result.headlines]),
+        "verdict": json.dumps(result.verdict.as_dict()),
     }
     tree = _map_tree(result.tree, split_complex)
     root = tree.to_dataset(inherit=False)
@@ -249,6 +258,8 @@ def read_result(path: str | os.PathLike[str]) -> Result:
         checks=checks,
         notices=notices,
         provenance=json.loads(attributes.get("provenance", "{}")),
+        headlines=tuple(Headline.from_dict(item) for item in json.loads(attributes.get("headlines", "[]"))),
+        verdict=Verdict.from_dict(json.loads(attributes.get("verdict", "{}"))),
     )
 
 

@@ -1,0 +1,68 @@
+"""Headlines and verdicts: judged at the unfavourable end, bounds only where they prove something, kept on disk."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from moyai.core.collected import Collected
+from moyai.core.headline import Band, Criterion, Headline, judge
+from moyai.core.results import read_result
+
+MOST = Criterion("transmission", "transmission", 0.5, "at most", "case file")
+LEAST = Criterion("least_effective_depth", "effective_depth", 4.0, "at least", "case file", unit="m")
+
+
+def transmission(value: float, **kwargs: object) -> Headline:
+    return Headline("transmission", "Wave transmission K_T", value, "1", **kwargs)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("headline", "outcome"),
+    [
+        (transmission(0.4), "holds"),
+        (transmission(0.6), "does not hold"),
+        (transmission(0.4, band=Band(0.3, 0.55, "damping")), "does not hold"),
+        (transmission(0.4, band=Band(0.3, 0.55, "5 seeds", decides=False)), "holds"),
+        (transmission(0.4, bound="at most"), "holds"),
+        (transmission(0.6, bound="at most"), "not judged"),
+        (transmission(0.4, bound="at least"), "not judged"),
+        (transmission(0.6, bound="at least"), "does not hold"),
+        (transmission(math.nan), "not judged"),
+    ],
+)
+def test_a_limit_from_above(headline: Headline, outcome: str) -> None:
+    assert judge([headline], [MOST], computed=True).outcome == outcome
+
+
+def test_a_limit_from_below_that_is_missed_is_said_with_both_numbers() -> None:
+    found = judge([Headline("effective_depth", "Effective depth", 1.99, "m")], [LEAST], computed=True)
+    assert found.outcome == "does not hold"
+    assert "1.99 m" in found.message and "4 m" in found.message
+
+
+def test_what_was_not_run_and_what_did_not_converge_is_not_judged() -> None:
+    assert judge([], [MOST], computed=True).outcome == "not judged"
+    assert judge([transmission(0.4)], [MOST], computed=False).outcome == "not judged"
+    assert judge([transmission(0.4)], [], computed=True).outcome == "not judged"
+    assert judge([transmission(0.6)], [MOST], computed=False).outcome == "does not hold"
+
+
+def test_headlines_and_verdict_survive_the_file(tmp_path: Path) -> None:
+    headlines = (
+        transmission(0.4, band=Band(0.3, math.inf, "damping")),
+        Headline("uplift", "Uplift", math.nan, "N", text="none"),
+    )
+    collected = Collected()
+    collected.groups["/a"] = xr.Dataset()
+    result = collected.close(
+        {"title": "t", "case_hash": "h", "structure": "s"}, headlines=headlines, criteria=(MOST, LEAST)
+    )
+    again = read_result(result.write(tmp_path / "results.nc"))
+    assert again.headlines[0] == headlines[0]
+    assert math.isnan(again.headlines[1].value) and again.headlines[1].text == "none"
+    assert again.verdict.outcome == result.verdict.outcome == "does not hold"
+    assert [item.criterion for item in again.verdict.judgements] == [MOST, LEAST]
