@@ -151,7 +151,7 @@ class BodyAssembly:
         # the ends: their faces, and half a sphere of water each
         drag[[0, -1], axis] = rod.drag_end * 0.25 * math.pi * d**2
         added[[0, -1], axis] = rod.added_mass_end * self.density * math.pi / 12.0 * d**3
-        self.lumps.append(Lumps(place, np.full(count, volume), np.full(count, height), drag, added))
+        self.lumps.append(Lumps(place, np.full(count, volume), np.full(count, height), drag, added, axis))
 
     def body(
         self, name: str, position: ArrayLike, rotation: Array, points: dict[str, Array], **options: object

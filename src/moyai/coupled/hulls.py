@@ -26,9 +26,13 @@ class Lumps:
     length : array_like, shape (l,)
         Extent along the body's z axis [m]; the part under the surface counts. 0: always wet, wherever it is.
     drag_area : array_like, shape (l, 3)
-        Drag coefficient times area for flow along each body axis [m2]; the force is rho/2 CdA u|u| axis by axis.
+        Drag coefficient times area for flow along each body axis [m2]; the force along an axis is rho/2 CdA u U, with
+        the speed U that ``axis`` chooses.
     added_mass : array_like, shape (l, 3)
         When wholly wet, along each body axis [kg].
+    axis : array_like of int, shape (l,)
+        -1: U is the whole relative speed (a compact part). 0, 1 or 2: the part is slender along that body axis, and U
+        is the speed across it for the two forces across, the speed along it for the force along (cross-flow principle).
 
     Raises
     ------
@@ -41,6 +45,7 @@ class Lumps:
     length: Array
     drag_area: Array
     added_mass: Array
+    axis: NDArray[np.int64] | int = -1
 
     def __post_init__(self) -> None:
         size = len(np.atleast_2d(np.asarray(self.place, dtype=np.float64)))
@@ -58,13 +63,19 @@ class Lumps:
                 raise InputError(f"{name} of lumps is {values.min():g}", path=f"lumps.{name}", allowed="0 or more")
             values.setflags(write=False)
             object.__setattr__(self, name, values)
+        axis = np.array(np.broadcast_to(np.asarray(self.axis), (size,)))
+        if not np.isin(axis, (-1, 0, 1, 2)).all():
+            raise InputError(f"axis of lumps is {self.axis}", path="lumps.axis", allowed="-1, 0, 1 or 2")
+        axis = axis.astype(np.int64)
+        axis.setflags(write=False)
+        object.__setattr__(self, "axis", axis)
 
     def __len__(self) -> int:
         return int(self.volume.size)
 
     def __add__(self, other: Lumps) -> Lumps:
         """Join the lumps of two parts of one body."""
-        names = ("place", "volume", "length", "drag_area", "added_mass")
+        names = ("place", "volume", "length", "drag_area", "added_mass", "axis")
         return Lumps(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
 
     @property
@@ -79,7 +90,7 @@ class Lumps:
         """Return what the kernel reads, places counted from ``centre`` [m]."""
         return (
             np.ascontiguousarray(self.place - centre), self.volume.copy(), self.length.copy(), self.breadth.copy(),
-            self.drag_area.copy(), self.added_mass.copy(),
+            self.drag_area.copy(), self.added_mass.copy(), np.array(self.axis),
         )  # fmt: skip
 
 
@@ -164,7 +175,7 @@ def box_hull(
     # the flat bottom is met by the lowest layer alone
     lowest = np.tile(np.arange(layers) == 0, share.size)
     drag_area[:, 2] = np.where(lowest, np.repeat(share, layers) * cd[2] * length * width, 0.0)
-    return Lumps(place, volume, np.full(volume.size, part), drag_area, density * volume[:, None] * ca)
+    return Lumps(place, volume, np.full(volume.size, part), drag_area, density * volume[:, None] * ca, 2)
 
 
 def cylinder_hull(
@@ -231,4 +242,4 @@ def cylinder_hull(
         axis=1,
     )
     added = density * volume[:, None] * np.array([added_mass[0], added_mass[0], added_mass[1]])
-    return Lumps(place, volume, np.full(volume.size, part), drag_area, added)
+    return Lumps(place, volume, np.full(volume.size, part), drag_area, added, 2)

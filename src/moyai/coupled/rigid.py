@@ -477,7 +477,7 @@ class RigidCarrier:
         huge = 1e12
         heavy = (huge * np.eye(6), np.zeros((6, 6)), np.zeros((6, 6)), *self._body[3:])
         result = np.empty(6)
-        lumps = (*self.lumps[:5], np.zeros_like(self.lumps[5]))
+        lumps = (*self.lumps[:5], np.zeros_like(self.lumps[5]), self.lumps[6])
         kernel.acceleration(
             state, heavy, lumps, water, self._fluid, np.zeros(6), np.zeros(6), arms, reaction[0], result,
         )  # fmt: skip

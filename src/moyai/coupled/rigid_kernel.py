@@ -72,7 +72,7 @@ def _immersion(height: float, size: float, length: float, upright: float, elevat
 @njit(cache=True, error_model="numpy")
 def _lump_loads(state: Any, r: Any, lumps: Any, water: Any, fluid: Any, force: Any, mass: Any) -> None:
     """Add the loads of all lumps in body axes about the centre of gravity, and their added mass."""
-    place, volume, length, size, drag, added = lumps
+    place, volume, length, size, drag, added, axis = lumps
     rho, gravity = fluid[0], fluid[1]
     arm, speed, flow, pull, turn, w = np.empty(3), np.empty(3), np.empty(3), np.empty(3), np.empty(3), state[10:13]
     body_speed, more = np.empty(3), np.empty(3)
@@ -94,11 +94,15 @@ def _lump_loads(state: Any, r: Any, lumps: Any, water: Any, fluid: Any, force: A
         turn[:], more[:] = 0.0, 0.0
         _add_cross(w, arm, 1.0, turn)
         _add_cross(w, turn, 1.0, more)
+        flow[0], flow[1], flow[2] = flow[0] - speed[0], flow[1] - speed[1], flow[2] - speed[2]
+        square = flow[0] * flow[0] + flow[1] * flow[1] + flow[2] * flow[2]
+        along = flow[axis[k]] * flow[axis[k]] if axis[k] >= 0 else 0.0
+        across = math.sqrt(max(square - along, 0.0))
         for i in range(3):
-            relative = flow[i] - speed[i]
             inertia = part * (rho * volume[k] * pull[i] + added[k, i] * (pull[i] - more[i]))
             lift = part * rho * volume[k] * gravity * r[2, i]
-            pull[i] = inertia + part * 0.5 * rho * drag[k, i] * abs(relative) * relative + lift
+            meets = abs(flow[i]) if i == axis[k] else across
+            pull[i] = inertia + part * 0.5 * rho * drag[k, i] * meets * flow[i] + lift
         for i in range(3):
             force[i] += pull[i]
         _add_cross(arm, pull, 1.0, force[3:6])
