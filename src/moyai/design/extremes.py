@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq, minimize_scalar
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 
 Array = NDArray[np.float64]
@@ -23,6 +24,7 @@ _LEAST = {"gumbel": 5, "weibull": 5, "generalised_pareto": 10}
 _EULER = 0.5772156649015329
 
 
+@checks_words
 @dataclass(frozen=True)
 class Fit:
     """A distribution of peaks or maxima.
@@ -122,6 +124,7 @@ class Interval:
     confidence: float
 
 
+@checks_words
 def fit(values: ArrayLike, family: Family, *, location: float | None = None, threshold: float | None = None) -> Fit:
     """Fit a distribution by maximum likelihood.
 
@@ -153,8 +156,6 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     Coles (2001), ch. 3 and 4 [eq:extremes-gumbel] [eq:extremes-weibull] [eq:extremes-pareto]; the equations of the
     Gumbel and Weibull reduce to one unknown, that of the Pareto to a search along one (Grimshaw 1993).
     """
-    if family not in _LEAST:
-        raise InputError(f"'{family}' is no family of extremes", path="family", allowed=", ".join(_LEAST))
     data = np.asarray(values, dtype=float).ravel()
     if not np.isfinite(data).all():
         raise InputError("the values hold NaN or infinity", path="values", remedy="leave them out knowingly")

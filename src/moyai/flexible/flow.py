@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.kinematics import Stretching, linear_velocity_acceleration, stretching_code
 
@@ -23,6 +24,7 @@ class Current(Protocol):
         """Return the velocity (..., 2) at heights z."""
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Flow:
     """Motion of the water: a uniform velocity, a profile over the height, waves, or all of them together.

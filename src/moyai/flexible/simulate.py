@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
 from moyai.flexible.checks import name_of_node, whole_number, whole_numbers
@@ -22,7 +23,6 @@ from moyai.flexible.network import Network
 from moyai.flexible.peak_notices import advice, peak_notices, stable_step
 from moyai.flexible.recovery import write_state
 from moyai.flexible.result import History, RunStatus, State
-from moyai.flexible.tableaus import TABLEAUS
 
 Method = Literal["explicit", "tr_bdf2", "esdirk4"]
 
@@ -98,6 +98,7 @@ def _kept(given: ArrayLike | None, count: int, path: str) -> np.ndarray:
     return kept
 
 
+@checks_words
 def simulate(
     network: Network,
     motions: Mapping[str, Motion] | None = None,
@@ -170,8 +171,6 @@ def simulate(
     rows, interval = _rows(duration, output_step)
     _check_start(network, start)
     _check_motions(network, motions or {}, start.time, start.time + duration)
-    if method != "explicit" and method not in TABLEAUS:
-        raise InputError(f"unknown method {method!r}", path="method", allowed=", ".join(("explicit", *TABLEAUS)))
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance is {tolerance:g}", path="tolerance", allowed="above 0, below 1")
     if step is not None and not 0.0 < step < math.inf:

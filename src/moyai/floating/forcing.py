@@ -15,6 +15,7 @@ from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.floating.arrays import ComplexArray, FloatArray, finite, positive
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.sea.components import WaveComponents
@@ -72,6 +73,7 @@ class CalmWater:
         return shape[:, None] * np.asarray(self.steady, dtype=float), np.zeros(count)
 
 
+@checks_words
 @dataclass(frozen=True)
 class RegularForcing:
     """A regular wave [eq:floating-regular-forcing].
@@ -106,8 +108,6 @@ class RegularForcing:
         positive(self.omega, "omega")
         for name in ("excitation", "mean_drift", "steady"):
             finite(getattr(self, name), name)
-        if self.drift_law not in ("ramped", "pulsating"):
-            raise InputError(f"unknown drift law {self.drift_law!r}", path="drift_law", allowed="ramped, pulsating")
 
     @property
     def shortest_period(self) -> float:
@@ -131,6 +131,7 @@ class RegularForcing:
         return shape[:, None] * force, shape * carrier.real
 
 
+@checks_words
 @dataclass(frozen=True)
 class IrregularForcing:
     """A sum of wave components with slow drift after Newman [eq:floating-irregular-forcing].
@@ -167,8 +168,6 @@ class IrregularForcing:
 
     def __post_init__(self) -> None:
         positive(float(np.min(self.omega)), "omega")
-        if self.drift_law not in ("newman", "newman_product", "ramped", "none"):
-            raise InputError(f"unknown drift law {self.drift_law!r}", path="drift_law")
         if self.drift_law != "none" and self.drift is None:
             raise InputError("slow drift needs the drift coefficients", path="drift", remedy='or drift_law="none"')
         if self.drift_law == "newman_product" and self.drift is not None:

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Literal
 
+from moyai.core.options import checks_words
 from moyai.interop.moordyn_rows import Faults, Row
 from moyai.interop.textfiles import parse_number
 
@@ -79,6 +80,7 @@ class DeckRodType:
     line: int = field(default=0, compare=False)
 
 
+@checks_words
 @dataclass(frozen=True)
 class DeckBody:
     """A row of BODIES.
@@ -120,6 +122,7 @@ class DeckBody:
     line: int = field(default=0, compare=False)
 
 
+@checks_words
 @dataclass(frozen=True)
 class DeckRod:
     """A row of RODS.

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.interop.moordyn_bodies import DeckBody, DeckRod, DeckRodType, attachment_word
 from moyai.interop.moordyn_records import (
     CURRENT_FILE,
@@ -65,6 +66,7 @@ class DeckLineType:
     line: int = field(default=0, compare=False)
 
 
+@checks_words
 @dataclass(frozen=True)
 class DeckPoint:
     """A row of POINTS.

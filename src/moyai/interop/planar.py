@@ -17,6 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.interop.coefficients import DOFS, FloatArray
 from moyai.sea.dispersion import wave_number
 
@@ -68,6 +69,7 @@ def move_reference_point(dataset: xr.Dataset, point: Sequence[float]) -> xr.Data
     return moved.assign_coords(reference_point=dataset["reference_point"].copy(data=np.asarray(point, dtype=float)))
 
 
+@checks_words
 def to_planar(
     dataset: xr.Dataset,
     *,
@@ -106,8 +108,6 @@ def to_planar(
     """
     if not (math.isfinite(length) and length > 0.0):
         raise InputError(f"length {length}", path="length", allowed="positive")
-    if sea not in _FRAMES:
-        raise InputError(f"{sea!r}", path="sea", allowed="beam, head")
     frame, along = _FRAMES[sea]
     names = [name for name, _ in frame]
     missing = [name for name in names if name not in dataset["radiating_dof"].values]
@@ -147,6 +147,7 @@ def to_planar(
     return planar.sortby("wave_direction")
 
 
+@checks_words
 def neglected_coupling(dataset: xr.Dataset, sea: Literal["beam", "head"]) -> float:
     """Return the largest coupling of the planar motions with those left out, relative to the diagonal terms.
 

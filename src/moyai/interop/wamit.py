@@ -21,6 +21,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.interop.coefficients import DOFS, ComplexArray, FloatArray, assemble, require
 from moyai.interop.textfiles import find_companion, leading_numbers, read_lines, read_table
 from moyai.sea.dispersion import angular_frequency
@@ -42,6 +43,7 @@ class _Surroundings:
     hams: bool = False
 
 
+@checks_words
 def read_wamit(
     path: str | Path,
     *,

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.measure.drift_interpolation import Interpolation, interpolation_matrix, outliers, remainder_smoothing, trend
@@ -160,6 +161,7 @@ def _usable(
     return ratio[kept], value[kept], weight[kept]
 
 
+@checks_words
 def measure_circulation(
     position: ArrayLike,
     drift: ArrayLike,

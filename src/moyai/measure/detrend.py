@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.measure.record import FloatArray
 
 
+@checks_words
 @dataclass(frozen=True)
 class Detrend:
     """What is taken off a record.

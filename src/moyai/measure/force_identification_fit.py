@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.measure.force_identification_record import ForceRecord
 
 Array = NDArray[np.float64]
@@ -28,6 +29,7 @@ UNKNOWN_SHARE = 0.5
 _HUBER = 1.345
 
 
+@checks_words
 @dataclass(frozen=True)
 class Setup:
     """What the record was taken on and how it is read.
@@ -85,9 +87,8 @@ class Setup:
             raise InputError(f"widths are {self.widths}", path="widths", allowed="greater than 0, one a component")
         if self.period is not None and not (math.isfinite(self.period) and self.period > 0.0):
             raise InputError(f"period is {self.period:g} s", path="period", allowed="greater than 0 s")
-        unknown = [method for method in self.methods if method not in METHODS]
-        if unknown or not self.methods:
-            raise InputError(f"unknown methods {unknown}", path="methods", allowed=", ".join(METHODS))
+        if not self.methods:
+            raise InputError("no method is named", path="methods", allowed=", ".join(METHODS))
         if not self.regular and "fourier" in self.methods:
             raise InputError(
                 "the method 'fourier' needs a periodic record",
@@ -98,8 +99,6 @@ class Setup:
             raise InputError("an irregular record has no harmonics", path="harmonics", remedy="leave them out")
         if any(order < 2 for order in self.harmonics):
             raise InputError(f"harmonics are {self.harmonics}", path="harmonics", allowed="2 and above")
-        if self.form not in ("component", "vector"):
-            raise InputError(f"unknown form '{self.form}'", path="form", allowed="component, vector")
         if not 0.5 <= self.confidence < 1.0:
             raise InputError(f"confidence is {self.confidence:g}", path="confidence", allowed="0.5 to below 1")
         if not 50 <= self.bootstrap <= 100_000:
@@ -157,6 +156,7 @@ class Coefficient:
         return f"{self.value:.{place}f} +- {self.uncertainty:.{place}f}"
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Fit:
     """One component by one method.
@@ -213,6 +213,7 @@ def beside_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega
     return np.column_stack(parts) if parts else np.zeros((angle.size, 0))
 
 
+@checks_words
 def fit_component(
     record: ForceRecord,
     columns: Array,

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.measure.net_quality import record_notices
@@ -24,6 +25,7 @@ from moyai.measure.net_waves import WaveCoefficients, WaveFit, fit_waves, wave_c
 _SAME_WAVES = 0.08
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class NetCampaign:
     """Nets, runs and how they are read.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.nets import Net
 
 Array = NDArray[np.float64]
@@ -96,6 +97,7 @@ class Tank:
             )
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class NetRun:
     """One record.
@@ -161,8 +163,6 @@ class NetRun:
     frame: str = ""
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise InputError(f"run {self.name}: unknown kind '{self.kind}'", path="kind", allowed=", ".join(KINDS))
         time = np.asarray(self.time, dtype=float)
         object.__setattr__(self, "time", time)
         if time.ndim != 1 or time.size < 32:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.measure.record import FloatArray
 from moyai.sea.dispersion import wave_number
@@ -33,6 +34,7 @@ Quantity = Literal[
 _DIRECTION = {"x": (1, 0), "y": (0, 1), "z": (0, 0)}
 
 
+@checks_words
 @dataclass(frozen=True)
 class Sensor:
     """One channel of a wave instrument.

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 Format = Literal["auto", "csv", "mat", "netcdf", "parquet"]
 TimeUnit = Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum"]
@@ -46,6 +47,7 @@ class ColumnSource:
     missing: tuple[float, ...] = ()
 
 
+@checks_words
 @dataclass(frozen=True)
 class TimeSource:
     """Where the time comes from.
@@ -106,6 +108,7 @@ class ClockCorrection:
     reference: float = math.nan
 
 
+@checks_words
 @dataclass(frozen=True)
 class LoggerSource:
     """All that is needed to read one logger.

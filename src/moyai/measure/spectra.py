@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.measure.record import FloatArray
 
@@ -20,6 +21,7 @@ ComplexArray = NDArray[np.complex128]
 Window = Literal["hann", "rectangular", "cosine_tenth"]
 
 
+@checks_words
 @dataclass(frozen=True)
 class WelchOptions:
     """How a record is cut into segments.
@@ -53,6 +55,7 @@ class WelchOptions:
             raise InputError(f"segment {self.segment:g} s", path="segment", allowed="greater than 0")
 
 
+@checks_words
 def taper(kind: Window, size: int) -> FloatArray:
     """Return the window of ``size`` samples (periodic form)."""
     place = np.arange(size) / size

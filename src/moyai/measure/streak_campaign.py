@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, make_provenance
 from moyai.core.store import DatasetStore
@@ -63,6 +64,7 @@ class StreakRun:
     no_model: tuple[Recording, ...] = ()
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Campaign:
     """Everything that a measurement needs.

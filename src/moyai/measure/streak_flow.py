@@ -17,6 +17,7 @@ from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -25,6 +26,7 @@ _TERMS = 400
 _SHORT = 12
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class SectionMap:
     """Map of the outside of the unit circle onto the outside of a section, ``Z = x + i z = f(zeta)`` [eq:streaks-map].

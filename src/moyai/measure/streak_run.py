@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
 from moyai.measure.camera_calibration import Calibration
@@ -86,6 +87,7 @@ class DriftCloud:
         return len(self.position)
 
 
+@checks_words
 @dataclass(frozen=True)
 class RunSettings:
     """Settings of the way from pictures to drift.

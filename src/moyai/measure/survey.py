@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.measure.quality import QualityOptions
 from moyai.measure.record import FloatArray
 from moyai.measure.sensors import Sensor
@@ -29,6 +30,7 @@ UNITS_OF_KINDS = {
 """SI unit that a channel of each kind must have; kinds that are absent may have any."""
 
 
+@checks_words
 @dataclass(frozen=True)
 class ChannelUse:
     """What a channel is and where.
@@ -87,6 +89,7 @@ class CurrentUse:
     normal_heading: float = math.nan
 
 
+@checks_words
 @dataclass(frozen=True)
 class TensionUse:
     """A tension channel and how it is split.

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.measure.tensions import SteadyRule, find_delay, split_tension, tension_statistics, wave_maxima
@@ -83,6 +84,7 @@ class Blocks:
         return np.asarray(getattr(self, name).mean(axis=1))
 
 
+@checks_words
 def analyse_blocks(
     time: ArrayLike,
     elevation: ArrayLike,

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.measure.detrend import slow_part
 from moyai.sea.statistics import significant
 
@@ -47,6 +48,7 @@ class SplitTension:
         return float(np.mean(self.steady))
 
 
+@checks_words
 def split_tension(
     time: ArrayLike, tension: ArrayLike, rule: SteadyRule = "median", *, cutoff: float = 30.0
 ) -> SplitTension:
@@ -69,8 +71,6 @@ def split_tension(
         For another rule, gaps, or a block shorter than the cut-off.
     """
     t, values = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
-    if rule not in get_args(SteadyRule):
-        raise InputError(f"unknown rule {rule!r}", path="rule", allowed=", ".join(get_args(SteadyRule)))
     if t.ndim != 1 or t.shape != values.shape or t.size < 5:
         raise InputError(
             f"times {t.shape} and tensions {values.shape}", path="tension", allowed="equal lists, 5 or more"

@@ -11,6 +11,7 @@ from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.measure.detrend import Detrend, detrended
 from moyai.measure.record import FloatArray
@@ -18,6 +19,7 @@ from moyai.measure.record import FloatArray
 Rounding = Literal["nearest", "down", "up"]
 
 
+@checks_words
 @dataclass(frozen=True)
 class WaveOptions:
     """How a record is cut into waves.
@@ -139,6 +141,7 @@ STATISTICS = (
 )
 
 
+@checks_words
 def share_of(count: int, fraction: float, rounding: Rounding = "nearest") -> int:
     """Return how many of ``count`` waves make up ``fraction``: at least one.
 

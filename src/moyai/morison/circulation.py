@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.orbits import orbit_amplitudes, orbit_product
 
 Array = NDArray[np.float64]
@@ -39,6 +40,7 @@ HELD_LIMIT = 3.0
 RELAXATION_PERIODS = 5.0
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class CirculationLaw:
     """How strong the circulation is and when it is counted.
@@ -85,10 +87,6 @@ class CirculationLaw:
                 path="strength",
                 allowed=f"0 to {LAMINAR_EDGE_LAGRANGIAN:g}, the laminar ceiling of particles",
             )
-        if self.purpose not in ("extreme", "response"):
-            raise InputError(f"purpose is '{self.purpose}'", path="purpose", allowed="extreme, response")
-        if self.start not in ("settled", "calm"):
-            raise InputError(f"start is '{self.start}'", path="start", allowed="settled, calm")
         if not (math.isfinite(self.relaxation_periods) and self.relaxation_periods > 0.0):
             raise InputError(
                 f"relaxation_periods is {self.relaxation_periods:g}", path="relaxation_periods", allowed="above 0"

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.kinematics import Stretching, stretching_code, wheeler_elevation
 from moyai.sea.nonlinear import NonlinearWave
@@ -44,6 +45,7 @@ class Flow(Protocol):
         """Return the motion at times [s] at points (n, 3) [m]."""
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class LinearFlow:
     """Linear waves, regular or irregular, with a treatment of the region above still water.

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.circulation import magnus_force
 
 Array = NDArray[np.float64]
@@ -29,6 +29,7 @@ class StripForces:
         return np.asarray(self.inertia + self.drag + self.magnus)
 
 
+@checks_words
 def strip_forces(
     velocity: ArrayLike,
     acceleration: ArrayLike,
@@ -70,8 +71,6 @@ def strip_forces(
     InputError
         For an unknown form.
     """
-    if form not in ("component", "vector"):
-        raise InputError(f"unknown form of drag '{form}'", path="form", allowed="component, vector")
     water, rate = np.asarray(velocity, dtype=float), np.asarray(acceleration, dtype=float)
     body_rate = np.asarray(body_acceleration, dtype=float)
     relative = water - np.asarray(body_velocity, dtype=float)

@@ -12,6 +12,7 @@ from scipy.interpolate import BSpline, PPoly, make_interp_spline
 from scipy.special import sici
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.potential.damping_tail import Tail, TailTheory, choose_tail
 from moyai.potential.oscillatory import fourier_integral
 
@@ -128,6 +129,7 @@ def _times(time: ArrayLike) -> FloatArray:
     return t
 
 
+@checks_words
 def fit_damping(
     omega: ArrayLike,
     radiation_damping: ArrayLike,
@@ -170,8 +172,6 @@ def fit_damping(
             path="radiation_damping",
             allowed=f"({len(w)}, m, m)",
         )
-    if start not in ("even", "zero"):
-        raise InputError(f"start is {start!r}", path="start", allowed="even or zero")
     steady = None if steady_damping is None else np.asarray(steady_damping, dtype=float)
     if start == "zero":
         steady = np.zeros(b.shape[1:])

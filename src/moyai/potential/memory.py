@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck
 from moyai.potential.damping_model import DampingModel, Start, fit_damping
 from moyai.potential.damping_tail import TailTheory
@@ -64,6 +65,7 @@ class MemoryFunctions:
         return self.acceleration_kernel - self.steady_dashpot
 
 
+@checks_words
 def memory_functions(
     omega: ArrayLike,
     radiation_damping: ArrayLike,
@@ -196,6 +198,7 @@ def _resolution_check(w: FloatArray, damping: FloatArray, start: Start) -> Ident
     )
 
 
+@checks_words
 def local_errors(omega: FloatArray, damping: FloatArray, *, start: Start) -> FloatArray:
     """Return an estimate (n,) of the interpolation error around each frequency, over the largest damping.
 

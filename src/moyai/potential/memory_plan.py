@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.potential.damping_model import DampingModel, Start
 from moyai.potential.memory import local_errors, pair_measure
 from moyai.sea.water import Water
@@ -91,6 +92,7 @@ def recommend_frequencies(
     )
 
 
+@checks_words
 def refine_frequencies(
     omega: ArrayLike, radiation_damping: ArrayLike, *, start: Start, tolerance: float = _REFERENCE
 ) -> FloatArray:

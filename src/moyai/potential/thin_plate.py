@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.potential.edges import ComplexArray, FloatArray, arc_position, arc_slope, as_points
 from moyai.potential.thin_plate_grid import PlateGrid, plate_grid, with_tails
 from moyai.sea.water import Water
@@ -165,6 +166,7 @@ class PlateLimit:
     centre_of_pressure: FloatArray
 
 
+@checks_words
 def solve_plate_limit(
     plate: Plate,
     water: Water,

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
 from moyai.sea.directional import Spreading, wrapped
@@ -25,6 +26,7 @@ Array = NDArray[np.float64]
 __all__ = ["WaveComponents", "synthesise"]
 
 
+@checks_words
 def synthesise(
     spectrum: Spectrum,
     water: Water,

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.sea import dispersion
 from moyai.sea.breaking import highest_steady_wave
 from moyai.sea.permanent_wave import NonlinearWave, Theory
@@ -172,6 +173,7 @@ def _solve_length(
     return length, solution
 
 
+@checks_words
 def nonlinear_wave(
     theory: Theory,
     *,

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea import spectral_integrals as integrals
 from moyai.sea.spectrum import Spectrum, WindSeaShape, depth_function
 from moyai.sea.spectrum_file import read_spectrum_file, spectrum_table
@@ -55,6 +56,7 @@ def _normalised(shape: WindSeaShape, significant_height: float) -> WindSeaShape:
     return replace(shape, scale=shape.scale * significant_height**2 / (16.0 * area))
 
 
+@checks_words
 def jonswap(
     significant_height: float,
     peak_period: float,
@@ -177,6 +179,7 @@ def pierson_moskowitz_of_wind(wind_speed: float, gravity: float, omega: ArrayLik
     return _from_shape(shape, "pierson_moskowitz", omega, wind_speed=speed, gravity=g)
 
 
+@checks_words
 def bretschneider_mitsuyasu(
     significant_height: float,
     significant_period: float,
@@ -214,6 +217,7 @@ def bretschneider_mitsuyasu(
     )
 
 
+@checks_words
 def tma(
     significant_height: float,
     peak_period: float,

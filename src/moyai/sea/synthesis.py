@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea.spectrum import Spectrum
 
 Array = NDArray[np.float64]
@@ -19,6 +20,7 @@ _STREAMS: dict[str, int] = {"phase": 1, "amplitude": 2, "heading": 3, "frequency
 ENERGY_LEFT_OUT = 1e-3
 
 
+@checks_words
 def uniform_numbers(seed: int, stream: Stream, count: int) -> Array:
     """Return ``count`` uniform numbers in [0, 1) of a named stream.
 

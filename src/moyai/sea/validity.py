@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice, Severity
 from moyai.sea.breaking import (
     BreakingLimit,
@@ -116,6 +117,7 @@ def recommended_theory(height: float, period: float, water: Water, current_along
     return TheoryAdvice(theory, order, ratios, ursell, ratio)
 
 
+@checks_words
 def check_wave(
     height: float,
     period: float,

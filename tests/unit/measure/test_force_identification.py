@@ -317,7 +317,7 @@ def test_records_shorter_than_a_period_or_too_coarse_are_refused():
         ({"density": -1.0}, "density"),
         ({"widths": (0.0,)}, "widths"),
         ({"period": 0.0}, "period"),
-        ({"methods": ("morison",)}, "unknown methods"),
+        ({"methods": ("morison",)}, "not a known word"),
         ({"methods": ("fourier",), "regular": False}, "periodic record"),
         ({"harmonics": (1,)}, "2 and above"),
         ({"confidence": 1.0}, "confidence"),

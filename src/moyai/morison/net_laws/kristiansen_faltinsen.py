@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.net_law_base import Array, NetLaw
 from moyai.morison.nets import Net
 
@@ -30,6 +30,7 @@ def cylinder_drag(reynolds: ArrayLike) -> Array:
     return np.asarray(np.polynomial.polynomial.polyval(x, _CYLINDER))
 
 
+@checks_words
 @dataclass(frozen=True)
 class KristiansenFaltinsen(NetLaw):
     """Drag and lift by two harmonics of the angle, scaled at 0 and at 45 degrees.
@@ -52,12 +53,6 @@ class KristiansenFaltinsen(NetLaw):
     skin: ClassVar[str] = "no force at zero solidity, none along a panel parallel to the flow"
 
     normal_at_45: Literal["cross_flow", "solidity"] = "cross_flow"
-
-    def __post_init__(self) -> None:
-        if self.normal_at_45 not in ("cross_flow", "solidity"):
-            raise InputError(
-                f"unknown normal_at_45 '{self.normal_at_45}'", path="normal_at_45", allowed="cross_flow, solidity"
-            )
 
     def reynolds(self, speed: ArrayLike, net: Net, kinematic_viscosity: float) -> Array:
         """Return the Reynolds number in the speed between the twines."""

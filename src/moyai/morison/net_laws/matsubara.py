@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.net_law_base import Array, NetLaw
 from moyai.morison.nets import Net
 
@@ -17,6 +18,7 @@ from moyai.morison.nets import Net
 FACTOR, EXPONENT = 9.84, 0.36
 
 
+@checks_words
 @dataclass(frozen=True)
 class Matsubara(NetLaw):
     """C_D = 9.84 Re^-0.36 on the area of the twines, across a panel; a share of it along the panel.
@@ -61,8 +63,6 @@ class Matsubara(NetLaw):
             raise InputError(
                 f"tangential_share is {self.tangential_share:g}", path="tangential_share", allowed="0 to 1"
             )
-        if self.solidity not in ("listed", "geometric"):
-            raise InputError(f"unknown solidity '{self.solidity}'", path="solidity", allowed="listed, geometric")
 
     def twine_drag(self, reynolds: ArrayLike) -> Array:
         """Return C_D on the area of the twines [eq:net-matsubara].

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.morison.net_law_base import Array, NetLaw
 from moyai.morison.nets import Net
 
@@ -18,6 +19,7 @@ _NUMBER = r"(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)"
 _TEXT = re.compile(rf"^\s*{_NUMBER}\s*Re\s*\^\s*-\s*{_NUMBER}(?:\s+from\s+{_NUMBER}\s+to\s+{_NUMBER})?\s*$")
 
 
+@checks_words
 @dataclass(frozen=True)
 class PowerLawNet(NetLaw):
     """C_D = A Re^-B across a panel, a share of it along the panel [eq:net-components].
@@ -72,8 +74,6 @@ class PowerLawNet(NetLaw):
             raise InputError(
                 f"tangential_share is {self.tangential_share:g}", path="tangential_share", allowed="0 to 1"
             )
-        if self.solidity not in ("listed", "geometric"):
-            raise InputError(f"unknown solidity '{self.solidity}'", path="solidity", allowed="listed, geometric")
         # the range of this law is its own, not that of its class
         object.__setattr__(self, "reynolds_range", (self.lowest, self.highest))
 
