@@ -19,8 +19,8 @@ from moyai.core.progress import Progress, silent
 if TYPE_CHECKING:
     from rich.console import Console
 
-OK, FAILED, BAD_INPUT = 0, 1, 2
-"""Exit codes: all well; it ran and something failed or did not converge; the input is bad."""
+OK, FAILED, BAD_INPUT, NOT_HELD = 0, 1, 2, 3
+"""Exit codes: all well; something failed or did not converge; the input is bad; the design does not hold (if asked)."""
 
 
 class Debug:

@@ -13,6 +13,7 @@ from typing import Any
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.report.document import (
     Animation,
+    Badge,
     Block,
     Cell,
     Choice,
@@ -29,16 +30,10 @@ from moyai.report.document import (
     Table,
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
+from moyai.report.first_page import COMPUTATION
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 
-STATUS_WORDS = {
-    "converged": "Converged",
-    "outside_validity": "Outside the range of validity",
-    "not_converged": "Not converged",
-    "interrupted": "Interrupted: partial result",
-    "failed": "Failed",
-}
-STATUS_TONE = {"converged": "good", "outside_validity": "caution", "interrupted": "caution"}
+STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 _SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
 
@@ -94,7 +89,7 @@ def render_html(document: Document) -> str:
 <h1>{escape(document.title)}</h1>
 <p class="subtitle">{escape(document.subtitle)}</p>
 </div>
-{_status(document)}
+{_badges(document)}
 </header>
 <div class="frame">
 <nav aria-label="Contents"><ol>
@@ -115,11 +110,21 @@ it.</p></noscript>
 """
 
 
-def _status(document: Document) -> str:
-    tone = STATUS_TONE.get(document.status, "bad")
-    word = STATUS_WORDS.get(document.status, document.status)
-    message = f'<p class="status-message">{escape(document.message)}</p>' if document.message else ""
-    return f'<div class="status {tone}"><strong>{escape(word)}</strong>{message}</div>'
+def badges_of(document: Document) -> tuple[Badge, ...]:
+    """Return the badges of a document; that of its status where it has no others."""
+    if document.badges:
+        return document.badges
+    word, tone = COMPUTATION.get(document.status, (document.status, "bad"))
+    return (Badge("", word, document.message, tone),)
+
+
+def _badges(document: Document) -> str:
+    items = []
+    for badge in badges_of(document):
+        label = f"<span>{escape(badge.label)}</span> " if badge.label else ""
+        message = f'<p class="status-message">{words(badge.message)}</p>' if badge.message else ""
+        items.append(f'<div class="status {badge.tone}">{label}<strong>{escape(badge.word)}</strong>{message}</div>')
+    return f'<div class="badges">{"".join(items)}</div>'
 
 
 def foot_text(document: Document) -> str:

@@ -24,9 +24,8 @@ from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import (
-    STATUS_TONE,
-    STATUS_WORDS,
     asset,
+    badges_of,
     check_text,
     column_texts,
     foot_text,
@@ -73,9 +72,11 @@ def render_pdf(document: Document) -> bytes:
         data = {
             "title": document.title,
             "subtitle": document.subtitle,
-            "status": STATUS_WORDS.get(document.status, document.status),
-            "tone": STATUS_TONE.get(document.status, "bad"),
-            "message": document.message,
+            "status": " · ".join(f"{badge.label}: {badge.word}".removeprefix(": ") for badge in badges_of(document)),
+            "badges": [
+                {"label": badge.label, "word": badge.word, "tone": badge.tone, "message": badge.message}
+                for badge in badges_of(document)
+            ],
             "foot": foot_text(document),
             "fonts": _choose(TEXT_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
             "mono": _choose(MONO_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
