@@ -46,7 +46,7 @@ _PLAIN: dict[str, tuple[str, Sense, str, str]] = {
     "least_toe_clearance": ("toe_clearance", "at least", "m", "toe clearance"),
     "least_limit_current": ("limit_current", "at least", "m/s", "current that it holds in"),
     "least_limit_wave_height": ("limit_wave_height", "at least", "m", "wave height that it holds in"),
-    "least_volume_left": ("volume_left", "at least", "1", "volume left"),
+    "least_volume_left": ("volume_left", "at least", "%", "volume left"),
     "greatest_drag": ("drag", "at most", "N", "drag"),
     "greatest_net_tension": ("net_tension", "at most", "N/m", "tension of the net"),
     "greatest_tension": ("line_tension", "at most", "N", "tension of the lines"),
@@ -108,7 +108,7 @@ def _curtain(model: Any, given: Any) -> Iterator[Criterion]:
         )
     for key, headline, unit, words in (
         ("least_effective_depth", "effective_depth", "m", "effective depth"),
-        ("least_float_reserve", "float_reserve", "1", "reserve of the floats"),
+        ("least_float_reserve", "float_reserve", "%", "reserve of the floats"),
     ):
         limit = curtain_limit(model, key)
         if limit > 0.0:

@@ -51,10 +51,10 @@ def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, as
     materials = {block.component} if block and block.component else _materials(rules, names)
     found = []
     for material in sorted(materials):
-        limit = _limit(rules, chosen, consequence, material)
-        if limit is None:
+        value = _limit(rules, chosen, consequence, material)
+        if value is None:
             raise _no_value(name, rules, chosen, material)
-        found.append((limit, material))
+        found.append((value, material))
     (limit, weight, used, words), material = min(found, key=lambda item: item[0][0])
     sure = all(rule.confirmed for rule in used) or bool(block and name in block.confirmed)
     doubt = "" if sure else ", not confirmed against the standard"

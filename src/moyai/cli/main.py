@@ -9,6 +9,7 @@ import os
 import signal
 import sys
 import time
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -115,11 +116,13 @@ def new(
 def check(file: CaseFile, as_json: AsJson = False) -> None:
     """Report all faults of a case file at once, and the numbers that follow from it."""
     with guard(as_json):
+        from moyai.case.criteria import criteria_of
         from moyai.case.derived import derived_numbers
         from moyai.case.reader import load_case
 
         case = load_case(file)
         numbers = derived_numbers(case)
+        criteria = criteria_of(case.model)
         if as_json:
             record = {
                 "valid": True,
@@ -130,14 +133,16 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
                 "faults": [],
                 "warnings": fault_records(case.warnings),
                 "derived": [number.as_dict() for number in numbers],
+                "criteria": [asdict(criterion) for criterion in criteria],
             }
             print_json(record)
             return
-        from moyai.cli.tables import print_derived
+        from moyai.cli.tables import print_criteria, print_derived
 
         for warning in case.warnings:
             tell(f"warning: {warning}")
         print_derived(rich_console(), case.title, numbers)
+        print_criteria(rich_console(), criteria)
         count = len(case.warnings)
         say(f"{file}: no faults" + (f", {count} warning{'s' if count > 1 else ''}" if count else ""))
 
@@ -195,8 +200,9 @@ def run(
         case = load_case(file)
         folder = prepare_output(folder)
         if not as_json and not quiet:
-            for warning in case.warnings:
-                tell(f"warning: {warning}")
+            count = len(case.warnings)
+            if count:
+                tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
         with progress_bars(quiet) as progress:
             result = run_case(case, progress, keep=folder / "coefficients")
         files = [result.write(folder / "results.nc")]
@@ -212,7 +218,7 @@ def run(
         if as_json:
             print_json(_run_record(case, result, files, seconds, key_figures(result)))
         elif not quiet:
-            print_summary(rich_console(), result, files, seconds, [fault.message for fault in case.warnings])
+            print_summary(rich_console(), result, files, seconds)
         else:
             if result.status != "converged":
                 tell(f"{result.status}: {result.message}")

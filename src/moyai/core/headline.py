@@ -130,7 +130,7 @@ class Criterion:
     label : str
         Words for the reader; the headline's own label where empty.
     unit : str
-        Unit of the limit, shown where the headline is absent.
+        Unit of the limit; ``%`` for a ratio that is shown in per cent.
     sea : str
         Name of the sea state that it is asked in; empty for the governing value.
     as_factor : bool
@@ -325,6 +325,8 @@ def _spoken(criterion: Criterion, value: float) -> str:
     shown, unit = criterion.shown(value), criterion.unit
     if unit == "1":
         return f"{shown:.3g}"
+    if unit == "%":
+        return f"{100.0 * shown:.3g} %"
     if unit == "rad":
         return f"{math.degrees(shown):.3g} deg"
     if unit.startswith("N"):

@@ -9,7 +9,7 @@ from dataclasses import replace
 from moyai.core.headline import Judgement, Outcome
 from moyai.core.results import Result
 from moyai.report.document import Badge, Block, Column, Document, KeyFigures, NoticeBlock, Section, Table, Tone
-from moyai.report.formatting import DASH, display_unit, format_number
+from moyai.report.formatting import DASH, display_unit, format_number, format_percent
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
     "converged": ("Converged", "good"),
@@ -104,6 +104,8 @@ def limit_and_found(item: Judgement) -> tuple[str, str]:
         return f"at least {format_number(criterion.shown(criterion.limit))}", format_number(value)
     if criterion.unit == "1":
         return f"{criterion.sense} {format_number(criterion.limit)}", format_number(item.value)
+    if criterion.unit == "%":
+        return f"{criterion.sense} {format_percent(criterion.limit, 3)}", format_percent(item.value, 3)
     pair = [value for value in (criterion.limit, item.value) if math.isfinite(value)]
     shown = display_unit(criterion.unit, pair)
     texts = []

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from moyai.core.headline import Criterion, Headline, Judgement
 from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
-from moyai.report.formatting import DASH, format_quantity
+from moyai.report.first_page import limit_and_found
+from moyai.report.formatting import DASH, display_unit, format_number
 
 RATIO = "1"
 
@@ -25,42 +27,71 @@ def headline_figures(result: Result) -> KeyFigures | None:
     judged: dict[str, list[Judgement]] = {}
     for item in result.verdict.judgements:
         judged.setdefault(item.criterion.headline, []).append(item)
-    return KeyFigures(tuple(_figure(headline, judged.get(headline.name, [])) for headline in result.headlines))
+    shown = [headline for headline in result.headlines if headline.shown]
+    scale = _largest(shown)
+    return KeyFigures(tuple(_figure(headline, judged.get(headline.name, []), scale) for headline in shown))
 
 
-def headline_text(headline: Headline) -> str:
-    """Return the number of a headline with its unit, its bound and its band."""
+def headline_text(headline: Headline, like: float = 0.0) -> str:
+    """Return the number of a headline with its unit and its bound.
+
+    Parameters
+    ----------
+    headline : Headline
+    like : float
+        Magnitude that chooses between N, kN and MN together with the value, so that a page has one unit of forces.
+    """
     if headline.text:
         return headline.text
     if math.isnan(headline.value):
         return DASH
-    unit = "" if headline.unit == RATIO else headline.unit
-    text = format_quantity(headline.value, unit)
+    text = _quantity(headline.value, headline.unit, like)
     return f"{headline.bound} {text}" if headline.bound else text
 
 
-def band_text(headline: Headline) -> str:
-    """Return the band of a headline in words, empty where it has none."""
+def band_text(headline: Headline, like: float = 0.0) -> str:
+    """Return the band of a headline in words, empty where it has none; in the unit of its number."""
     band = headline.band
     if band is None:
         return ""
-    unit = "" if headline.unit == RATIO else headline.unit
-    return f"{format_quantity(band.low, unit)} to {format_quantity(band.high, unit)} ({band.of})"
+    like = max(like, abs(headline.value)) if math.isfinite(headline.value) else like
+    low, high = (_quantity(end, headline.unit, like) for end in (band.low, band.high))
+    return f"{low} to {high} ({band.of})"
 
 
-def _figure(headline: Headline, judged: list[Judgement]) -> KeyFigure:
+def _quantity(value: float, unit: str, like: float) -> str:
+    shown = display_unit("" if unit == RATIO else unit, [value, like])
+    text = format_number(value * shown.factor)
+    if text == DASH or not shown.name:
+        return text
+    return f"{text}{shown.pretty}" if shown.name == "deg" else f"{text} {shown.pretty}"
+
+
+def _largest(headlines: Iterable[Headline]) -> dict[str, float]:
+    """Return the largest magnitude of each unit on the page."""
+    found: dict[str, float] = {}
+    for headline in headlines:
+        if math.isfinite(headline.value):
+            found[headline.unit] = max(found.get(headline.unit, 0.0), abs(headline.value))
+    return found
+
+
+def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, float]) -> KeyFigure:
+    like = scale.get(headline.unit, 0.0)
     worst = max(judged, key=lambda item: _severity(item), default=None)
-    detail = "; ".join(part for part in (band_text(headline), headline.detail, headline.where, headline.model) if part)
+    detail = "; ".join(
+        part for part in (band_text(headline, like), headline.detail, headline.where, headline.model) if part
+    )
     if worst is None:
-        return KeyFigure(headline.label, headline_text(headline), detail)
+        return KeyFigure(headline.label, headline_text(headline, like), detail)
     judgement: Literal["", "good", "caution", "bad"] = {
         "holds": "good",
         "does not hold": "bad",
         "not judged": "caution",
     }[worst.outcome]  # type: ignore[assignment]
     share = _share(worst.criterion, worst.value)
-    detail = "; ".join(part for part in (detail, _limit_text(worst.criterion)) if part)
-    return KeyFigure(headline.label, headline_text(headline), detail, share, judgement)
+    detail = "; ".join(part for part in (detail, f"limit {limit_and_found(worst)[0]}") if part)
+    return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
 
 
 def _severity(item: Judgement) -> int:
@@ -72,8 +103,3 @@ def _share(criterion: Criterion, value: float) -> float:
     if criterion.sense == "at least" or criterion.limit <= 0.0 or not math.isfinite(value):
         return math.nan
     return value / criterion.limit
-
-
-def _limit_text(criterion: Criterion) -> str:
-    unit = "" if criterion.unit == RATIO else criterion.unit
-    return f"limit {criterion.sense} {format_quantity(criterion.limit, unit)} ({criterion.source})"

@@ -26,11 +26,10 @@ from moyai.report.formatting import pretty_unit
 from moyai.report.html import (
     asset,
     badges_of,
-    check_text,
     column_texts,
     foot_text,
     is_text_column,
-    notice_text,
+    notice_items,
 )
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
@@ -183,10 +182,4 @@ def _table(table: Table) -> dict[str, Any]:
 
 
 def _notices(block: NoticeBlock) -> list[dict[str, str]]:
-    order = {"error": 0, "warning": 1, "information": 2}
-    items = [("error", *check_text(check)) for check in block.failed_checks]
-    items += [
-        (notice.severity, *notice_text(notice))
-        for notice in sorted(block.notices, key=lambda entry: order.get(entry.severity, 1))
-    ]
-    return [{"kind": kind, "first": first, "second": second} for kind, first, second in items]
+    return [{"kind": kind, "first": first, "second": second} for kind, first, second in notice_items(block)]
