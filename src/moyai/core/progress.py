@@ -35,8 +35,8 @@ class _Stage:
 class Pace:
     """Measures how fast the stages of a run go, and says how long they still take.
 
-    A stage is known by its words; stages may lie in each other. The rate is that since the stage began, so that the time
-    left is known from its second report on, however long one step takes.
+    A stage is known by its words; stages may lie in each other. The rate is that since the stage began, so that the
+    time left is known from its second report on, however long one step takes.
 
     Parameters
     ----------

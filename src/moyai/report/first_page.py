@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from moyai.core.headline import Judgement, Outcome
 from moyai.core.results import Result
-from moyai.report.document import Badge, Block, Column, Document, KeyFigures, NoticeBlock, Section, Table, Tone
+from moyai.report.document import (
+    Badge,
+    Block,
+    Choice,
+    Column,
+    Document,
+    KeyFigures,
+    NoticeBlock,
+    Section,
+    Table,
+    Tone,
+    in_one_unit,
+)
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
@@ -25,6 +37,8 @@ DESIGN: dict[Outcome, tuple[str, Tone]] = {
     "not judged": ("Not judged", "neutral"),
 }
 """Words and colour of the verdict on the design."""
+_LIKE_UNITS = ("N", "Pa")
+"""Units whose columns in one table are shown alike."""
 _RANK: dict[Outcome, int] = {"does not hold": 0, "not judged": 1, "holds": 2}
 
 
@@ -58,7 +72,22 @@ def with_first_page(document: Document, result: Result) -> Document:
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
     table = criteria_table(result)
     blocks: list[Block] = [*numbers, *([] if table is None else [table]), *notices, *rest]
-    return replace(document, badges=badges(result), sections=(Section(first.key, first.title, tuple(blocks)), *others))
+    ordered = (Section(first.key, first.title, tuple(blocks)), *others)
+    sections = tuple(replace(section, blocks=tuple(map(in_like_units, section.blocks))) for section in ordered)
+    return replace(document, badges=badges(result), sections=sections)
+
+
+def in_like_units(block: Block) -> Block:
+    """Return a block whose tables have one unit of forces and one of stresses, so that columns can be compared."""
+    if isinstance(block, Choice):
+        options = tuple(replace(option, blocks=tuple(map(in_like_units, option.blocks))) for option in block.options)
+        return replace(block, options=options)
+    if not isinstance(block, Table):
+        return block
+    columns: Sequence[Column] = block.columns
+    for unit in _LIKE_UNITS:
+        columns = in_one_unit(columns, unit)
+    return replace(block, columns=tuple(columns))
 
 
 def criteria_table(result: Result) -> Table | None:
@@ -71,7 +100,8 @@ def criteria_table(result: Result) -> Table | None:
     items = sorted(result.verdict.judgements, key=lambda item: _RANK[item.outcome])
     if not items:
         return None
-    limits, found = zip(*(limit_and_found(item) for item in items), strict=True)
+    like = largest_by_unit(result)
+    limits, found = zip(*(limit_and_found(item, like.get(item.criterion.unit, 0.0)) for item in items), strict=True)
     return Table(
         "criteria",
         "Criteria",
@@ -96,8 +126,27 @@ def criteria_note(items: Iterable[Judgement]) -> str:
     return text
 
 
-def limit_and_found(item: Judgement) -> tuple[str, str]:
-    """Return limit and value of a judgement in one unit, a factor of safety as a factor."""
+def largest_by_unit(result: Result) -> dict[str, float]:
+    """Return the largest magnitude of each unit among the headlines and the limits, which chooses the unit shown."""
+    pairs = [(headline.unit, headline.value) for headline in result.headlines if headline.shown]
+    for item in result.verdict.judgements:
+        pairs += [(item.criterion.unit, item.value), (item.criterion.unit, item.criterion.limit)]
+    found: dict[str, float] = {}
+    for unit, value in pairs:
+        if math.isfinite(value):
+            found[unit] = max(found.get(unit, 0.0), abs(value))
+    return found
+
+
+def limit_and_found(item: Judgement, like: float = 0.0) -> tuple[str, str]:
+    """Return limit and value of a judgement in one unit, a factor of safety as a factor.
+
+    Parameters
+    ----------
+    item : Judgement
+    like : float
+        Magnitude that chooses between N, kN and MN together with both.
+    """
     criterion = item.criterion
     if criterion.as_factor:
         value = math.nan if math.isnan(item.value) else criterion.shown(item.value)
@@ -106,7 +155,7 @@ def limit_and_found(item: Judgement) -> tuple[str, str]:
         return f"{criterion.sense} {format_number(criterion.limit)}", format_number(item.value)
     if criterion.unit == "%":
         return f"{criterion.sense} {format_percent(criterion.limit, 3)}", format_percent(item.value, 3)
-    pair = [value for value in (criterion.limit, item.value) if math.isfinite(value)]
+    pair = [value for value in (criterion.limit, item.value, like) if math.isfinite(value)]
     shown = display_unit(criterion.unit, pair)
     texts = []
     for value in (criterion.limit, item.value):

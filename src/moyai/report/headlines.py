@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Literal
 
 from moyai.core.headline import Criterion, Headline, Judgement
 from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
-from moyai.report.first_page import limit_and_found
+from moyai.report.first_page import largest_by_unit, limit_and_found
 from moyai.report.formatting import DASH, display_unit, format_number
 
 RATIO = "1"
@@ -24,12 +24,20 @@ def headline_figures(result: Result) -> KeyFigures | None:
     """
     if not result.headlines:
         return None
-    judged: dict[str, list[Judgement]] = {}
-    for item in result.verdict.judgements:
-        judged.setdefault(item.criterion.headline, []).append(item)
     shown = [headline for headline in result.headlines if headline.shown]
-    scale = _largest(shown)
-    return KeyFigures(tuple(_figure(headline, judged.get(headline.name, []), scale) for headline in shown))
+    scale = largest_by_unit(result)
+    return KeyFigures(tuple(_figure(headline, _judged(result, headline), scale) for headline in shown))
+
+
+def _judged(result: Result, headline: Headline) -> list[Judgement]:
+    """Return the judgements of one headline: of its name and sea, and where several share a name of its place."""
+    found = [
+        item
+        for item in result.verdict.judgements
+        if item.criterion.headline == headline.name and item.criterion.sea in ("", headline.sea)
+    ]
+    alone = sum(other.name == headline.name for other in result.headlines) == 1
+    return [item for item in found if alone or item.reason == headline.where or item.outcome == "not judged"]
 
 
 def headline_text(headline: Headline, like: float = 0.0) -> str:
@@ -67,15 +75,6 @@ def _quantity(value: float, unit: str, like: float) -> str:
     return f"{text}{shown.pretty}" if shown.name == "deg" else f"{text} {shown.pretty}"
 
 
-def _largest(headlines: Iterable[Headline]) -> dict[str, float]:
-    """Return the largest magnitude of each unit on the page."""
-    found: dict[str, float] = {}
-    for headline in headlines:
-        if math.isfinite(headline.value):
-            found[headline.unit] = max(found.get(headline.unit, 0.0), abs(headline.value))
-    return found
-
-
 def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, float]) -> KeyFigure:
     like = scale.get(headline.unit, 0.0)
     worst = max(judged, key=lambda item: _severity(item), default=None)
@@ -90,7 +89,9 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
         "not judged": "caution",
     }[worst.outcome]  # type: ignore[assignment]
     share = _share(worst.criterion, worst.value)
-    detail = "; ".join(part for part in (detail, f"limit {limit_and_found(worst)[0]}") if part)
+    limit, found = limit_and_found(worst, like)
+    asked = f"factor of safety {found}, asked {limit}" if worst.criterion.as_factor else f"limit {limit}"
+    detail = "; ".join(part for part in (detail, asked) if part)
     return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
 
 
