@@ -229,7 +229,12 @@ def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
     }
     seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
-    return collected.close(attributes, seeds, fulfilled="all identities hold and all iterations converged")
+    return collected.close(
+        attributes,
+        seeds,
+        fulfilled="all identities hold and all iterations converged",
+        criteria=problem.criteria,
+    )
 
 
 __all__ = ["run"]

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
 from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
@@ -268,3 +269,4 @@ class BreakwaterProblem:
     measured: MeasuredPoints | None = None
     case_text: str = ""
     case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()

@@ -174,4 +174,8 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
         "case_hash": problem.case_hash,
         "case_text": problem.case_text,
     }
-    return collected.close(attributes, [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)])
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        criteria=problem.criteria,
+    )

@@ -8,6 +8,7 @@ from typing import ClassVar
 from moyai.cage.flexible_model import FlexibleCage
 from moyai.cage.rigid_model import RegularWaves
 from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
 from moyai.sea.states import IrregularSea
@@ -75,6 +76,7 @@ class FlexibleCageProblem:
     settings: FlexibleSettings
     case_text: str = ""
     case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()
     model: ClassVar[str] = "flexible"
 
     def __post_init__(self) -> None:

@@ -184,7 +184,11 @@ def _result(problem: RigidCageProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
         "equations": problem.equations,
     }
-    return collected.close(attributes, [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)])
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        criteria=problem.criteria,
+    )
 
 
 __all__ = ["rest_at", "run"]

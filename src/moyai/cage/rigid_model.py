@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 
 from moyai.cage.rigid_parts import RigidCage
 from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 
@@ -146,6 +147,7 @@ class RigidCageProblem:
     settings: Settings = field(default_factory=Settings)
     case_text: str = ""
     case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.kinematic_viscosity) and self.kinematic_viscosity > 0.0):

@@ -21,6 +21,7 @@ from moyai.breakwater.model import (
 )
 from moyai.case import schema_breakwater as schema
 from moyai.case.build_sea import environment_of
+from moyai.case.criteria import criteria_of
 from moyai.case.measured import read_points
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, LineEntry, OwnSegment, SpringLine
 from moyai.core.errors import InputError
@@ -62,6 +63,7 @@ def build_problem(
         measured=measured,
         case_text=case_text,
         case_hash=case_hash,
+        criteria=criteria_of(model),
     )
 
 

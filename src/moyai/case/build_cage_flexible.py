@@ -16,6 +16,7 @@ from moyai.case import schema_cage as schema
 from moyai.case import schema_cage_flexible as parts
 from moyai.case.build_cage_rigid import seas_of
 from moyai.case.build_sea import current_of
+from moyai.case.criteria import criteria_of
 from moyai.core.errors import InputError
 from moyai.flexible.network import Bed
 from moyai.morison.net_fouling import foul, foul_by_name
@@ -91,6 +92,7 @@ def build_problem(
         ),
         case_text=case_text,
         case_hash=case_hash,
+        criteria=criteria_of(model),
     )
 
 

@@ -13,6 +13,7 @@ from moyai.cage.rigid_parts import Floats, PointWeight, RigidCage, Rod
 from moyai.case import schema_cage as schema
 from moyai.case import schema_cage_parts as parts
 from moyai.case.build_sea import current_of, sea_state_of
+from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
@@ -75,6 +76,7 @@ def build_problem(
         ),
         case_text=case_text,
         case_hash=case_hash,
+        criteria=criteria_of(model),
     )
 
 

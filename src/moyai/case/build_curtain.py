@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.case import schema_curtain as schema
 from moyai.case.build_sea import environment_of
+from moyai.case.criteria import criteria_of, curtain_factor, curtain_limit
 from moyai.case.measured import read_points
 from moyai.core.errors import InputError
 from moyai.core.quantities import FORCE, TIME
@@ -71,6 +72,7 @@ def build_problem(
         record=None if model.record is None else recorded_snap(model.record, folder),
         case_text=case_text,
         case_hash=case_hash,
+        criteria=criteria_of(model),
     )
 
 
@@ -260,23 +262,24 @@ def _drag(entry: Any) -> DragLaw:
 
 
 def _strengths(model: schema.CurtainCase, upper: float, lower: float) -> Strengths:
-    factors, given = model.settings.safety_factors, model.structure
+    given = model.structure
     anchors, joints = given.anchors, given.joints
 
-    def strength(capacity: float | None, factor: float | None) -> Strength:
-        if capacity is None or factor is None or math.isinf(capacity):
+    def strength(capacity: float | None, part: str) -> Strength:
+        factor, _ = curtain_factor(model, part)
+        if capacity is None or math.isnan(factor) or math.isinf(capacity):
             return UNJUDGED
         return Strength(capacity, factor)
 
     return Strengths(
-        upper_cable=strength(upper, factors.cable),
-        lower_cable=strength(lower, factors.cable),
-        sheet=strength(given.skirt.strength, factors.sheet),
-        joint=strength(joints.strength if joints else None, factors.joint),
-        anchor_line=strength(anchors.breaking_load if anchors else None, factors.anchor_line),
-        anchor=strength(anchors.holding_force if anchors else None, factors.anchor),
-        least_reserve=model.settings.least_float_reserve,
-        least_depth=model.settings.least_effective_depth,
+        upper_cable=strength(upper, "cable"),
+        lower_cable=strength(lower, "cable"),
+        sheet=strength(given.skirt.strength, "sheet"),
+        joint=strength(joints.strength if joints else None, "joint"),
+        anchor_line=strength(anchors.breaking_load if anchors else None, "anchor_line"),
+        anchor=strength(anchors.holding_force if anchors else None, "anchor"),
+        least_reserve=curtain_limit(model, "least_float_reserve"),
+        least_depth=curtain_limit(model, "least_effective_depth"),
     )
 
 

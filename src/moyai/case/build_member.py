@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.case import schema_member as schema
 from moyai.case.build_sea import current_of, sea_state_of
+from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
@@ -70,6 +71,7 @@ def build_problem(model: schema.MemberCase, folder: Path, *, case_text: str = ""
         ),
         case_text=case_text,
         case_hash=case_hash,
+        criteria=criteria_of(model),
     )
 
 

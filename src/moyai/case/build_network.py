@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.case import schema_network_parts as parts
 from moyai.case.build_sea import current_of, sea_state_of
+from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.case.schema_network import ElevationRecord, NetworkCase, WavesOneByOne
@@ -78,6 +79,7 @@ def build_problem(case: NetworkCase, folder: Path, *, case_text: str = "", case_
         bodies=tuple(_body(name, body, case, folder) for name, body in unit.bodies.items()),
         case_text=case_text,
         case_hash=case_hash,
+        criteria=criteria_of(case),
     )
 
 

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 #: Wave periods of one run of a whole span: a run keeps 20000 rows, and 40 of them draw a period.
 MOST_PERIODS = 500
-_STRENGTHS: tuple[tuple[tuple[str, ...], str], ...] = (
-    (("cables", "upper", "breaking_load"), "cable"),
-    (("cables", "lower", "breaking_load"), "cable"),
-    (("skirt", "strength"), "sheet"),
-    (("joints", "strength"), "joint"),
-    (("anchors", "breaking_load"), "anchor_line"),
-    (("anchors", "holding_force"), "anchor"),
+_STRENGTHS: tuple[tuple[str, ...], ...] = (
+    ("cables", "upper", "breaking_load"),
+    ("cables", "lower", "breaking_load"),
+    ("skirt", "strength"),
+    ("joints", "strength"),
+    ("anchors", "breaking_load"),
+    ("anchors", "holding_force"),
 )
 
 
@@ -33,8 +33,6 @@ def check(model: CurtainCase, findings: Findings, folder: Path) -> None:
     check_surroundings(model, findings, folder)
     _check_needs(model, findings)
     _check_settings(model, findings)
-    _check_strengths(model, findings)
-    _check_catalogue_strengths(model, findings)
     _check_depths(model, findings)
     _check_slack(model, findings)
     _check_directions(model, findings)
@@ -89,12 +87,12 @@ def _check_needs(model: CurtainCase, findings: Findings) -> None:
         findings.warn(
             ("analyses",),
             "the analysis 'limits' has no strength to hold loads against; only floats, depth and breaking limit",
-            remedy="give strengths and 'settings.safety_factors'",
+            remedy="give the strengths of the components",
         )
 
 
 def _judged(model: CurtainCase) -> bool:
-    return any(_value(model.structure, keys) is not None for keys, _ in _STRENGTHS) or any(
+    return any(_value(model.structure, keys) is not None for keys in _STRENGTHS) or any(
         getattr(cable, "catalogue", None) for cable in (model.structure.cables.upper, model.structure.cables.lower)
     )
 
@@ -125,36 +123,6 @@ def _value(block: Any, keys: tuple[str, ...]) -> Any:
         if block is None:
             return None
     return block
-
-
-def _check_strengths(model: CurtainCase, findings: Findings) -> None:
-    """Check that every strength has its safety factor."""
-    factors = model.settings.safety_factors
-    said: set[str] = set()
-    for keys, factor in _STRENGTHS:
-        if _value(model.structure, keys) is not None and getattr(factors, factor) is None and factor not in said:
-            said.add(factor)
-            findings.fault(
-                ("structure", *keys),
-                f"the strength needs 'settings.safety_factors.{factor}'",
-                remedy="give the safety factor asked of it; 1 for none",
-            )
-
-
-def _check_catalogue_strengths(model: CurtainCase, findings: Findings) -> None:
-    """Tell that breaking loads of a catalogue are not held against anything without a safety factor."""
-    if model.settings.safety_factors.cable is not None:
-        return
-    cables = model.structure.cables
-    for side in ("upper", "lower"):
-        cable = getattr(cables, side)
-        if cable is not None and cable.catalogue is not None and cable.breaking_load is None:
-            findings.warn(
-                ("structure", "cables", side, "catalogue"),
-                "the breaking load of the catalogue is not judged without 'settings.safety_factors.cable'",
-                remedy="give the safety factor asked of it; 1 for none",
-            )
-            return
 
 
 def _check_settings(model: CurtainCase, findings: Findings) -> None:

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_criteria import CRITERIA, BreakwaterCriteria, BreakwaterKeeps
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
 from moyai.case.schema_sections import Section
@@ -293,5 +294,6 @@ class BreakwaterCase(Block):
     analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "mooring", "frequency", "time"]]
     )
+    criteria: BreakwaterKeeps = Field(default_factory=BreakwaterCriteria, description=CRITERIA)
     settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
     measured: Measured | None = Field(default=None, description="Measured points to show beside the results.")

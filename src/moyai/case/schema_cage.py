@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_cage_flexible import FlexibleCageSettings, FlexibleCageStructure
 from moyai.case.schema_cage_parts import CageMooring, RigidFloats, RigidFrame, RigidNet, RigidShape, RigidWeight, Sinker
+from moyai.case.schema_criteria import CRITERIA, CageCriteria, CageKeeps
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -160,4 +161,5 @@ class CageCase(Block):
         description="What is computed: rest position, motions and tensions over time, what line stiffness changes.",
         examples=[["statics", "time", "sensitivity"]],
     )
+    criteria: CageKeeps = Field(default_factory=CageCriteria, description=CRITERIA)
     settings: CageSettings = Field(default_factory=CageSettings, description="How the analyses are run.")

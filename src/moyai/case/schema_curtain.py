@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_criteria import CRITERIA, CurtainCriteria, CurtainKeeps
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
 from moyai.case.schema_types import (
     Auto,
@@ -256,13 +257,15 @@ class CurtainStructure(Block):
 
 
 class Factors(Block):
-    """Safety factors on strength; each is needed where its strength is given."""
+    """Safety factors on strength; the same keys stand under 'criteria'."""
 
-    cable: SafetyFactor | None = Field(default=None, description="Of the cables; 3 is common.")
-    sheet: SafetyFactor | None = Field(default=None, description="Of the sheet; 3 to 5.")
-    joint: SafetyFactor | None = Field(default=None, description="Of the joints; 3.")
-    anchor_line: SafetyFactor | None = Field(default=None, description="Of the anchor line; 3.")
-    anchor: SafetyFactor | None = Field(default=None, description="Of the anchor's holding force; 1.2 to 2.")
+    cable: SafetyFactor | None = Field(default=None, description="Of the cables. Default: 3.")
+    sheet: SafetyFactor | None = Field(default=None, description="Of the sheet, 3 to 5 in practice. Default: 4.")
+    joint: SafetyFactor | None = Field(default=None, description="Of the joints. Default: 3.")
+    anchor_line: SafetyFactor | None = Field(default=None, description="Of the anchor line. Default: 3.")
+    anchor: SafetyFactor | None = Field(
+        default=None, description="Of the anchor's holding force, 1.2 to 2 in practice. Default: 1.5."
+    )
 
 
 class Impact(Block):
@@ -522,4 +525,5 @@ class CurtainCase(Block):
         examples=[["statics", "impact", "waves", "anchor_loads", "limits"], ["dynamic"]],
     )
     record: Record | None = Field(default=None, description="A flume record to hold the impact models against.")
+    criteria: CurtainKeeps = Field(default_factory=CurtainCriteria, description=CRITERIA)
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_criteria import CRITERIA, MemberCriteria, MemberKeeps
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -312,4 +313,5 @@ class MemberCase(Block):
         description="What is computed: sweep over KC, forces, what the surface changes.",
         examples=[["sweep", "forces", "surface"]],
     )
+    criteria: MemberKeeps = Field(default_factory=MemberCriteria, description=CRITERIA)
     settings: MemberSettings = Field(default_factory=MemberSettings, description="How the analyses are run.")

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_criteria import CRITERIA, NetworkCriteria, NetworkKeeps
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -198,4 +199,5 @@ class NetworkCase(Block):
     analyses: Annotated[tuple[NetworkAnalysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
         description="What is computed.", examples=[["statics", "modes", "dynamic"]]
     )
+    criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
     settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")

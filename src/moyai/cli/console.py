@@ -6,6 +6,7 @@ import json
 import math
 import os
 import sys
+import threading
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -14,13 +15,13 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import typer
 
 from moyai.core.errors import CaseError, ConvergenceError, Fault, InputError
-from moyai.core.progress import Progress, silent
+from moyai.core.progress import Pace, Progress, duration_words, silent
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-OK, FAILED, BAD_INPUT = 0, 1, 2
-"""Exit codes: all well; it ran and something failed or did not converge; the input is bad."""
+OK, FAILED, BAD_INPUT, NOT_HELD = 0, 1, 2, 3
+"""Exit codes: all well; something failed or did not converge; the input is bad; the design does not hold (if asked)."""
 
 
 class Debug:
@@ -119,30 +120,74 @@ def guard(as_json: bool = False) -> Iterator[None]:
         stop([Fault(message, remedy=remedy)], FAILED, as_json=as_json)
 
 
+LINE_EVERY = 10.0
+"""Seconds between two lines of progress where standard error is no terminal."""
+
+
 @contextmanager
 def progress_bars(quiet: bool) -> Iterator[Progress]:
-    """Give a listener that draws a bar with the time left for every work, on standard error.
+    """Give a listener that shows every stage with the time left, on standard error.
 
-    Nothing is drawn when standard error is not a terminal.
+    Bars on a terminal; in a pipe or a file a line every ten seconds.
     """
-    if quiet or not sys.stderr.isatty():
+    if quiet:
         yield silent
-        return
-    from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bars
+    elif sys.stderr.isatty():
+        with _bars() as listen:
+            yield listen
+    else:
+        with _lines(LINE_EVERY) as listen:
+            yield listen
 
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.percentage:>3.0f} %"),
-        TimeRemainingColumn(),
-    )
+
+@contextmanager
+def _bars() -> Iterator[Progress]:
+    from rich.progress import BarColumn, ProgressColumn, Task, TaskID, TextColumn
+    from rich.progress import Progress as Bars
+    from rich.text import Text
+
+    pace = Pace()
+
+    class Left(ProgressColumn):
+        """Time left by the rate since the stage began."""
+
+        def render(self, task: Task) -> Text:
+            left = pace.left(task.description)
+            return Text(f"{duration_words(left)} left" if math.isfinite(left) else "")
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), Left())
     with Bars(*columns, console=rich_console(to_error=True), transient=True) as bars:
         tasks: dict[str, TaskID] = {}
 
         def listen(what: str, done: float, total: float) -> None:
+            pace.tell(what, done, total)
             if what not in tasks:
                 tasks[what] = bars.add_task(what, total=total)
             bars.update(tasks[what], completed=done, total=total, visible=done < total)
 
         yield listen
+
+
+@contextmanager
+def _lines(every: float) -> Iterator[Progress]:
+    """Give a listener that prints a line at most every so many seconds, also while one step takes longer."""
+    pace, ended, lock = Pace(), threading.Event(), threading.Lock()
+
+    def listen(what: str, done: float, total: float) -> None:
+        with lock:
+            pace.tell(what, done, total)
+
+    def print_lines() -> None:
+        while not ended.wait(every):
+            with lock:
+                line = pace.line()
+            if line:
+                tell(line)
+
+    printer = threading.Thread(target=print_lines, name="progress", daemon=True)
+    printer.start()
+    try:
+        yield listen
+    finally:
+        ended.set()
+        printer.join(1.0)

@@ -9,8 +9,9 @@ import os
 import signal
 import sys
 import time
+from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -18,6 +19,7 @@ from moyai.cli.compare import compare
 from moyai.cli.console import (
     BAD_INPUT,
     FAILED,
+    NOT_HELD,
     OK,
     Debug,
     fault_records,
@@ -35,6 +37,9 @@ from moyai.cli.measuring import measure
 from moyai.cli.query import query
 from moyai.cli.scale import scale
 from moyai.cli.study import study
+
+if TYPE_CHECKING:
+    from moyai.core.results import Result
 
 # Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
 # commands, reads these at its import; whoever sets them keeps his own.
@@ -111,11 +116,13 @@ def new(
 def check(file: CaseFile, as_json: AsJson = False) -> None:
     """Report all faults of a case file at once, and the numbers that follow from it."""
     with guard(as_json):
+        from moyai.case.criteria import criteria_of
         from moyai.case.derived import derived_numbers
         from moyai.case.reader import load_case
 
         case = load_case(file)
         numbers = derived_numbers(case)
+        criteria = criteria_of(case.model)
         if as_json:
             record = {
                 "valid": True,
@@ -126,14 +133,16 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
                 "faults": [],
                 "warnings": fault_records(case.warnings),
                 "derived": [number.as_dict() for number in numbers],
+                "criteria": [asdict(criterion) for criterion in criteria],
             }
             print_json(record)
             return
-        from moyai.cli.tables import print_derived
+        from moyai.cli.tables import print_criteria, print_derived
 
         for warning in case.warnings:
             tell(f"warning: {warning}")
         print_derived(rich_console(), case.title, numbers)
+        print_criteria(rich_console(), criteria)
         count = len(case.warnings)
         say(f"{file}: no faults" + (f", {count} warning{'s' if count > 1 else ''}" if count else ""))
 
@@ -168,11 +177,18 @@ def run(
     as_json: AsJson = False,
     report: Annotated[bool, typer.Option(help="Write the report and its tables beside results.nc.")] = True,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
+    require_hold: Annotated[
+        bool, typer.Option("--require-hold", help="Leave with exit code 3 unless the design holds.")
+    ] = False,
     quiet: Quiet = False,
     motion: Motion = None,
     duration: Duration = None,
 ) -> None:
-    """Run a case, or a deck of MoorDyn: results.nc, report.html and tables as CSV."""
+    """Run a case, or a deck of MoorDyn: results.nc, report.html and tables as CSV.
+
+    Exit code 0 when it was computed, whether the design holds or not; 1 when it did not converge or was interrupted;
+    2 for faults of the case; with --require-hold 3 unless the design holds.
+    """
     with guard(as_json):
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
@@ -184,8 +200,9 @@ def run(
         case = load_case(file)
         folder = prepare_output(folder)
         if not as_json and not quiet:
-            for warning in case.warnings:
-                tell(f"warning: {warning}")
+            count = len(case.warnings)
+            if count:
+                tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
         with progress_bars(quiet) as progress:
             result = run_case(case, progress, keep=folder / "coefficients")
         files = [result.write(folder / "results.nc")]
@@ -201,11 +218,28 @@ def run(
         if as_json:
             print_json(_run_record(case, result, files, seconds, key_figures(result)))
         elif not quiet:
-            print_summary(rich_console(), result, files, seconds, [fault.message for fault in case.warnings])
-        elif result.status != "converged":
-            tell(f"{result.status}: {result.message}")
-        failed = any(not identity.passed for identity in result.checks)
-        raise typer.Exit(OK if result.status == "converged" and not failed else FAILED)
+            print_summary(rich_console(), result, files, seconds)
+        else:
+            if result.status != "converged":
+                tell(f"{result.status}: {result.message}")
+            if result.verdict.outcome == "does not hold":
+                tell(f"design does not hold: {result.verdict.message}")
+        raise typer.Exit(exit_code(result, require_hold=require_hold))
+
+
+def exit_code(result: Result, *, require_hold: bool) -> int:
+    """Return the exit code of a run.
+
+    Parameters
+    ----------
+    result : Result
+    require_hold : bool
+        Whether a design that does not hold, or is not judged, has a code of its own.
+    """
+    failed = any(not identity.passed for identity in result.checks)
+    if failed or result.status not in ("converged", "outside_validity"):
+        return FAILED
+    return NOT_HELD if require_hold and result.verdict.outcome != "holds" else OK
 
 
 def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float | None) -> Path:
@@ -225,6 +259,8 @@ def _run_record(case: Any, result: Any, files: list[Path], seconds: float, figur
     return {
         "status": result.status,
         "message": result.message,
+        "headlines": [headline.as_dict() for headline in result.headlines],
+        "verdict": result.verdict.as_dict(),
         "title": case.title,
         "structure": case.kind,
         "case_hash": case.case_hash,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from moyai.case.derived import Number
     from moyai.cli.validation import Outcome
+    from moyai.core.headline import Criterion
     from moyai.core.results import Result
 
 
@@ -55,32 +56,66 @@ def key_figures(result: Result) -> list[Any]:
     return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
 
 
-def print_summary(
-    console: Console, result: Result, files: Sequence[Path], seconds: float, told: Collection[str] = ()
-) -> None:
-    """Print what a run gave: governing numbers, notices that were not ``told`` before, failed checks, files."""
+def print_summary(console: Console, result: Result, files: Sequence[Path], seconds: float) -> None:
+    """Print what a run gave: numbers, criteria, what limits them (each kind once), both badges, files."""
+    from moyai.report.first_page import badges
+    from moyai.report.notices import first_page_notices, grouped
+
     figures = key_figures(result)
     if figures:
         table = _table(("", "left"), ("", "right"), ("", "left"))
         for item in figures:
             table.add_row(item.label, item.text, item.detail)
         console.print(table)
-    for notice in result.notices:
-        known = any(notice.message.endswith(message) for message in told)
-        if notice.severity != "information" and not known:
-            console.print(f"{notice.severity}: {notice.message}", markup=False, soft_wrap=True)
+    print_judgements(console, result)
+    for group in grouped(first_page_notices(result)):
+        where = f" ({group.where})" if group.where else ""
+        console.print(f"{group.severity}: {group.notice.message}{where}", markup=False, soft_wrap=True)
     failed = [check for check in result.checks if not check.passed]
     for check in failed:
         console.print(f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}", markup=False)
     console.print(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed")
-    status = f"{result.status}: {result.message}" if result.message else result.status
-    console.print(f"{status} ({seconds:.1f} s)", markup=False, soft_wrap=True)
+    for badge in badges(result):
+        said = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
+        console.print(said, markup=False, soft_wrap=True)
+    console.print(f"{seconds:.1f} s", markup=False)
     shown = [path for path in files if path.suffix != ".csv"]
     tables = len(files) - len(shown)
     for path in shown:
         console.print(f"  {path}", markup=False, soft_wrap=True)
     if tables:
         console.print(f"  {files[-1].parent} ({tables} tables)", markup=False, soft_wrap=True)
+
+
+def print_judgements(console: Console, result: Result) -> None:
+    """Print the criteria of a result with their outcome, the failing ones first."""
+    from moyai.report.first_page import criteria_table
+
+    found = criteria_table(result)
+    if found is None:
+        return
+    table = _table(
+        ("Criterion", "left"), ("Limit", "left"), ("Found", "right"), ("Outcome", "left"), ("Source", "left")
+    )
+    columns = {column.label: column.values for column in found.columns}
+    for row in zip(*(columns[name] for name in ("Criterion", "Limit", "Found", "Outcome", "Source")), strict=True):
+        table.add_row(*map(str, row))
+    console.print(table)
+
+
+def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
+    """Print what a design will be judged by, before it is run."""
+    from moyai.core.headline import Judgement
+    from moyai.report.first_page import limit_and_found, sentence
+
+    if not criteria:
+        console.print("No criteria: the design will not be judged.", markup=False)
+        return
+    table = _table(("Criteria", "left"), ("Limit", "left"), ("Source", "left"))
+    for criterion in criteria:
+        limit, _ = limit_and_found(Judgement(criterion, math.nan, "not judged"))
+        table.add_row(sentence(criterion.words), limit, criterion.source)
+    console.print(table)
 
 
 def print_outcomes(console: Console, outcomes: Sequence[Outcome], *, quiet: bool) -> None:

@@ -11,9 +11,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from moyai.core.wording import spoken
+
 Bound = Literal["", "at most", "at least"]
 Sense = Literal["at most", "at least"]
 Outcome = Literal["holds", "does not hold", "not judged"]
+NONE = "none"
+"""Text of a headline whose number is zero."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +66,19 @@ class Headline:
     detail : str
         One more fact that the reader needs, for instance the breaking load.
     text : str
-        Shown in place of the number, for instance ``none``.
+        Shown in place of the number; ``none`` stands for zero.
+    sea : str
+        Name of the sea state that it holds in; criteria at a named sea are judged on it.
+    mean : float or None
+        Mean over time of a value that is a maximum over time, in its unit; codes that weigh the mean and the varying
+        part of a tension apart need it. None where it is not known.
+    shown : bool
+        Whether it stands on the first page; one that does not and has a sea is judged only by a criterion at that sea.
+
+    Notes
+    -----
+    A headline called ``..._utilisation`` is the load over the strength, without any factor of safety: the factor is the
+    criterion's.
     """
 
     name: str
@@ -75,6 +91,9 @@ class Headline:
     bound: Bound = ""
     detail: str = ""
     text: str = ""
+    sea: str = ""
+    mean: float | None = None
+    shown: bool = True
 
     def as_dict(self) -> dict[str, Any]:
         """Return a JSON-ready mapping (numbers that are not finite become text)."""
@@ -111,7 +130,15 @@ class Criterion:
     label : str
         Words for the reader; the headline's own label where empty.
     unit : str
-        Unit of the limit, shown where the headline is absent.
+        Unit of the limit; ``%`` for a ratio that is shown in per cent.
+    sea : str
+        Name of the sea state that it is asked in; empty for the governing value.
+    as_factor : bool
+        Whether the limit is one over a factor of safety, which is what people want to read.
+    mean_weight : float
+        Weight of the mean of a value over time, that of its varying part being 1 (codes with partial factors).
+    assumed : bool
+        Whether the program assumed it: the case file does not name it.
     """
 
     name: str
@@ -121,6 +148,22 @@ class Criterion:
     source: str
     label: str = ""
     unit: str = "1"
+    sea: str = ""
+    as_factor: bool = False
+    mean_weight: float = 1.0
+    assumed: bool = False
+
+    @property
+    def words(self) -> str:
+        """The criterion in words, with its sea."""
+        text = self.label or self.name.replace("_", " ")
+        return f"{text} in {self.sea}" if self.sea else text
+
+    def shown(self, value: float) -> float:
+        """Return a value as people read it: the factor of safety in place of the utilisation."""
+        if not self.as_factor:
+            return value
+        return math.inf if value == 0.0 else 1.0 / value
 
 
 @dataclass(frozen=True)
@@ -187,57 +230,108 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
     ----------
     headlines : iterable of Headline
     criteria : iterable of Criterion
-        A criterion is judged on every headline of its name, at the unfavourable end of a band that decides. An upper
-        bound that meets a limit from above holds; one that passes it says nothing.
+        A criterion is judged on every headline of its name, or on those of its sea, at the unfavourable end of a band
+        that decides. A bound proves that a limit is kept where it lies on the safe side, and that it is broken where it
+        lies on the other; else it says nothing.
     computed : bool
         Whether the computation can be judged at all (it converged inside its range); nothing holds otherwise.
     """
-    by_name: dict[str, list[Headline]] = {}
-    for headline in headlines:
-        by_name.setdefault(headline.name, []).append(headline)
+    numbers = tuple(headlines)
     found: list[Judgement] = []
     for criterion in criteria:
-        members = by_name.get(criterion.headline, [])
+        members = _judged_by(criterion, numbers)
         if not members:
-            found.append(Judgement(criterion, math.nan, "not judged", "nothing that was run gives this number"))
+            found.append(Judgement(criterion, math.nan, "not judged", _absent(criterion)))
         found.extend(_judge_one(criterion, member) for member in members)
+    judgements = tuple(found)
     failing = [item for item in found if item.outcome == "does not hold"]
-    open_ones = [item for item in found if item.outcome == "not judged"]
     if failing:
-        return Verdict("does not hold", "; ".join(_said(item) for item in failing), tuple(found))
+        doubt = "" if computed else "; the computation did not converge inside its range"
+        return Verdict("does not hold", "; ".join(map(said, failing)) + doubt, judgements)
     if not found:
         return Verdict("not judged", "no criterion is given", ())
     if not computed:
-        return Verdict("not judged", "the computation did not converge inside its range", tuple(found))
+        return Verdict("not judged", "the computation did not converge inside its range", judgements)
+    open_ones = [item for item in found if item.outcome == "not judged"]
     if open_ones:
-        names = ", ".join(f"{item.criterion.name} ({item.reason})" for item in open_ones)
-        return Verdict("not judged", f"not judged: {names}", tuple(found))
-    count = len(found)
-    return Verdict("holds", "the criterion holds" if count == 1 else f"all {count} criteria hold", tuple(found))
+        return Verdict("not judged", "; ".join(map(said, open_ones)), judgements)
+    asked = len({(item.criterion.name, item.criterion.sea) for item in found})
+    return Verdict("holds", "the criterion holds" if asked == 1 else f"all {asked} criteria hold", judgements)
+
+
+def without_computation(verdict: Verdict) -> Verdict:
+    """Return a verdict after the computation turned out to lie outside its range: what held is not judged."""
+    if verdict.outcome != "holds":
+        return verdict
+    return Verdict("not judged", "the computation did not converge inside its range", verdict.judgements)
+
+
+def said(item: Judgement) -> str:
+    """Return a judgement as half a sentence: ``effective depth 1.99 m is below 4 m``."""
+    criterion = item.criterion
+    if item.outcome == "not judged":
+        return f"{criterion.words} is not judged: {item.reason}"
+    # A factor of safety is read upside down: it has to stay above its limit
+    upward = (criterion.sense == "at most") != criterion.as_factor
+    holds = item.outcome == "holds"
+    relation = ("at most" if upward else "at least") if holds else ("above" if upward else "below")
+    return f"{criterion.words} {_spoken(criterion, item.value)} is {relation} {_spoken(criterion, criterion.limit)}"
+
+
+def _judged_by(criterion: Criterion, numbers: tuple[Headline, ...]) -> list[Headline]:
+    named = [headline for headline in numbers if headline.name == criterion.headline]
+    if not criterion.sea:
+        return [headline for headline in named if headline.shown or not headline.sea]
+    return [headline for headline in named if headline.sea == criterion.sea]
+
+
+def _absent(criterion: Criterion) -> str:
+    where = f" in {criterion.sea}" if criterion.sea else ""
+    return f"nothing that was run gives this number{where}"
 
 
 def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
-    value = headline.value
+    value = 0.0 if math.isnan(headline.value) and headline.text == NONE else headline.value
     if math.isnan(value):
-        return Judgement(criterion, value, "not judged", f"{headline.label.lower()} is not known")
+        return Judgement(criterion, value, "not judged", headline.text or f"{headline.label.lower()} is not known")
     upward = criterion.sense == "at most"
     if headline.band is not None and headline.band.decides:
-        ends = (value, headline.band.low, headline.band.high)
+        ends = [end for end in (value, headline.band.low, headline.band.high) if not math.isnan(end)]
         value = max(ends) if upward else min(ends)
+    if criterion.mean_weight != 1.0:
+        return _judge_parts(criterion, headline, value)
     good = value <= criterion.limit if upward else value >= criterion.limit
-    # A bound on the safe side proves that a limit is kept, never that it is broken
-    if headline.bound and not good and headline.bound == criterion.sense:
-        return Judgement(criterion, value, "not judged", f"only a bound is known ({headline.bound} this value)")
-    if headline.bound and good and headline.bound != criterion.sense:
+    # The true value lies below a bound "at most" and above a bound "at least"
+    proves = not headline.bound or (headline.bound == criterion.sense) == good
+    if not proves:
         return Judgement(criterion, value, "not judged", f"only a bound is known ({headline.bound} this value)")
     return Judgement(criterion, value, "holds" if good else "does not hold", headline.where)
 
 
-def _said(item: Judgement) -> str:
-    relation = "above" if item.criterion.sense == "at most" else "below"
-    name = item.criterion.name.replace("_", " ")
-    unit = "" if item.criterion.unit == "1" else f" {item.criterion.unit}"
-    return f"{name}: {item.value:.3g}{unit} is {relation} {item.criterion.limit:.3g}{unit}"
+def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judgement:
+    """Judge by a code that weighs the mean and the varying part apart; without the mean where either end agrees."""
+    weight, limit = criterion.mean_weight, criterion.limit
+    means = (0.0, value) if headline.mean is None else (headline.mean,)
+    weighed = [value + (weight - 1.0) * mean for mean in means]
+    if headline.bound == "at least" or (min(weighed) <= limit < max(weighed)):
+        known = "only a bound is known" if headline.bound else "the mean tension is not known"
+        return Judgement(criterion, max(weighed), "not judged", known)
+    if headline.bound == "at most" and max(weighed) > limit:
+        return Judgement(criterion, max(weighed), "not judged", "only a bound is known (at most this value)")
+    return Judgement(criterion, max(weighed), "holds" if max(weighed) <= limit else "does not hold", headline.where)
+
+
+def _spoken(criterion: Criterion, value: float) -> str:
+    shown, unit = criterion.shown(value), criterion.unit
+    if unit == "1":
+        return f"{shown:.3g}"
+    if unit == "%":
+        return f"{100.0 * shown:.3g} %"
+    if unit == "rad":
+        return f"{math.degrees(shown):.3g} deg"
+    if unit.startswith("N"):
+        return spoken(shown, unit, 3, like=max(abs(value), abs(criterion.limit)))
+    return f"{shown:.3g} {unit}"
 
 
 def _writable(value: float) -> float | str:

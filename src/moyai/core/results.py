@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from moyai.core.errors import InputError, MoyaiError
-from moyai.core.headline import Headline, Verdict
+from moyai.core.headline import Headline, Verdict, without_computation
 from moyai.core.validity import IdentityCheck, Notice
 
 if TYPE_CHECKING:
@@ -69,7 +69,8 @@ class Result:
         status = self.status
         if status == "converged" and any(notice.severity == "error" for notice in notices):
             status = "outside_validity"
-        return replace(self, notices=(*self.notices, *notices), status=status)
+        verdict = self.verdict if status == self.status else without_computation(self.verdict)
+        return replace(self, notices=(*self.notices, *notices), status=status, verdict=verdict)
 
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Write NetCDF under ``path``; a file under the final name is always complete.

@@ -188,6 +188,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
         notices=_placed(collected, len(problem.environment.water_levels)),
         fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
+        criteria=problem.criteria,
     )
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
 from moyai.core.validity import Notice
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.drag import DragLaw
@@ -374,3 +375,4 @@ class CurtainProblem:
     record: RecordedSnap | None = None
     case_text: str = ""
     case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.tables.design_codes import CodeRule, code_rules
+from moyai.tables.design_codes import CodeRule, applicable_rule, code_rules
 
 
 @dataclass(frozen=True)
@@ -62,16 +62,14 @@ class DesignCode:
 
     def value(self, rule: str, condition: str, component: str) -> CodeRule | None:
         """Return the rule that applies, the most special first; ``None`` when the code has none."""
-        found = [
-            one
-            for one in self.rules
-            if one.rule == rule
-            and one.condition in (condition, "any")
-            and one.analysis in (self.analysis, "any")
-            and one.consequence in (self.consequence, "any")
-            and one.component in (component, "any")
-        ]
-        return min(found, key=lambda one: [one.component == "any", one.analysis == "any"], default=None)
+        return applicable_rule(
+            self.rules,
+            rule,
+            condition=condition,
+            analysis=self.analysis,
+            consequence=self.consequence,
+            component=component,
+        )
 
 
 @dataclass(frozen=True)

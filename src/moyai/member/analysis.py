@@ -219,7 +219,11 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
         "purpose": problem.circulation.purpose,
     }
-    return collected.close(attributes, [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)])
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        criteria=problem.criteria,
+    )
 
 
 __all__ = ["run"]

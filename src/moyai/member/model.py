@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
 from moyai.morison.circulation import CirculationLaw
 from moyai.morison.coefficients import CoefficientRule
 from moyai.morison.forces import DragForm
@@ -140,6 +141,7 @@ class MemberProblem:
     settings: Settings = field(default_factory=Settings)
     case_text: str = ""
     case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.kinematic_viscosity) and self.kinematic_viscosity > 0.0):

@@ -369,7 +369,11 @@ def _result(problem: NetworkProblem, collected: Collected) -> Result:
         "case_hash": problem.case_hash,
         "case_text": problem.case_text,
     }
-    return collected.close(attributes, [sea.seed for sea in problem.environment.sea_states if hasattr(sea, "seed")])
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.environment.sea_states if hasattr(sea, "seed")],
+        criteria=problem.criteria,
+    )
 
 
 __all__ = ["run"]

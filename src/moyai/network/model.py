@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BOX, BarType
 from moyai.network.bodies import BodyPlan
@@ -296,6 +297,7 @@ class NetworkProblem:
     sheets: tuple[SheetPlan, ...] = ()
     case_text: str = ""
     case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()
 
     @property
     def has_still_points(self) -> bool:

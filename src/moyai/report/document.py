@@ -18,6 +18,7 @@ from moyai.core.validity import IdentityCheck, Notice
 
 Array = NDArray[np.float64]
 Style = Literal["line", "points", "line+points", "bar"]
+Tone = Literal["good", "caution", "bad", "neutral"]
 Cell = str | float | int | bool | None
 
 
@@ -372,6 +373,27 @@ class Section:
 
 
 @dataclass(frozen=True)
+class Badge:
+    """What a reader sees before all numbers: whether they were computed, and whether the design holds.
+
+    Parameters
+    ----------
+    label : str
+        ``Computation`` or ``Design``.
+    word : str
+        The outcome.
+    message : str
+        One sentence behind it.
+    tone : {"good", "caution", "bad", "neutral"}
+    """
+
+    label: str
+    word: str
+    message: str = ""
+    tone: Tone = "neutral"
+
+
+@dataclass(frozen=True)
 class Document:
     """A whole report.
 
@@ -383,6 +405,8 @@ class Document:
     sections : tuple of Section
     provenance : mapping
         For the foot of the page.
+    badges : tuple of Badge
+        At the head of the page; of the status alone where empty.
     """
 
     title: str
@@ -391,6 +415,7 @@ class Document:
     message: str
     sections: tuple[Section, ...]
     provenance: Mapping[str, Any] = field(default_factory=dict)
+    badges: tuple[Badge, ...] = ()
 
     def tables(self) -> tuple[Table, ...]:
         """Return every table of the report, once."""

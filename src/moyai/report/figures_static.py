@@ -189,6 +189,19 @@ def _finish_axes(canvas: Any, axes: Any, figure: Figure) -> None:
     _place(canvas, axes)
 
 
+def _tick_reach(canvas: Any, axes: Any) -> float:
+    """Return how far the numbers of the ordinates reach to the left of their axes [inches]."""
+    renderer = canvas.canvas.get_renderer()
+    widths = [
+        label.get_window_extent(renderer).width
+        for axis in axes
+        for label in axis.yaxis.get_ticklabels()
+        if label.get_text()
+    ]
+    ticks = 0.08
+    return float(max(widths, default=0.0) / canvas.dpi) + ticks
+
+
 def _place(canvas: Any, axes: Any) -> None:
     """Put the legend above and the axes into fixed margins: faster than a layout engine, and labels line up."""
     handles: dict[str, Any] = {}
@@ -198,11 +211,12 @@ def _place(canvas: Any, axes: Any) -> None:
     wide, high = canvas.get_size_inches()
     columns = max(min(len(handles), int(wide / (0.55 + 0.062 * max(map(len, handles), default=1)))), 1)
     rows = -(-len(handles) // columns)
-    left, right = 0.62 / wide, 1.0 - 0.10 / wide
+    reach = _tick_reach(canvas, axes)
+    left, right = max(0.62, reach + 0.26) / wide, 1.0 - 0.10 / wide
     top, bottom = 1.0 - (0.08 + 0.17 * rows) / high, 0.40 / high
     canvas.subplots_adjust(left=left, right=right, top=top, bottom=bottom, hspace=0.12 if len(axes) < 4 else 0.16)
     for axis in axes:
-        axis.yaxis.set_label_coords(-0.47 / (wide * (right - left)), 0.5)
+        axis.yaxis.set_label_coords(-max(0.47, reach + 0.11) / (wide * (right - left)), 0.5)
     if handles:
         canvas.legend(
             handles.values(),

@@ -22,7 +22,7 @@ _DISPLAY: dict[str, tuple[tuple[float, str, float], ...]] = {
     "N m": ((0.0, "N m", 1.0), (1e4, "kN m", 1e-3), (1e8, "MN m", 1e-6)),
     "N/rad": ((0.0, "N/rad", 1.0), (1e4, "kN/rad", 1e-3), (1e8, "MN/rad", 1e-6)),
     "N m/rad": ((0.0, "N m/rad", 1.0), (1e4, "kN m/rad", 1e-3), (1e8, "MN m/rad", 1e-6)),
-    "Pa": ((0.0, "Pa", 1.0), (1e4, "kPa", 1e-3), (1e7, "MPa", 1e-6), (1e10, "GPa", 1e-9)),
+    "Pa": ((0.0, "Pa", 1.0), (1e4, "kPa", 1e-3), (1e6, "MPa", 1e-6), (1e10, "GPa", 1e-9)),
     "kg": ((0.0, "kg", 1.0), (1e4, "t", 1e-3)),
     "kg m": ((0.0, "kg m", 1.0), (1e4, "t m", 1e-3)),
     "kg m2": ((0.0, "kg m2", 1.0), (1e5, "t m2", 1e-3)),

@@ -26,6 +26,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import display_unit
 from moyai.report.html import STATUS_WORDS
+from moyai.report.notices import first_page_notices
 from moyai.report.reading import Group, walk
 
 MOST_CURVES = 12
@@ -84,9 +85,9 @@ def notice_blocks(result: Result) -> tuple[Block, ...]:
             Paragraph(f"{STATUS_WORDS[result.status]}. Only what was finished is shown; nothing below is filled in.")
         )
     failed = tuple(check for check in result.checks if not check.passed)
-    grave = tuple(notice for notice in result.notices if notice.severity != "information")
-    if failed or grave:
-        blocks.append(NoticeBlock(grave, failed))
+    found = first_page_notices(result)
+    if failed or found:
+        blocks.append(NoticeBlock(found, failed))
     return tuple(blocks)
 
 

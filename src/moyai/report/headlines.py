@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Literal
 
 from moyai.core.headline import Criterion, Headline, Judgement
 from moyai.core.results import Result
 from moyai.report.document import KeyFigure, KeyFigures
-from moyai.report.formatting import DASH, format_quantity
+from moyai.report.first_page import largest_by_unit, limit_and_found
+from moyai.report.formatting import DASH, display_unit, format_number
 
 RATIO = "1"
 
@@ -22,45 +24,75 @@ def headline_figures(result: Result) -> KeyFigures | None:
     """
     if not result.headlines:
         return None
-    judged: dict[str, list[Judgement]] = {}
-    for item in result.verdict.judgements:
-        judged.setdefault(item.criterion.headline, []).append(item)
-    return KeyFigures(tuple(_figure(headline, judged.get(headline.name, [])) for headline in result.headlines))
+    shown = [headline for headline in result.headlines if headline.shown]
+    scale = largest_by_unit(result)
+    return KeyFigures(tuple(_figure(headline, _judged(result, headline), scale) for headline in shown))
 
 
-def headline_text(headline: Headline) -> str:
-    """Return the number of a headline with its unit, its bound and its band."""
+def _judged(result: Result, headline: Headline) -> list[Judgement]:
+    """Return the judgements of one headline: of its name and sea, and where several share a name of its place."""
+    found = [
+        item
+        for item in result.verdict.judgements
+        if item.criterion.headline == headline.name and item.criterion.sea in ("", headline.sea)
+    ]
+    alone = sum(other.name == headline.name for other in result.headlines) == 1
+    return [item for item in found if alone or item.reason == headline.where or item.outcome == "not judged"]
+
+
+def headline_text(headline: Headline, like: float = 0.0) -> str:
+    """Return the number of a headline with its unit and its bound.
+
+    Parameters
+    ----------
+    headline : Headline
+    like : float
+        Magnitude that chooses between N, kN and MN together with the value, so that a page has one unit of forces.
+    """
     if headline.text:
         return headline.text
     if math.isnan(headline.value):
         return DASH
-    unit = "" if headline.unit == RATIO else headline.unit
-    text = format_quantity(headline.value, unit)
+    text = _quantity(headline.value, headline.unit, like)
     return f"{headline.bound} {text}" if headline.bound else text
 
 
-def band_text(headline: Headline) -> str:
-    """Return the band of a headline in words, empty where it has none."""
+def band_text(headline: Headline, like: float = 0.0) -> str:
+    """Return the band of a headline in words, empty where it has none; in the unit of its number."""
     band = headline.band
     if band is None:
         return ""
-    unit = "" if headline.unit == RATIO else headline.unit
-    return f"{format_quantity(band.low, unit)} to {format_quantity(band.high, unit)} ({band.of})"
+    like = max(like, abs(headline.value)) if math.isfinite(headline.value) else like
+    low, high = (_quantity(end, headline.unit, like) for end in (band.low, band.high))
+    return f"{low} to {high} ({band.of})"
 
 
-def _figure(headline: Headline, judged: list[Judgement]) -> KeyFigure:
+def _quantity(value: float, unit: str, like: float) -> str:
+    shown = display_unit("" if unit == RATIO else unit, [value, like])
+    text = format_number(value * shown.factor)
+    if text == DASH or not shown.name:
+        return text
+    return f"{text}{shown.pretty}" if shown.name == "deg" else f"{text} {shown.pretty}"
+
+
+def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, float]) -> KeyFigure:
+    like = scale.get(headline.unit, 0.0)
     worst = max(judged, key=lambda item: _severity(item), default=None)
-    detail = "; ".join(part for part in (band_text(headline), headline.detail, headline.where, headline.model) if part)
+    detail = "; ".join(
+        part for part in (band_text(headline, like), headline.detail, headline.where, headline.model) if part
+    )
     if worst is None:
-        return KeyFigure(headline.label, headline_text(headline), detail)
+        return KeyFigure(headline.label, headline_text(headline, like), detail)
     judgement: Literal["", "good", "caution", "bad"] = {
         "holds": "good",
         "does not hold": "bad",
         "not judged": "caution",
     }[worst.outcome]  # type: ignore[assignment]
     share = _share(worst.criterion, worst.value)
-    detail = "; ".join(part for part in (detail, _limit_text(worst.criterion)) if part)
-    return KeyFigure(headline.label, headline_text(headline), detail, share, judgement)
+    limit, found = limit_and_found(worst, like)
+    asked = f"factor of safety {found}, asked {limit}" if worst.criterion.as_factor else f"limit {limit}"
+    detail = "; ".join(part for part in (detail, asked) if part)
+    return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
 
 
 def _severity(item: Judgement) -> int:
@@ -72,8 +104,3 @@ def _share(criterion: Criterion, value: float) -> float:
     if criterion.sense == "at least" or criterion.limit <= 0.0 or not math.isfinite(value):
         return math.nan
     return value / criterion.limit
-
-
-def _limit_text(criterion: Criterion) -> str:
-    unit = "" if criterion.unit == RATIO else criterion.unit
-    return f"limit {criterion.sense} {format_quantity(criterion.limit, unit)} ({criterion.source})"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+import math
 import re
 from functools import cache
 from html import escape
@@ -13,6 +14,7 @@ from typing import Any
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.report.document import (
     Animation,
+    Badge,
     Block,
     Cell,
     Choice,
@@ -29,16 +31,13 @@ from moyai.report.document import (
     Table,
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
+from moyai.report.first_page import COMPUTATION
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
+from moyai.report.notices import grouped
 
-STATUS_WORDS = {
-    "converged": "Converged",
-    "outside_validity": "Outside the range of validity",
-    "not_converged": "Not converged",
-    "interrupted": "Interrupted: partial result",
-    "failed": "Failed",
-}
-STATUS_TONE = {"converged": "good", "outside_validity": "caution", "interrupted": "caution"}
+STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
+LEAST_LETTER = 9.0
+"""Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
 _SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
 
@@ -94,7 +93,7 @@ def render_html(document: Document) -> str:
 <h1>{escape(document.title)}</h1>
 <p class="subtitle">{escape(document.subtitle)}</p>
 </div>
-{_status(document)}
+{_badges(document)}
 </header>
 <div class="frame">
 <nav aria-label="Contents"><ol>
@@ -115,11 +114,21 @@ it.</p></noscript>
 """
 
 
-def _status(document: Document) -> str:
-    tone = STATUS_TONE.get(document.status, "bad")
-    word = STATUS_WORDS.get(document.status, document.status)
-    message = f'<p class="status-message">{escape(document.message)}</p>' if document.message else ""
-    return f'<div class="status {tone}"><strong>{escape(word)}</strong>{message}</div>'
+def badges_of(document: Document) -> tuple[Badge, ...]:
+    """Return the badges of a document; that of its status where it has no others."""
+    if document.badges:
+        return document.badges
+    word, tone = COMPUTATION.get(document.status, (document.status, "bad"))
+    return (Badge("", word, document.message, tone),)
+
+
+def _badges(document: Document) -> str:
+    items = []
+    for badge in badges_of(document):
+        label = f"<span>{escape(badge.label)}</span> " if badge.label else ""
+        message = f'<p class="status-message">{words(badge.message)}</p>' if badge.message else ""
+        items.append(f'<div class="status {badge.tone}">{label}<strong>{escape(badge.word)}</strong>{message}</div>')
+    return f'<div class="badges">{"".join(items)}</div>'
 
 
 def foot_text(document: Document) -> str:
@@ -279,7 +288,8 @@ class _Page:
         name = self._unique(drawing.key)
         return f"""<figure class="drawing" id="{name}" data-drawing="{name}">
 <figcaption><h3>{words(drawing.title)}</h3>{_caption(drawing.caption)}</figcaption>
-{drawing.svg}
+<div class="sideways" tabindex="0" role="region" aria-label="{escape(drawing.title)}">
+<div style="min-width:{least_width(drawing.svg):.0f}px">{drawing.svg}</div></div>
 <div class="tools"><span class="spring"></span><button type="button" data-do="svg">SVG</button></div></figure>"""
 
     def _animation(self, animation: Animation) -> str:
@@ -324,6 +334,19 @@ class _Page:
         )
 
 
+def least_width(svg: str) -> float:
+    """Return the width under which the letters of a drawing would be smaller than can be read [CSS px].
+
+    Parameters
+    ----------
+    svg : str
+        With a view box; its letters have their size in units of it.
+    """
+    box = re.search(r'viewBox="[-\d.]+ [-\d.]+ ([\d.]+) ', svg)
+    sizes = [float(size) for size in re.findall(r'font-size="([\d.]+)"', svg)]
+    return 0.0 if box is None or not sizes else math.ceil(float(box.group(1)) * LEAST_LETTER / min(sizes))
+
+
 def _caption(text: str) -> str:
     return f'<p class="caption">{words(text)}</p>' if text else ""
 
@@ -340,10 +363,10 @@ def _key_figure(item: KeyFigure) -> str:
     )
 
 
-def notice_text(notice: Notice) -> tuple[str, str]:
-    """Return the sentence of a notice and its second line: number, limit, remedy, source."""
+def notice_text(notice: Notice, where: str = "") -> tuple[str, str]:
+    """Return the sentence of a notice and its second line: where else, number, limit, remedy, source."""
     message = notice.message.strip()
-    parts = []
+    parts = [where] if where else []
     if notice.value == notice.value and notice.limit == notice.limit:
         parts.append(f"found {format_number(notice.value)}, limit {format_number(notice.limit)}")
     if notice.remedy:
@@ -357,6 +380,17 @@ def notice_text(notice: Notice) -> tuple[str, str]:
     return message, second[:1].upper() + second[1:]
 
 
+def notice_items(block: NoticeBlock) -> list[tuple[str, str, str]]:
+    """Return severity and both lines of failed checks and of every kind of notice, the most severe first.
+
+    Parameters
+    ----------
+    block : NoticeBlock
+    """
+    items = [("error", *check_text(check)) for check in block.failed_checks]
+    return items + [(group.severity, *notice_text(group.notice, group.where)) for group in grouped(block.notices)]
+
+
 def check_text(check: IdentityCheck) -> tuple[str, str]:
     """Return the sentence of a failed identity check and its meaning."""
     figure = "no figure" if check.value != check.value else f"{check.value:.2e}"
@@ -364,12 +398,7 @@ def check_text(check: IdentityCheck) -> tuple[str, str]:
 
 
 def _notices(block: NoticeBlock) -> str:
-    order = {"error": 0, "warning": 1, "information": 2}
-    items = []
-    for check in block.failed_checks:
-        items.append(("error", *check_text(check)))
-    for notice in sorted(block.notices, key=lambda entry: order.get(entry.severity, 1)):
-        items.append((notice.severity, *notice_text(notice)))
+    items = notice_items(block)
     if not items:
         return ""
     kinds = {"error": "Error", "warning": "Warning", "information": "Note"}

@@ -24,14 +24,12 @@ from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import (
-    STATUS_TONE,
-    STATUS_WORDS,
     asset,
-    check_text,
+    badges_of,
     column_texts,
     foot_text,
     is_text_column,
-    notice_text,
+    notice_items,
 )
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
@@ -73,9 +71,11 @@ def render_pdf(document: Document) -> bytes:
         data = {
             "title": document.title,
             "subtitle": document.subtitle,
-            "status": STATUS_WORDS.get(document.status, document.status),
-            "tone": STATUS_TONE.get(document.status, "bad"),
-            "message": document.message,
+            "status": " · ".join(f"{badge.label}: {badge.word}".removeprefix(": ") for badge in badges_of(document)),
+            "badges": [
+                {"label": badge.label, "word": badge.word, "tone": badge.tone, "message": badge.message}
+                for badge in badges_of(document)
+            ],
             "foot": foot_text(document),
             "fonts": _choose(TEXT_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
             "mono": _choose(MONO_FONTS, present)[:1] + _choose(JAPANESE_FONTS, present)[:1],
@@ -182,10 +182,4 @@ def _table(table: Table) -> dict[str, Any]:
 
 
 def _notices(block: NoticeBlock) -> list[dict[str, str]]:
-    order = {"error": 0, "warning": 1, "information": 2}
-    items = [("error", *check_text(check)) for check in block.failed_checks]
-    items += [
-        (notice.severity, *notice_text(notice))
-        for notice in sorted(block.notices, key=lambda entry: order.get(entry.severity, 1))
-    ]
-    return [{"kind": kind, "first": first, "second": second} for kind, first, second in items]
+    return [{"kind": kind, "first": first, "second": second} for kind, first, second in notice_items(block)]

@@ -50,7 +50,9 @@ def compose_document(result: Result) -> Document:
     -------
     Document
     """
-    return _composer(str(result.tree.attrs.get("structure", "")))(result)
+    from moyai.report.first_page import with_first_page
+
+    return with_first_page(_composer(str(result.tree.attrs.get("structure", "")))(result), result)
 
 
 def write_report(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
@@ -110,6 +111,29 @@ def code_rules(code: str) -> tuple[CodeRule, ...]:
     if not found:
         raise InputError(f"unknown code '{code}'", path="code", allowed=", ".join(available_codes()))
     return found
+
+
+def applicable_rule(
+    rules: Iterable[CodeRule], rule: str, *, condition: str, analysis: str, consequence: str, component: str
+) -> CodeRule | None:
+    """Return the value of a code that applies, the most special first; ``None`` when the code has none.
+
+    Parameters
+    ----------
+    rules : iterable of CodeRule
+    rule, condition, analysis, consequence, component : str
+        As in :class:`CodeRule`.
+    """
+    found = [
+        one
+        for one in rules
+        if one.rule == rule
+        and one.condition in (condition, "any")
+        and one.analysis in (analysis, "any")
+        and one.consequence in (consequence, "any")
+        and one.component in (component, "any")
+    ]
+    return min(found, key=lambda one: [one.component == "any", one.analysis == "any"], default=None)
 
 
 def _rule(record: Record) -> CodeRule:

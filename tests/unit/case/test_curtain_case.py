@@ -59,7 +59,6 @@ FAULTS = {
     "current from behind": ("heading_deg: 10", "heading_deg: 190", "current.heading_deg", "downstream side"),
     "anchor line too short": ("line_length: 25 m", "line_length: 6 m", "structure.anchors.line_length", "more than 8 m"),
     "held toe without cable": ("    lower: {axial_stiffness: 300 kN}\n", "", "structure.toe.kind", "needs 'structure.cables.lower'"),
-    "strength without factor": ("{cable: 3, sheet: 4, anchor: 1.5}", "{cable: 3, anchor: 1.5}", "structure.skirt.strength", "safety_factors.sheet"),
     "factor below one": ("cable: 3", "cable: 0.5", "settings.safety_factors.cable", "at least 1"),
     "misspelt key": ("coefficient: 1.3", "coeficient: 1.3", "structure.drag.coeficient", "did you mean 'coefficient'?"),
     "misspelt law": ("law: constant", "law: constnat", "structure.drag.law", "did you mean 'constant'?"),
@@ -248,7 +247,16 @@ def test_figures_that_change_nothing_are_told(tmp_path):
     (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
     told = {fault.path: fault for fault in load_case(tmp_path / "case.yaml").warnings}
     assert "change nothing" in told["structure.drag.blockage"].message
-    assert "not judged" in told["structure.cables.upper.catalogue"].message
+
+
+def test_a_strength_without_a_factor_is_judged_by_the_default_which_is_said(tmp_path):
+    text = BASE.replace("{cable: 3, sheet: 4, anchor: 1.5}", "{cable: 2, anchor: 1.5}")
+    (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
+    problem = build(load_case(tmp_path / "case.yaml"))
+    by_name = {criterion.name: criterion for criterion in problem.criteria}
+    assert problem.curtain.strengths.sheet.safety_factor == 4.0
+    assert by_name["fabric_safety_factor"].assumed and "default" in by_name["fabric_safety_factor"].source
+    assert by_name["cable_safety_factor"].limit == 0.5 and by_name["cable_safety_factor"].source == "case file"
 
 
 @pytest.mark.parametrize(
