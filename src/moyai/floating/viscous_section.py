@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import Literal
@@ -32,7 +33,7 @@ class SectionEdges:
 
 @dataclass(frozen=True)
 class _Break:
-    """Where a face ends: at the still water, at a hollow or a plate, or at a corner with its turn and radius."""
+    """Where a face ends: at the still water, at a hollow, or at a corner with its turn and radius."""
 
     kind: Kind
     point: FloatArray
@@ -54,16 +55,16 @@ def section_edges(section: Section) -> SectionEdges:
         With notices for what no law covers: round sections, bilges too round, corners far from 90 degrees, plates.
     """
     numbers = edge_damping_numbers()
-    roots = [
-        point for plate in section.wetted_plates for point in (plate.edges.start[0], plate.edges.end[-1])
-    ]
     corners: list[CornerEdge] = []
     plates: list[PlateEdge] = []
     odd: list[float] = []
-    smooth = 0
+    smooth = hollows = 0
     for chain in section.chains:
-        breaks, rounded_off = _breaks(chain, roots, numbers)
+        breaks, rounded_off = _breaks(chain, numbers)
         smooth += rounded_off
+        if any(item.kind == "hollow" for item in breaks):
+            hollows += 1
+            breaks = _bridged(breaks, chain.closed, numbers)
         found = _edges_of_faces(breaks, chain.closed, numbers)
         corners.extend(found[0])
         plates.extend(found[1])
@@ -71,7 +72,7 @@ def section_edges(section: Section) -> SectionEdges:
     for plate in section.wetted_plates:
         if not all(plate.joined):
             plates.extend(_plate_pieces(plate.edges, plate.joined, numbers))
-    return SectionEdges(tuple(corners), tuple(plates), _notices(corners, plates, odd, smooth, numbers))
+    return SectionEdges(tuple(corners), tuple(plates), _notices(corners, plates, odd, smooth, hollows, numbers))
 
 
 def _directions(edges: Edges) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -82,12 +83,11 @@ def _directions(edges: Edges) -> tuple[FloatArray, FloatArray, FloatArray]:
     return middle - 0.5 * sweep, middle + 0.5 * sweep, sweep
 
 
-def _breaks(chain: Chain, roots: list[FloatArray], numbers: EdgeDampingNumbers) -> tuple[list[_Break], int]:
+def _breaks(chain: Chain, numbers: EdgeDampingNumbers) -> tuple[list[_Break], int]:
     """Return where the faces of a chain end, in its order, and how many bends are too round for a corner."""
     edges, count = chain.edges, len(chain.edges)
     first, last, sweep = _directions(edges)
     least = math.radians(numbers.smallest_turn)
-    size = float(np.max(np.abs(edges.end - edges.start)))
     found: list[_Break] = [] if chain.closed else [_Break("end", edges.start[0])]
     smooth = 0
     for index in range(count):
@@ -101,15 +101,41 @@ def _breaks(chain: Chain, roots: list[FloatArray], numbers: EdgeDampingNumbers) 
             break
         point = edges.end[index]
         turn = math.remainder(first[following] - last[index], 2.0 * math.pi)
-        if any(float(np.hypot(*(root - point))) < 1e-9 * size for root in roots):
-            found.append(_Break("hollow", point))
-        elif turn >= least:
+        if turn >= least:
             found.append(_Break("corner", point, turn))
         elif turn <= -least:
             found.append(_Break("hollow", point))
     if not chain.closed:
         found.append(_Break("end", edges.end[-1]))
     return found, smooth
+
+
+def _bridged(breaks: list[_Break], closed: bool, numbers: EdgeDampingNumbers) -> list[_Break]:
+    """Return the breaks of the convex hull: the water in a hollow is taken to move with the section."""
+
+    def turn(a: _Break, b: _Break, c: _Break) -> float:
+        first, second = b.point - a.point, c.point - b.point
+        return math.atan2(first[0] * second[1] - first[1] * second[0], float(first @ second))
+
+    kept = list(breaks)
+    changed = True
+    while changed and len(kept) > 3:
+        changed = False
+        for index in range(len(kept)) if closed else range(1, len(kept) - 1):
+            if turn(kept[index - 1], kept[index], kept[(index + 1) % len(kept)]) <= 1e-9:
+                del kept[index]
+                changed = True
+                break
+    out = []
+    least = math.radians(numbers.smallest_turn)
+    for index, item in enumerate(kept):
+        if item.kind == "end":
+            out.append(item)
+            continue
+        angle = turn(kept[index - 1], item, kept[(index + 1) % len(kept)])
+        if item.kind == "corner" and angle >= least:
+            out.append(_Break("corner", item.point, angle, item.radius))
+    return out
 
 
 def _round_bend(
@@ -202,9 +228,7 @@ def _face(other: _Break, here: _Break, arrives: bool) -> Face:
 
 
 def _plate(root: FloatArray, tip: FloatArray, numbers: EdgeDampingNumbers) -> PlateEdge:
-    return PlateEdge(
-        (float(root[0]), float(root[1])), (float(tip[0]), float(tip[1])), numbers.plate_coefficient
-    )
+    return PlateEdge((float(root[0]), float(root[1])), (float(tip[0]), float(tip[1])), numbers.plate_coefficient)
 
 
 def _plate_pieces(edges: Edges, joined: tuple[bool, bool], numbers: EdgeDampingNumbers) -> list[PlateEdge]:
@@ -212,7 +236,7 @@ def _plate_pieces(edges: Edges, joined: tuple[bool, bool], numbers: EdgeDampingN
     points = np.concatenate([edges.polyline(), edges.end[-1:]])
     if joined[1] and not joined[0]:
         points = points[::-1]
-    return [_plate(start, end, numbers) for start, end in zip(points[:-1], points[1:], strict=True)]
+    return [_plate(start, end, numbers) for start, end in itertools.pairwise(points)]
 
 
 def _notices(
@@ -220,6 +244,7 @@ def _notices(
     plates: list[PlateEdge],
     odd: list[float],
     smooth: int,
+    hollows: int,
     numbers: EdgeDampingNumbers,
 ) -> tuple[Notice, ...]:
     told: list[Notice] = []
@@ -240,6 +265,16 @@ def _notices(
                 value=float(smooth),
                 severity="information",
                 source="bilges beyond half of the shorter face: Ikeda's law for round bilges ends",
+            )
+        )
+    if hollows:
+        told.append(
+            Notice(
+                "viscous-hollow",
+                "the outline is hollow under water: for the damping by eddies the water in the hollow is taken to move "
+                "with the section, and no eddies are counted inside",
+                value=float(hollows),
+                severity="information",
             )
         )
     if odd:
