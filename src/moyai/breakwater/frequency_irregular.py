@@ -23,9 +23,11 @@ from moyai.breakwater.variables import labelled
 from moyai.breakwater.viscous_damping import (
     band_factors,
     band_words,
+    driven_motions,
     equivalent_variables,
     natural_added_mass,
     scaled_damping,
+    water_motion,
 )
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -33,7 +35,7 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping
 from moyai.floating.drift import mean_offset
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
-from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.frequency import Motions
 from moyai.floating.irregular import energy_transmission, integration_weights, linearised_in_sea, response_statistics
 
 if TYPE_CHECKING:
@@ -229,14 +231,21 @@ def _sea_motions(
 
     The linearisation takes the radiation of the first heading for all; each heading is then solved with its own.
     """
-    unit, damping = model.unit, model.damping
+    unit, damping, deviation = model.unit, model.damping, np.zeros(0)
     if model.quadratic is not None:
         joined = _joined_headings(hydros, headings)
         found = linearised_in_sea(
-            joined, unit.inertia, stiffness, directional, quadratic=model.quadratic, damping=model.damping
+            joined,
+            unit.inertia,
+            stiffness,
+            directional,
+            quadratic=model.quadratic,
+            damping=model.damping,
+            water_motion=water_motion(model, joined.omega, headings),
         )
+        deviation = found.measure_deviation
         damping = LinearDamping(damping.matrix + found.equivalent_damping, damping.critical_fraction)
-    each = [solve_motions(item, unit.inertia, stiffness, damping=damping) for item in hydros]
+    each = [driven_motions(model, item, stiffness, damping, deviation) for item in hydros]
     displacement = np.concatenate([item.displacement for item in each], axis=1)
     notices = tuple(notice for item in each for notice in item.notices)
     return replace(each[0], heading=headings, displacement=displacement), notices, damping

@@ -12,7 +12,7 @@ from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.breakwater.line_drag import line_drag_rows
 from moyai.breakwater.model import MODES
-from moyai.breakwater.viscous_damping import unit_drag_rows
+from moyai.breakwater.viscous_damping import unit_drag_rows, water_motion
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -105,6 +105,7 @@ def drift_problem(model: FrequencyModel, hydro: Hydrodynamics) -> DriftProblem:
         damping=model.damping,
         quadratic=model.quadratic,
         steady_force=model.steady,
+        water_motion=water_motion(model, hydro.omega, hydro.heading[:1]),
     )
 
 
@@ -125,6 +126,7 @@ def solve_about_offset(
         damping=model.damping,
         quadratic=model.quadratic,
         wave_amplitude=amplitude[:, None],
+        water_motion=water_motion(model, hydro.omega, hydro.heading),
     )
     count = len(hydro.omega)
     nothing = np.full((count, 1), np.nan)

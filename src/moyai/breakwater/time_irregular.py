@@ -21,13 +21,14 @@ from moyai.breakwater.responses import (
 from moyai.breakwater.time_lines import lines_at_rest, motion_summary
 from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
-from moyai.breakwater.viscous_damping import damping_in_sea, natural_added_mass
+from moyai.breakwater.viscous_damping import about_rest_in_sea, natural_added_mass, own_water_motion
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
-from moyai.floating.forcing import IrregularForcing
-from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.forcing import Forcing, IrregularForcing
+from moyai.floating.frequency import solve_motions
+from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import Simulation
 from moyai.sea.irregular import synthesise
 from moyai.sea.statistics import zero_crossing
@@ -103,8 +104,12 @@ def irregular_sea(
     expected = np.asarray(frequency.most_probable_maximum_motion.values) + np.abs(offset)
     attributes = {"kind": "irregular", "seed": sea.seed, "ramp": ramp, "analysis_start": ramp}
     around = SeaOfRun(components, current, ramp, ramp, 2.0 * math.pi / float(sea.spectrum.peak_omega))
+    waves: Forcing = forcing
+    if unit.breakwater.damping.viscous:
+        moving = own_water_motion(unit, components.omega, components.heading)
+        waves = MovingWater(forcing, components.omega, amplitude, moving, ramp)
     run = run_with_lines(
-        "realisation", attributes, model, cummins, forcing, expected, settings, around, sea.duration + ramp, progress
+        "realisation", attributes, model, cummins, waves, expected, settings, around, sea.duration + ramp, progress
     )
     simulation = run.simulation
     status = {"converged": "converged", "diverged": "not_converged", "interrupted": "interrupted"}[simulation.status]
@@ -151,10 +156,12 @@ def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, se
     if not every[0].has_far_field:
         return None
     rows = []
-    # Undamped resonances would drift without bound: quadratic damping counts as in this sea
-    damping = damping_in_sea(model, sea) if model.unit.breakwater.damping.viscous else model.damping
     for hydro in every:
-        motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=damping)
+        # Undamped resonances would drift without bound: quadratic damping counts as in this sea
+        if model.unit.breakwater.damping.viscous:
+            motions = about_rest_in_sea(model, hydro, sea)
+        else:
+            motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
         far = far_field(hydro, motions.displacement)
         square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)
         rows.append(np.interp(omega, hydro.omega, square[:, 0]))

@@ -17,13 +17,15 @@ from moyai.floating.damping import LinearDamping, QuadraticDamping, critical_dam
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.floating.irregular import linearised_in_sea
 from moyai.floating.modes import natural_modes
-from moyai.floating.viscous import edge_damping
+from moyai.floating.viscous import edge_damping, water_measure
 from moyai.floating.viscous_section import section_edges
+from moyai.sea.dispersion import wave_number
 
 if TYPE_CHECKING:
     from moyai.breakwater.frequency_model import FrequencyModel
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 
 def unit_drag_rows(unit: FloatingUnit) -> tuple[Array, Array]:
@@ -41,6 +43,29 @@ def unit_drag_rows(unit: FloatingUnit) -> tuple[Array, Array]:
         rows = np.vstack([rows, [0.0, 0.0, 1.0]])
         coefficients = np.append(coefficients, given.roll_quadratic)
     return rows, coefficients
+
+
+def own_water_motion(unit: FloatingUnit, omega: Array, heading: Array) -> ComplexArray:
+    """Return the undisturbed wave in the unit's own rows, (..., k) per metre of amplitude [eq:viscous-water].
+
+    ``omega`` [rad/s] and ``heading`` [rad] broadcast; a given b2 of roll is about still water.
+    """
+    given, water = unit.breakwater.damping, unit.water
+    number = np.asarray(wave_number(np.asarray(omega, dtype=float), water.depth, water.gravity), dtype=float)
+    shape = np.broadcast_shapes(np.shape(omega), np.shape(heading))
+    out = np.zeros((*shape, 0), dtype=np.complex128)
+    if given.viscous:
+        edges = section_edges(unit.section)
+        out = water_measure(edges.corners, edges.plates, omega, number, heading, water.depth)
+    return np.concatenate([out, np.zeros((*shape, 1))], axis=-1) if given.roll_quadratic else out
+
+
+def water_motion(model: FrequencyModel, omega: Array, headings: Array) -> ComplexArray | None:
+    """Return the undisturbed wave in the measures of the model's quadratic damping (n, h, k); ``None``: still water."""
+    if model.quadratic is None or not model.unit.breakwater.damping.viscous:
+        return None
+    own = own_water_motion(model.unit, omega[:, None], np.asarray(headings, dtype=float)[None, :])
+    return np.concatenate([np.zeros((*own.shape[:2], model.rows_of_lines)), own], axis=2)
 
 
 def viscous_notices(unit: FloatingUnit) -> tuple[Notice, ...]:
@@ -118,20 +143,54 @@ def equivalent_variables(
     return {"equivalent_damping": (dims, own), "equivalent_damping_fraction": (dims, fraction)}
 
 
-def damping_in_sea(model: FrequencyModel, sea: SeaState) -> LinearDamping:
-    """Return the damping of the unit in an irregular sea about rest, quadratic terms linearised for it."""
+def about_rest_in_sea(model: FrequencyModel, hydro: Hydrodynamics, sea: SeaState) -> Motions:
+    """Return motions about rest per metre of wave amplitude in one heading, quadratic terms linearised for a sea.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    hydro : Hydrodynamics
+        Of one heading, at any frequencies.
+    sea : IrregularSea
+        Long-crested from that heading for this purpose.
+    """
+    unit = model.unit
     if model.quadratic is None or isinstance(sea, RegularSea):
-        return model.damping
+        return solve_motions(hydro, unit.inertia, model.stiffness, damping=model.damping)
     omega = spectrum_band(sea)
     found = linearised_in_sea(
         model.hydro.at(omega, sea.heading),
-        model.unit.inertia,
+        unit.inertia,
         model.stiffness,
         np.asarray(sea.spectrum.density_at(omega), dtype=float),
         quadratic=model.quadratic,
         damping=model.damping,
+        water_motion=water_motion(model, omega, np.array([sea.heading])),
     )
-    return LinearDamping(model.damping.matrix + found.equivalent_damping, model.damping.critical_fraction)
+    damping = LinearDamping(model.damping.matrix + found.equivalent_damping, model.damping.critical_fraction)
+    return driven_motions(model, hydro, model.stiffness, damping, found.measure_deviation)
+
+
+def driven_motions(
+    model: FrequencyModel, hydro: Hydrodynamics, stiffness: Array, damping: LinearDamping, deviation: Array
+) -> Motions:
+    """Return motions with drag that was linearised at standard deviations (k,) of its measures.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    hydro : Hydrodynamics
+    stiffness : ndarray (3, 3)
+    damping : LinearDamping
+        Equivalents included.
+    deviation : ndarray (k,)
+    """
+    moving = water_motion(model, hydro.omega, hydro.heading)
+    if moving is None or model.quadratic is None:
+        return solve_motions(hydro, model.unit.inertia, stiffness, damping=damping)
+    drag = model.quadratic.carried_irregular(deviation, moving)
+    driven = replace(hydro, excitation=hydro.excitation + drag)
+    return replace(solve_motions(driven, model.unit.inertia, stiffness, damping=damping), drag_excitation=drag)
 
 
 def motions_about_rest(model: FrequencyModel, hydro: Hydrodynamics, seas: tuple[SeaState, ...]) -> tuple[Motions, str]:
@@ -146,11 +205,7 @@ def motions_about_rest(model: FrequencyModel, hydro: Hydrodynamics, seas: tuple[
         return motions, "linear damping of the case alone"
     irregular = [sea for sea in seas if not isinstance(sea, RegularSea)]
     if irregular:
-        damping = damping_in_sea(model, irregular[0])
-        return (
-            solve_motions(hydro, unit.inertia, model.stiffness, damping=damping),
-            f"viscous damping as in {irregular[0].name}",
-        )
+        return about_rest_in_sea(model, hydro, irregular[0]), f"viscous damping as in {irregular[0].name}"
     first = seas[0]
     assert isinstance(first, RegularSea)
     motions = solve_motions(
@@ -160,5 +215,6 @@ def motions_about_rest(model: FrequencyModel, hydro: Hydrodynamics, seas: tuple[
         damping=model.damping,
         quadratic=model.quadratic,
         wave_amplitude=0.5 * first.height,
+        water_motion=water_motion(model, hydro.omega, hydro.heading),
     )
     return motions, f"viscous damping in waves of the height of {first.name}, {first.height:g} m"

@@ -4,8 +4,8 @@ Every sharp edge under water is one quadratic drag on one linear measure of the 
 heave and roll are coupled by the lever of the edge and the answer does not depend on the point that the motions are
 counted about [eq:viscous-edge]. The numbers stand in ``moyai/tables/data/edge_damping.csv``.
 
-The velocity is that of the body in still water, as in the decay tests that the numbers come from; the motion of the
-water past a body held fixed is left out.
+The velocity is that of the body against the undisturbed wave at the points of the measure [eq:viscous-water]: a body
+that follows long waves sheds no eddies. Still water is the case of the decay tests that the numbers come from.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.floating.arrays import FloatArray
+from moyai.floating.arrays import ComplexArray, FloatArray
 from moyai.floating.damping import QuadraticDamping
 
 PLATE_POINTS = 8
@@ -86,25 +86,62 @@ def equivalent_point(first: float, second: float) -> float:
     return numerator / (first ** (4.0 / 3.0) + second ** (4.0 / 3.0))
 
 
-def corner_row(edge: CornerEdge, centre: tuple[float, float]) -> FloatArray:
-    """Return the measure J [m^(1/3)] of one corner, so that J v is its velocity round the corner [eq:viscous-edge].
+@dataclass(frozen=True)
+class Measure:
+    """One measure of velocity: weighted velocities of points along directions, with its drag coefficient per length.
 
     Parameters
     ----------
-    edge : CornerEdge
-    centre : tuple of float
-        Point that sway, heave, roll are counted about (x, z) [m].
+    weights : ndarray (p,)
+    points, directions : ndarray (p, 2)
+        (x, z) [m]; unit vectors.
+    coefficient : float
+        c / (rho l) of the force c |J v| J v.
     """
-    part = equivalent_point(edge.before.length, edge.after.length)
-    row = np.zeros(3)
-    for face, sign in ((edge.before, 1.0), (edge.after, -1.0)):
-        far = np.array(face.far)
-        point = far + part * (np.array(edge.point) - far)
-        row += sign * face.length ** (1.0 / 3.0) * velocity_row(point, face.normal, centre)
-    return row
+
+    weights: FloatArray
+    points: FloatArray
+    directions: FloatArray
+    coefficient: float
+
+    def row(self, centre: tuple[float, float]) -> FloatArray:
+        """Return J of sway, heave, roll about ``centre``."""
+        rows = [
+            weight * velocity_row(point, direction, centre)
+            for weight, point, direction in zip(self.weights, self.points, self.directions, strict=True)
+        ]
+        return np.sum(rows, axis=0)
 
 
-def velocity_row(point: FloatArray, direction: tuple[float, float], centre: tuple[float, float]) -> FloatArray:
+def measures(corners: tuple[CornerEdge, ...], plates: tuple[PlateEdge, ...]) -> tuple[Measure, ...]:
+    """Return the measures of corners [eq:viscous-edge] and of points along plates [eq:viscous-plate]."""
+    found = []
+    for edge in corners:
+        part = equivalent_point(edge.before.length, edge.after.length)
+        faces = (edge.before, edge.after)
+        far = np.array([face.far for face in faces])
+        found.append(
+            Measure(
+                np.array([edge.before.length ** (1.0 / 3.0), -(edge.after.length ** (1.0 / 3.0))]),
+                far + part * (np.array(edge.point) - far),
+                np.array([face.normal for face in faces]),
+                0.5 * edge.pressure,
+            )
+        )
+    nodes, weights = np.polynomial.legendre.leggauss(PLATE_POINTS)
+    for plate in plates:
+        root, tip = np.array(plate.root), np.array(plate.tip)
+        extent = float(np.hypot(*(tip - root)))
+        along = (tip - root) / extent
+        normal = np.array([[-along[1], along[0]]])
+        for node, weight in zip(nodes, weights, strict=True):
+            point = root + 0.5 * (1.0 + node) * (tip - root)
+            drag = 0.5 * plate.drag * 0.5 * float(weight) * extent
+            found.append(Measure(np.ones(1), point[None, :], normal, drag))
+    return tuple(found)
+
+
+def velocity_row(point: FloatArray, direction: FloatArray, centre: tuple[float, float]) -> FloatArray:
     """Return the velocity of a point of the body along a direction per unit velocity of sway, heave, roll."""
     x, z = point[0] - centre[0], point[1] - centre[1]
     return np.array([direction[0], direction[1], direction[0] * z - direction[1] * x])
@@ -138,19 +175,46 @@ def edge_damping(
     for name, value in (("density", density), ("length", length)):
         if not value > 0.0:
             raise InputError(f"{name} is {value}", path=name, allowed="greater than 0")
-    rows = [corner_row(edge, centre) for edge in corners]
-    coefficients = [0.5 * density * length * edge.pressure for edge in corners]
-    nodes, weights = np.polynomial.legendre.leggauss(PLATE_POINTS)
-    for plate in plates:
-        root, tip = np.array(plate.root), np.array(plate.tip)
-        extent = float(np.hypot(*(tip - root)))
-        along = (tip - root) / extent
-        normal = (float(-along[1]), float(along[0]))
-        for node, weight in zip(nodes, weights, strict=True):
-            point = root + 0.5 * (1.0 + node) * (tip - root)
-            rows.append(velocity_row(point, normal, centre))
-            coefficients.append(0.5 * density * length * plate.drag * 0.5 * float(weight) * extent)
-    return QuadraticDamping(np.array(rows).reshape(-1, 3), np.array(coefficients))
+    found = measures(corners, plates)
+    rows = np.array([item.row(centre) for item in found]).reshape(-1, 3)
+    return QuadraticDamping(rows, density * length * np.array([item.coefficient for item in found]))
+
+
+def water_measure(
+    corners: tuple[CornerEdge, ...],
+    plates: tuple[PlateEdge, ...],
+    omega: FloatArray,
+    wave_number: FloatArray,
+    heading: FloatArray,
+    depth: float,
+) -> ComplexArray:
+    """Return the undisturbed wave in the measures of :func:`edge_damping`, per metre of amplitude [eq:viscous-water].
+
+    Parameters
+    ----------
+    corners, plates
+        As in :func:`edge_damping`.
+    omega, wave_number, heading : ndarray (...)
+        [rad/s], [1/m], [rad]; they broadcast.
+    depth : float
+        [m]; may be infinite.
+
+    Returns
+    -------
+    ndarray (..., k)
+        Complex, time factor exp(-i omega t), phase of the wave at x = 0.
+    """
+    w, k, beta = np.broadcast_arrays(omega, wave_number, heading)
+    found = measures(corners, plates)
+    out = np.zeros((*w.shape, len(found)), dtype=np.complex128)
+    for column, measure in enumerate(found):
+        for weight, (x, z), direction in zip(measure.weights, measure.points, measure.directions, strict=True):
+            down, mirrored = np.exp(k * z), np.exp(-k * (z + 2.0 * depth))
+            decay = w * np.exp(1j * k * x * np.cos(beta)) / (1.0 - np.exp(-2.0 * k * depth))
+            across = np.cos(beta) * decay * (down + mirrored)
+            upward = -1j * decay * (down - mirrored)
+            out[..., column] += weight * (direction[0] * across + direction[1] * upward)
+    return out
 
 
 def sharp_box_roll_damping(
