@@ -24,6 +24,7 @@ from moyai.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.breakwater.screening import check_screening
 from moyai.breakwater.sensitivity import sensitivity_datasets
 from moyai.breakwater.statics_analysis import mooring_dataset, moving_shapes, statics_dataset
+from moyai.breakwater.viscous_damping import viscous_notices
 from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
@@ -137,11 +138,12 @@ def _frequency_steps(
     unit, hydro = model.unit, model.hydro
     seas = problem.environment.sea_states
     main = float(seas[0].heading) if seas else 0.0
-    found = frequency_regular.operators(model, operator_frequencies(unit, problem), main)
+    found = frequency_regular.operators(model, operator_frequencies(unit, problem), main, seas)
     collected.groups[f"{root}/rao"] = found.dataset
     collected.checks.extend(found.checks)
     collected.notices.extend((*found.notices, *check_screening(unit.water.depth, unit.draught)))
-    collected.checks.extend(drift_check(model, main))
+    collected.checks.extend(drift_check(model, main, seas))
+    collected.notices.extend(viscous_notices(unit))
     yield
     for sea in seas:
         if isinstance(sea, RegularSea):

@@ -9,9 +9,9 @@ import numpy as np
 
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import FrequencyModel
-from moyai.breakwater.model import BreakwaterProblem, RegularSea
+from moyai.breakwater.model import BreakwaterProblem, RegularSea, SeaState
+from moyai.breakwater.viscous_damping import motions_about_rest
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.floating.frequency import solve_motions
 from moyai.mooring.checks import check_line_system
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def check_unit(unit: FloatingUnit) -> tuple[Notice, ...]:
     return tuple(notices)
 
 
-def drift_check(model: FrequencyModel, heading: float) -> tuple[IdentityCheck, ...]:
+def drift_check(model: FrequencyModel, heading: float, seas: tuple[SeaState, ...] = ()) -> tuple[IdentityCheck, ...]:
     """Compare the mean drift of the moving body by momentum with that by pressure on its surface.
 
     Two routes that share nothing but the potentials; only for normal incidence and a section without a damping lid,
@@ -91,7 +91,7 @@ def drift_check(model: FrequencyModel, heading: float) -> tuple[IdentityCheck, .
     if solution is None or heading != 0.0 or model.unit.breakwater.gap_damping_lid:
         return ()
     hydro = model.hydro.whole(heading)
-    motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping).displacement[:, 0, :]
+    motions = motions_about_rest(model, hydro, seas)[0].displacement[:, 0, :]
     far = mean_drift_far_field(solution, motions, heading).horizontal
     near = mean_drift_near_field(solution, motions, heading).horizontal
     scale = float(np.max(np.abs(far)))

@@ -20,13 +20,22 @@ from moyai.breakwater.responses import (
     tension_transfer,
 )
 from moyai.breakwater.variables import labelled
+from moyai.breakwater.viscous_damping import (
+    band_factors,
+    band_words,
+    driven_motions,
+    equivalent_variables,
+    natural_added_mass,
+    scaled_damping,
+    water_motion,
+)
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping
 from moyai.floating.drift import mean_offset
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
-from moyai.floating.frequency import Motions, solve_motions
+from moyai.floating.frequency import Motions
 from moyai.floating.irregular import energy_transmission, integration_weights, linearised_in_sea, response_statistics
 
 if TYPE_CHECKING:
@@ -88,6 +97,15 @@ def irregular_sea(
         "line",
         np.where(np.isfinite(load), np.asarray(out["most_probable_maximum_tension"][1]) / load, np.nan),
     )
+    out |= _band(model, hydros, headings, directional, settled)
+    hydro = model.hydro.unit
+    out |= equivalent_variables(
+        ("dof",),
+        settled.damping.at(unit.inertia, natural_added_mass(model, hydro), settled.stiffness),
+        unit.inertia,
+        natural_added_mass(model, hydro),
+        settled.stiffness,
+    )
     share_over, relative = overtopping_share(unit, motions, omega, headings, directional)
     out |= {
         "overtopping_share": ((), share_over),
@@ -101,6 +119,7 @@ def irregular_sea(
         "duration": duration,
         "headings": headings.tolist(),
         "status": settled.status,
+        "damping_band": band_words(model),
     }
     notices = list(settled.notices)
     lost = 1.0 - float(met.sum() / density.sum())
@@ -137,6 +156,8 @@ class _Settled:
     offset: Array
     status: str
     notices: tuple[Notice, ...]
+    damping: LinearDamping
+    stiffness: Array
 
 
 def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, directional: Array) -> _Settled:
@@ -153,7 +174,7 @@ def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array,
         mean = mean_offset(unit.mooring, unit.statics.stiffness, model.steady + np.array([force, 0.0, 0.0]))
         offset = mean.position if mean.status == "converged" else np.zeros(3)
         stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
-        motions, notices = _sea_motions(model, hydros, headings, stiffness, directional)
+        motions, notices, damping = _sea_motions(model, hydros, headings, stiffness, directional)
         if not drifting:
             status = str(mean.status)
             break
@@ -161,7 +182,35 @@ def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array,
         if abs(force - before) <= 1e-6 * max(abs(force), 1e-12):
             status = str(mean.status)
             break
-    return _Settled(motions, force, offset, status, notices)
+    return _Settled(motions, force, offset, status, notices, damping, stiffness)
+
+
+def _band(
+    model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, directional: Array, settled: _Settled
+) -> dict:
+    """Return transmission and motion with the damping of the unit at both ends of its band, nominal included."""
+    omega = hydros[0].omega
+    answers = [settled]
+    answers += [_settle(scaled_damping(model, factor), hydros, headings, directional) for factor in band_factors(model)]
+    motion = np.array(
+        [response_statistics(omega, item.motions.displacement, directional).significant for item in answers]
+    )
+    out: dict = {
+        "significant_motion_low": ("dof", motion.min(axis=0)),
+        "significant_motion_high": ("dof", motion.max(axis=0)),
+    }
+    if hydros[0].has_far_field:
+        passed = [_transmission(hydros, item.motions, directional) for item in answers]
+        out["transmission_coefficient_low"] = ((), min(passed))
+        out["transmission_coefficient_high"] = ((), max(passed))
+    return out
+
+
+def _transmission(hydros: list[Hydrodynamics], motions: Motions, directional: Array) -> float:
+    """Return the energy-weighted transmission of a sea."""
+    waves = [far_field(item, motions.displacement[:, [column]]) for column, item in enumerate(hydros)]
+    transmitted = np.concatenate([np.abs(item.transmission) for item in waves], axis=1)
+    return energy_transmission(hydros[0].omega, transmitted, directional)
 
 
 def _drift(
@@ -177,22 +226,29 @@ def _drift(
 
 def _sea_motions(
     model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, stiffness: Array, directional: Array
-) -> tuple[Motions, tuple[Notice, ...]]:
-    """Return the motions in all headings of a sea, quadratic damping linearised for the whole of it.
+) -> tuple[Motions, tuple[Notice, ...], LinearDamping]:
+    """Return the motions in all headings of a sea, quadratic damping linearised for the whole of it, and that damping.
 
     The linearisation takes the radiation of the first heading for all; each heading is then solved with its own.
     """
-    unit, damping = model.unit, model.damping
+    unit, damping, deviation = model.unit, model.damping, np.zeros(0)
     if model.quadratic is not None:
         joined = _joined_headings(hydros, headings)
         found = linearised_in_sea(
-            joined, unit.inertia, stiffness, directional, quadratic=model.quadratic, damping=model.damping
+            joined,
+            unit.inertia,
+            stiffness,
+            directional,
+            quadratic=model.quadratic,
+            damping=model.damping,
+            water_motion=water_motion(model, joined.omega, headings),
         )
+        deviation = found.measure_deviation
         damping = LinearDamping(damping.matrix + found.equivalent_damping, damping.critical_fraction)
-    each = [solve_motions(item, unit.inertia, stiffness, damping=damping) for item in hydros]
+    each = [driven_motions(model, item, stiffness, damping, deviation) for item in hydros]
     displacement = np.concatenate([item.displacement for item in each], axis=1)
     notices = tuple(notice for item in each for notice in item.notices)
-    return replace(each[0], heading=headings, displacement=displacement), notices
+    return replace(each[0], heading=headings, displacement=displacement), notices, damping
 
 
 def _joined_headings(hydros: list[Hydrodynamics], headings: Array) -> Hydrodynamics:

@@ -12,6 +12,7 @@ from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.hydrodynamics import UnitHydrodynamics
 from moyai.breakwater.line_drag import line_drag_rows
 from moyai.breakwater.model import MODES
+from moyai.breakwater.viscous_damping import unit_drag_rows, water_motion
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -42,6 +43,8 @@ class FrequencyModel:
     steady : ndarray (3,)
         Wind and current [N, N, N m].
     with_drift : bool
+    rows_of_lines : int
+        How many of the first rows of ``quadratic`` are drag of lines; the others are the unit's own.
     """
 
     unit: FloatingUnit
@@ -50,6 +53,7 @@ class FrequencyModel:
     quadratic: QuadraticDamping | None
     steady: Array
     with_drift: bool
+    rows_of_lines: int = 0
 
     @property
     def stiffness(self) -> Array:
@@ -60,18 +64,24 @@ class FrequencyModel:
 def make_model(
     unit: FloatingUnit, hydro: UnitHydrodynamics, steady: Array, with_drift: bool, fraction: float | None = None
 ) -> FrequencyModel:
-    """Put unit, coefficients and damping together; ``fraction`` replaces the case's fraction of critical damping."""
+    """Put unit, coefficients and damping together.
+
+    ``fraction`` of critical replaces both the case's and viscous damping computed from the section.
+    """
     given = unit.breakwater.damping
+    if fraction is not None and given.viscous:
+        given = replace(given, viscous=False)
+        unit = replace(unit, breakwater=replace(unit.breakwater, damping=given))
     zeta = given.fraction_of_critical if fraction is None else fraction
     damping = LinearDamping.of_modes(
         linear=np.array(given.linear), critical_fraction=[zeta if mode in given.modes else 0.0 for mode in MODES]
     )
     rows, coefficients = line_drag_rows(unit)
-    if given.roll_quadratic:
-        rows = np.vstack([rows, [0.0, 0.0, 1.0]])
-        coefficients = np.append(coefficients, given.roll_quadratic)
-    quadratic = QuadraticDamping(rows, coefficients) if len(coefficients) else None
-    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift)
+    of_lines = len(coefficients)
+    own_rows, own_coefficients = unit_drag_rows(unit)
+    coefficients = np.append(coefficients, own_coefficients)
+    quadratic = QuadraticDamping(np.vstack([rows, own_rows]), coefficients) if len(coefficients) else None
+    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift, of_lines)
 
 
 @dataclass(frozen=True)
@@ -95,6 +105,7 @@ def drift_problem(model: FrequencyModel, hydro: Hydrodynamics) -> DriftProblem:
         damping=model.damping,
         quadratic=model.quadratic,
         steady_force=model.steady,
+        water_motion=water_motion(model, hydro.omega, hydro.heading[:1]),
     )
 
 
@@ -115,6 +126,7 @@ def solve_about_offset(
         damping=model.damping,
         quadratic=model.quadratic,
         wave_amplitude=amplitude[:, None],
+        water_motion=water_motion(model, hydro.omega, hydro.heading),
     )
     count = len(hydro.omega)
     nothing = np.full((count, 1), np.nan)

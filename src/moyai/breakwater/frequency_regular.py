@@ -18,7 +18,7 @@ from moyai.breakwater.frequency_model import (
     worst_status,
 )
 from moyai.breakwater.hydrodynamics import wavelengths
-from moyai.breakwater.model import MODES, RegularSea
+from moyai.breakwater.model import MODES, RegularSea, SeaState
 from moyai.breakwater.responses import (
     deck_relative_elevation,
     line_tensions,
@@ -26,10 +26,18 @@ from moyai.breakwater.responses import (
 )
 from moyai.breakwater.screening import transmission_macagno, transmission_ruol, transmission_wiegel
 from moyai.breakwater.variables import labelled
+from moyai.breakwater.viscous_damping import (
+    band_factors,
+    band_words,
+    equivalent_variables,
+    motions_about_rest,
+    scaled_damping,
+)
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.drift import DriftedMotions
 from moyai.floating.far_field import far_field
-from moyai.floating.frequency import solve_motions
 
 if TYPE_CHECKING:
     pass
@@ -38,10 +46,11 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
-def operators(model: FrequencyModel, omega: Array, heading: float) -> FrequencyResult:
+def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[SeaState, ...] = ()) -> FrequencyResult:
     """Response operators per metre of wave amplitude about the rest position, without drift.
 
-    Quadratic damping needs an amplitude and is left out here; the regular and irregular seas of the case hold it.
+    Quadratic damping needs an amplitude: viscous damping computed from the section takes that of the first irregular
+    sea of ``seas`` or of the first regular one; other quadratic damping is left out here.
     """
     import xarray as xr
 
@@ -49,7 +58,7 @@ def operators(model: FrequencyModel, omega: Array, heading: float) -> FrequencyR
     # Coefficients of another program may end earlier than the operators would
     omega = omega[(omega >= whole.omega[0]) & (omega <= whole.omega[-1])] if model.hydro.solution is None else omega
     hydro = model.hydro.at(omega, heading)
-    motions = solve_motions(hydro, unit.inertia, model.stiffness, damping=model.damping)
+    motions, linearised = motions_about_rest(model, hydro, seas)
     rao = motions.displacement[:, 0, :]
     out: dict = {"rao": (("omega", "dof"), rao)}
     checks: tuple[IdentityCheck, ...] = ()
@@ -76,8 +85,25 @@ def operators(model: FrequencyModel, omega: Array, heading: float) -> FrequencyR
         "wavelength": ("omega", length),
         "wavelength_over_beam": ("omega", length / beam),
     }
-    data = xr.Dataset(out, coords=coords, attrs={"heading": heading})
+    data = xr.Dataset(out, coords=coords, attrs={"heading": heading, "damping": linearised})
     return FrequencyResult(labelled(data), checks, tuple(motions.notices))
+
+
+def _band(model: FrequencyModel, hydro: Hydrodynamics, amplitude: Array, solved: DriftedMotions) -> dict:
+    """Return transmission and motion with the damping of the unit at both ends of its band, nominal included."""
+    answers = [solved]
+    for factor in band_factors(model):
+        answers.append(solve_about_offset(scaled_damping(model, factor), hydro, amplitude, silent))
+    motion = np.array([np.abs(item.motions.displacement[:, 0, :]) * amplitude[:, None] for item in answers])
+    out: dict = {
+        "motion_amplitude_low": (("period", "dof"), motion.min(axis=0)),
+        "motion_amplitude_high": (("period", "dof"), motion.max(axis=0)),
+    }
+    if hydro.has_far_field:
+        passed = np.array([np.abs(item.far.transmission[:, 0]) for item in answers])
+        out["transmission_coefficient_low"] = (("period",), passed.min(axis=0))
+        out["transmission_coefficient_high"] = (("period",), passed.max(axis=0))
+    return out
 
 
 def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = silent) -> FrequencyResult:
@@ -108,6 +134,14 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
         **{name: (("period", "line"), values) for name, values in tension.items()},
     }
     out |= far_field_variables(solved.far, hydro, unit, dims) if hydro.has_far_field else {}
+    out |= equivalent_variables(
+        ("period", "dof"),
+        solved.motions.damping[:, 0],
+        unit.inertia,
+        hydro.added_mass,
+        unit.statics.stiffness + solved.mooring_stiffness,
+    )
+    out |= _band(model, hydro, amplitude, solved)
     elevation = deck_relative_elevation(unit, solved.motions, k, sea.heading) * amplitude
     out["relative_elevation"] = (dims, elevation)
     coords = {
@@ -123,6 +157,7 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
         "height": sea.height,
         "heading": sea.heading,
         "status": worst_status(solved.status),
+        "damping_band": band_words(model),
     }
     check: tuple[IdentityCheck, ...] = ()
     if hydro.has_far_field:

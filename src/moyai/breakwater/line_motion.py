@@ -15,6 +15,7 @@ from moyai.breakwater.line_drag import line_drag_rows
 from moyai.breakwater.line_network import LineNetwork, line_network, static_check
 from moyai.breakwater.line_water import sea_of_lines
 from moyai.breakwater.model import LineDynamics, MooringLine
+from moyai.breakwater.viscous_damping import unit_drag_rows
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import BodyHistory
@@ -241,10 +242,9 @@ def _without_line_drag(model: FrequencyModel, cummins: CumminsModel) -> Quadrati
     )
     unit = replace(model.unit, breakwater=replace(model.unit.breakwater, lines=given))
     rows, coefficients = line_drag_rows(unit)
-    roll = model.unit.breakwater.damping.roll_quadratic
-    if roll:
-        rows, coefficients = np.vstack([rows, [0.0, 0.0, 1.0]]), np.append(coefficients, roll)
-    return QuadraticDamping(rows, coefficients) if len(coefficients) else None
+    own_rows, own_coefficients = unit_drag_rows(model.unit)
+    coefficients = np.append(coefficients, own_coefficients)
+    return QuadraticDamping(np.vstack([rows, own_rows]), coefficients) if len(coefficients) else None
 
 
 def _run(

@@ -44,12 +44,21 @@ class Damping:
         Additional linear damping, sway [N s/m], heave [N s/m], roll [N m s], of the whole unit.
     roll_quadratic : float
         Coefficient b2 of b2 |theta'| theta' [N m s2], of the whole unit.
+    viscous : bool
+        Whether damping by eddies at the edges is computed from the section (the default of a case file).
+    viscous_factor : float
+        What the computed damping is multiplied with.
+    band : tuple of two float
+        Factors on the unit's own damping that transmission and motions are given a band for.
     """
 
     fraction_of_critical: float = 0.0
     modes: tuple[Mode, ...] = MODES
     linear: tuple[float, float, float] = (0.0, 0.0, 0.0)
     roll_quadratic: float = 0.0
+    viscous: bool = False
+    viscous_factor: float = 1.0
+    band: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True)

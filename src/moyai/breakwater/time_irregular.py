@@ -21,13 +21,14 @@ from moyai.breakwater.responses import (
 from moyai.breakwater.time_lines import lines_at_rest, motion_summary
 from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
+from moyai.breakwater.viscous_damping import about_rest_in_sea, natural_added_mass, own_water_motion
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
-from moyai.floating.forcing import IrregularForcing
-from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.modes import natural_modes
+from moyai.floating.forcing import Forcing, IrregularForcing
+from moyai.floating.frequency import solve_motions
+from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import Simulation
 from moyai.sea.irregular import synthesise
 from moyai.sea.statistics import zero_crossing
@@ -96,15 +97,19 @@ def irregular_sea(
         drift_law=law,  # type: ignore[arg-type]
         ramp=ramp,
     )
-    added = _natural_added_mass(model, memory.beam_sea)
+    added = natural_added_mass(model, memory.beam_sea)
     offset = np.asarray(frequency.mean_offset.values)
     stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
     cummins = memory.model(model, linear_damping(model, added, stiffness))
     expected = np.asarray(frequency.most_probable_maximum_motion.values) + np.abs(offset)
     attributes = {"kind": "irregular", "seed": sea.seed, "ramp": ramp, "analysis_start": ramp}
     around = SeaOfRun(components, current, ramp, ramp, 2.0 * math.pi / float(sea.spectrum.peak_omega))
+    waves: Forcing = forcing
+    if unit.breakwater.damping.viscous:
+        moving = own_water_motion(unit, components.omega, components.heading)
+        waves = MovingWater(forcing, components.omega, amplitude, moving, ramp)
     run = run_with_lines(
-        "realisation", attributes, model, cummins, forcing, expected, settings, around, sea.duration + ramp, progress
+        "realisation", attributes, model, cummins, waves, expected, settings, around, sea.duration + ramp, progress
     )
     simulation = run.simulation
     status = {"converged": "converged", "diverged": "not_converged", "interrupted": "interrupted"}[simulation.status]
@@ -132,16 +137,6 @@ def irregular_sea(
     return TimeResult(labelled(data), (run,), tuple(notices), status)
 
 
-def _natural_added_mass(model: FrequencyModel, hydro: Hydrodynamics) -> Array:
-    """Added mass with the diagonal of each mode at that mode's own natural frequency, for the fraction of critical."""
-    modes = natural_modes(hydro, model.unit.inertia, model.stiffness)
-    omega = np.clip(np.nan_to_num(modes.omega), hydro.omega[0], hydro.omega[-1])
-    out = np.zeros((3, 3))
-    for index in range(3):
-        out[index, index] = hydro.at(np.array([omega[index]])).added_mass[0, index, index]
-    return out
-
-
 def _excitation_of_headings(model: FrequencyModel) -> Hydrodynamics:
     """Put the wave loads of all headings side by side on the frequencies that all have."""
     every = model.hydro.by_heading
@@ -162,7 +157,11 @@ def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, se
         return None
     rows = []
     for hydro in every:
-        motions: Motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
+        # Undamped resonances would drift without bound: quadratic damping counts as in this sea
+        if model.unit.breakwater.damping.viscous:
+            motions = about_rest_in_sea(model, hydro, sea)
+        else:
+            motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
         far = far_field(hydro, motions.displacement)
         square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)
         rows.append(np.interp(omega, hydro.omega, square[:, 0]))

@@ -22,14 +22,16 @@ from moyai.breakwater.responses import (
 from moyai.breakwater.time_lines import lines_at_rest, motion_names, motion_summary
 from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
+from moyai.breakwater.viscous_damping import own_water_motion
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.far_field import far_field
-from moyai.floating.forcing import RegularForcing
+from moyai.floating.forcing import Forcing, RegularForcing
 from moyai.floating.harmonics import Harmonics, fit_harmonics
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
+from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import CumminsModel, Simulation
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
@@ -196,7 +198,11 @@ def _one_period(
     attributes = {"period": period, "height": sea.height, "ramp": ramp, "kind": "regular", "analysis_start": begin}
     around = SeaOfRun(_wave_of(unit, sea, omega), current, ramp, begin, period)
     name = f"T{period:.4g}".replace(".", "p")
-    run = run_with_lines(name, attributes, model, cummins, forcing, expected, settings, around, duration, progress)
+    waves: Forcing = forcing
+    if unit.breakwater.damping.viscous:
+        moving = own_water_motion(unit, np.array([omega]), np.array([sea.heading]))
+        waves = MovingWater(forcing, np.array([omega]), np.array([0.5 * sea.height + 0j]), moving, ramp)
+    run = run_with_lines(name, attributes, model, cummins, waves, expected, settings, around, duration, progress)
     simulation = run.simulation
     notices = simulation.notices
     if simulation.status == "diverged":

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.breakwater.model import (
+    MODES,
     Breakwater,
     BreakwaterProblem,
     CoefficientsFile,
@@ -28,6 +29,7 @@ from moyai.core.errors import InputError
 from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, LineType, Segment
 from moyai.sea.water import Water
+from moyai.tables.edge_damping import edge_damping_numbers
 from moyai.tables.lines import line_type
 
 
@@ -108,9 +110,22 @@ def _damping(unit: schema.BreakwaterStructure) -> Damping:
     extra = unit.additional_damping or schema.AdditionalDamping()
     roll = unit.roll_damping or schema.RollDampingTerms()
     linear = (extra.sway, extra.heave, extra.roll + roll.linear)
-    if unit.damping is None:
-        return Damping(linear=linear, roll_quadratic=roll.quadratic)
-    return Damping(unit.damping.fraction_of_critical, unit.damping.modes, linear, roll.quadratic)
+    numbers = edge_damping_numbers()
+    terms = unit.damping or schema.DampingTerms()
+    computed = terms.viscous == "computed"
+    if terms.viscous is None:
+        # A measured roll damping or a fraction that stands for all of it holds the eddies already
+        computed = terms.fraction_of_critical is None and unit.roll_damping is None
+    band = terms.band or (numbers.band_low, numbers.band_high)
+    return Damping(
+        terms.fraction_of_critical or 0.0,
+        terms.modes or MODES,
+        linear,
+        roll.quadratic,
+        computed,
+        terms.viscous_factor,
+        (min(band), max(band)),
+    )
 
 
 def _coefficients(entry: Any, model: schema.BreakwaterCase, folder: Path) -> CoefficientsFile | None:

@@ -41,13 +41,39 @@ Mode = Literal["sway", "heave", "roll"]
 Analysis = Literal["statics", "mooring", "frequency", "time"]
 
 
-class DampingFraction(Block):
-    """Linear damping as a fraction of critical, beyond wave radiation."""
+class DampingTerms(Block):
+    """Damping beyond wave radiation: computed from the section, a fraction of critical, or both."""
 
-    fraction_of_critical: Fraction = Field(description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)).")
-    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
-        description="Motions that it is applied to.", examples=[["sway", "heave", "roll"]]
+    viscous: Literal["computed", "none"] | None = Field(
+        default=None,
+        description="'computed': by eddies at the edges of the section. Default: computed, unless fraction_of_critical "
+        "or roll_damping is given.",
     )
+    viscous_factor: PositiveNumber = Field(
+        default=1.0, description="What the computed viscous damping is multiplied with. Default: 1."
+    )
+    fraction_of_critical: Fraction | None = Field(
+        default=None, description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)); needs modes."
+    )
+    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] | None = Field(
+        default=None,
+        description="Motions that the fraction is applied to.",
+        examples=[["sway", "heave", "roll"]],
+    )
+    band: tuple[PositiveNumber, PositiveNumber] | None = Field(
+        default=None,
+        description="Factors on this damping for the band of transmission and motion. Default: [0.5, 2].",
+    )
+
+    @classmethod
+    def _between_keys(cls, data: dict[str, Any]) -> list[tuple[str, str, str]]:
+        faults = super()._between_keys(data)
+        if data.get("fraction_of_critical") is not None and data.get("modes") is None:
+            remedy = "give it: Motions that it is applied to, for instance [sway, heave, roll]"
+            faults.append(("", "the key 'modes' is missing", remedy))
+        if data.get("modes") is not None and data.get("fraction_of_critical") is None:
+            faults.append(("modes", "'modes' needs 'fraction_of_critical'", "give it, or leave 'modes' out"))
+        return faults
 
 
 class RollDampingTerms(Block):
@@ -140,7 +166,10 @@ class BreakwaterStructure(Block):
     roll_inertia: Inertia | None = Field(
         default=None, description="Roll moment of inertia of the unit about its centre of gravity; needs 'mass'."
     )
-    damping: DampingFraction | None = Field(default=None, description="Damping as a fraction of critical.")
+    damping: DampingTerms | None = Field(
+        default=None,
+        description="Damping beyond wave radiation. Default: computed from the section, unless roll_damping is given.",
+    )
     roll_damping: RollDampingTerms | None = Field(default=None, description="Linear and quadratic roll damping.")
     additional_mass: AdditionalMass | None = Field(
         default=None, description="Mass that moves in one motion only (rigs of model tests)."

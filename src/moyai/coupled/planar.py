@@ -204,7 +204,9 @@ class PlanarCarrier:
         if self._outside[0] != (self.time, end):
             at = np.array([self.time, self.time + 0.5 * h, end])
             self._outside = ((self.time, end), np.asarray(self._force(at)))
-        force = self._outside[1] + self.modal(angles, reaction[0] + _STAGES * reaction[1])
+        force = self._outside[1].copy()
+        pulls = self.modal(angles, reaction[0] + _STAGES * reaction[1])
+        force[:, : pulls.shape[1]] += pulls
         key = round(h, 14)
         if key not in self._weights:
             self._weights[key] = exponential_weights(self._memory.poles, h)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
-from moyai.floating.arrays import FloatArray, finite
+from moyai.floating.arrays import ComplexArray, FloatArray, finite
 
 EquivalentDamping = Callable[[FloatArray, float], FloatArray]
 """Hook of drag-linearised lines: amplitude (regular) or standard deviation times sqrt(2) (irregular) of the velocities
@@ -135,6 +135,16 @@ class QuadraticDamping:
         Implements b = 8/(3 pi) c |J v| [eq:floating-equal-work].
         """
         return self._assembled(8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude)
+
+    def carried_regular(self, measure_amplitude: FloatArray, water_motion: ComplexArray) -> ComplexArray:
+        """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in regular waves."""
+        equivalent = 8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude
+        return np.asarray((equivalent * water_motion) @ self.directions)
+
+    def carried_irregular(self, measure_deviation: FloatArray, water_motion: ComplexArray) -> ComplexArray:
+        """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in a sea."""
+        equivalent = math.sqrt(8.0 / math.pi) * self.coefficients * measure_deviation
+        return np.asarray((equivalent * water_motion) @ self.directions)
 
     def equivalent_irregular(self, measure_deviation: FloatArray) -> FloatArray:
         """Return the linear damping (..., m, m) of least error at Gaussian standard deviations (..., k) of J_k v.

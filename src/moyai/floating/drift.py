@@ -68,6 +68,8 @@ class DriftProblem:
     steady_force : ndarray (m,) or None
         Wind and current [N, N, N m].
     heading_index : int
+    water_motion : ndarray (n, 1, k) or None
+        What the water does in the measures of ``quadratic``, per unit wave amplitude.
     """
 
     hydrodynamics: Hydrodynamics
@@ -80,6 +82,7 @@ class DriftProblem:
     line_damping: EquivalentDamping | None = None
     steady_force: FloatArray | None = None
     heading_index: int = 0
+    water_motion: ComplexArray | None = None
 
     def one_heading(self) -> Hydrodynamics:
         """Return the coefficients of the heading in use."""
@@ -147,6 +150,7 @@ def _answer(
             quadratic=problem.quadratic,
             line_damping=problem.line_damping,
             damping=problem.damping,
+            water_motion=problem.water_motion,
         ).motions
     else:
         motions = solve_motions(
@@ -157,6 +161,7 @@ def _answer(
             quadratic=problem.quadratic,
             line_damping=problem.line_damping,
             wave_amplitude=amplitude[:, None] if nonlinear else None,
+            water_motion=problem.water_motion,
         )
     far = far_field(hydro, motions.displacement)
     per_square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, problem.water, hydro.length)[:, 0]
@@ -205,8 +210,9 @@ def solve_with_drift(
     for index in range(count):
         progress("drift loop", index, count)
         rows = slice(index, index + 1)
+        moving = None if problem.water_motion is None else problem.water_motion[rows]
         state, used, status = _loop(
-            problem,
+            replace(problem, water_motion=moving),
             _rows(hydro, rows),
             amplitude[rows] ** 2,
             amplitude[rows],
@@ -315,6 +321,11 @@ def _loop_notices(status: tuple[Status, ...], omega: FloatArray) -> tuple[Notice
     )
 
 
+def _carried(states: list[_State]) -> ComplexArray | None:
+    found = [state.motions.drag_excitation for state in states if state.motions.drag_excitation is not None]
+    return np.concatenate(found) if len(found) == len(states) else None
+
+
 def _joined(
     hydro: Hydrodynamics,
     states: list[_State],
@@ -333,6 +344,7 @@ def _joined(
         wave_amplitude=amplitude[:, None],
         iterations=max(state.motions.iterations for state in states),
         notices=tuple({notice.message: notice for state in states for notice in state.motions.notices}.values()),
+        drag_excitation=_carried(states),
     )
     far = FarField(
         *(

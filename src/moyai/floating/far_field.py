@@ -135,11 +135,22 @@ def dissipated_fraction(
     return power / flux
 
 
+def _driven_fraction(motions: Motions, water: Water, length: float) -> FloatArray:
+    """Return the work of moving water through linearised drag over the incident energy flux, (n, h)."""
+    assert motions.drag_excitation is not None
+    group, _ = energy_velocity(motions.omega, water)
+    power = 0.5 * np.sum(motions.velocity.conj() * motions.drag_excitation, axis=2).real
+    flux = 0.5 * water.density * water.gravity * group[:, None] * np.abs(np.cos(motions.heading)) * length
+    return np.asarray(power / flux)
+
+
 def energy_check(
     far: FarField, motions: Motions, water: Water, length: float, tolerance: float = 1e-6
 ) -> IdentityCheck:
     """Hold the loss of the far field against the work of the damping: both must be E_L [eq:floating-energy]."""
     work = dissipated_fraction(motions.omega, motions.heading, motions.velocity, motions.damping, water, length)
+    if motions.drag_excitation is not None:
+        work = work - _driven_fraction(motions, water, length)
     difference = np.abs(far.loss - work)
     good = np.isfinite(difference)
     return IdentityCheck(

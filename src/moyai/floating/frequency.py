@@ -38,6 +38,8 @@ class Motions:
         Iterations of the equivalent linearisation.
     checks : tuple of IdentityCheck
     notices : tuple of Notice
+    drag_excitation : ndarray (n, h, m) or None
+        Force of moving water through linearised quadratic drag, per unit wave amplitude.
     """
 
     omega: FloatArray
@@ -49,6 +51,7 @@ class Motions:
     iterations: int
     checks: tuple[IdentityCheck, ...] = ()
     notices: tuple[Notice, ...] = ()
+    drag_excitation: ComplexArray | None = None
 
     @property
     def velocity(self) -> ComplexArray:
@@ -108,6 +111,7 @@ def solve_motions(
     quadratic: QuadraticDamping | None = None,
     line_damping: EquivalentDamping | None = None,
     wave_amplitude: ArrayLike | None = None,
+    water_motion: ComplexArray | None = None,
     tolerance: float = 1e-10,
     maximum_iterations: int = 200,
 ) -> Motions:
@@ -129,6 +133,8 @@ def solve_motions(
         Equivalent damping of lines, ``(velocity amplitudes, omega) -> (m, m)``, iterated likewise.
     wave_amplitude : array_like or None
         Scalar, (n, 1) or (n, h) [m]; needed with ``quadratic`` or ``line_damping``.
+    water_motion : ndarray (n, h, k) or None
+        What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
     tolerance : float
         Relative change of the velocities at which the iteration ends.
     maximum_iterations : int
@@ -158,29 +164,33 @@ def solve_motions(
     mass = (inertia + hydrodynamics.added_mass)[:, None]
     radiation = hydrodynamics.radiation_damping[:, None]
 
-    def solution(extra: FloatArray) -> tuple[ComplexArray, FloatArray]:
-        return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), hydrodynamics.excitation)
+    carried = np.zeros((count, headings, size), dtype=np.complex128)
+
+    def solution(extra: FloatArray, carried: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+        right = hydrodynamics.excitation + carried
+        return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), right)
 
     extra = constant
-    displacement, condition = solution(extra)
+    displacement, condition = solution(extra, carried)
     iterations, change = 0, 0.0
     if iterated:
         added = np.zeros_like(constant)
         if np.any(condition > SINGULAR):
             # A finite first velocity even at an undamped resonance; the iteration forgets it
             first = LinearDamping(np.zeros((size, size)), np.full(size, 0.1))
-            started = solution(extra + first.at(inertia, hydrodynamics.added_mass, stiffness)[:, None])[0]
+            started = solution(extra + first.at(inertia, hydrodynamics.added_mass, stiffness)[:, None], carried)[0]
             displacement = np.where(np.isnan(displacement), started, displacement)
         displacement = np.nan_to_num(displacement)
         change = np.inf
         while change > tolerance and iterations < maximum_iterations:
             iterations += 1
-            velocity = np.abs(amplitude)[..., None] * omega[..., None] * displacement
-            target = _equivalent(velocity, omega, quadratic, line_damping)
+            velocity = -1j * np.abs(amplitude)[..., None] * omega[..., None] * displacement
+            target, driven = _equivalent(velocity, omega, quadratic, line_damping, water_motion, amplitude)
             # Half steps: near resonance the full step overshoots by as much as it should have gone
             added = 0.5 * (added + target) if iterations > 1 else target
+            carried = 0.5 * (carried + driven) if iterations > 1 else driven
             extra = constant + added
-            updated, condition = solution(extra)
+            updated, condition = solution(extra, carried)
             bad = np.isnan(updated)
             moved = np.abs(np.where(bad, 0.0, updated) - displacement)
             reference = np.max(np.abs(np.where(bad, 0.0, updated)), axis=(0, 1), keepdims=True)
@@ -197,6 +207,7 @@ def solve_motions(
         wave_amplitude=amplitude,
         iterations=iterations,
         notices=notices,
+        drag_excitation=carried if water_motion is not None else None,
     )
 
 
@@ -205,16 +216,23 @@ def _equivalent(
     omega: FloatArray,
     quadratic: QuadraticDamping | None,
     line_damping: EquivalentDamping | None,
-) -> FloatArray:
-    """Return the equivalent damping (n, h, m, m) at complex velocities (n, h, m)."""
+    water_motion: ComplexArray | None,
+    amplitude: FloatArray,
+) -> tuple[FloatArray, ComplexArray]:
+    """Return the equivalent damping (n, h, m, m) at complex velocities (n, h, m), and the force of the moving water."""
     size = velocity.shape[-1]
     total = np.zeros((*velocity.shape, size))
+    driven = np.zeros(velocity.shape, dtype=np.complex128)
     if quadratic is not None:
-        total = total + quadratic.equivalent_regular(np.abs(velocity @ quadratic.directions.T))
+        measure = velocity @ quadratic.directions.T
+        if water_motion is not None:
+            measure = measure - np.abs(amplitude)[..., None] * water_motion
+            driven = quadratic.carried_regular(np.abs(measure), water_motion)
+        total = total + quadratic.equivalent_regular(np.abs(measure))
     if line_damping is not None:
         for index in np.ndindex(*omega.shape):
             total[index] += line_damping(np.abs(velocity[index]), float(omega[index]))
-    return total
+    return total, driven
 
 
 def _notices(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -141,6 +141,7 @@ def linearised_in_sea(
     quadratic: QuadraticDamping | None = None,
     line_damping: EquivalentDamping | None = None,
     damping: LinearDamping | None = None,
+    water_motion: ComplexArray | None = None,
     tolerance: float = 1e-10,
     maximum_iterations: int = 200,
 ) -> SeaMotions:
@@ -157,6 +158,8 @@ def linearised_in_sea(
     line_damping : callable or None
         Equivalent damping of lines at sqrt(2) times the standard deviations of the velocities and their mean
         zero-crossing frequency.
+    water_motion : ndarray (n, h, k) or None
+        What the water does in the measures of ``quadratic``, per unit wave amplitude; still water when absent.
     tolerance : float
         Relative change of the standard deviations.
     maximum_iterations : int
@@ -172,12 +175,17 @@ def linearised_in_sea(
     size = hydrodynamics.size
     rows = np.eye(size) if quadratic is None else np.vstack([np.eye(size), quadratic.directions])
     equivalent, previous = np.zeros((size, size)), np.zeros(len(rows))
+    drag = np.zeros(hydrodynamics.excitation.shape, dtype=np.complex128)
+    moving = np.zeros((1, 1, len(rows)), dtype=np.complex128)
+    if water_motion is not None and quadratic is not None:
+        moving = np.concatenate([np.zeros((*water_motion.shape[:2], size)), water_motion], axis=2)
     change, used = math.inf, 0
     while True:
         used += 1
         total = LinearDamping(linear.matrix + equivalent, linear.critical_fraction)
-        motions = solve_motions(hydrodynamics, inertia, stiffness, damping=total)
-        measure: ComplexArray = np.nan_to_num(motions.velocity) @ rows.T
+        driven = replace(hydrodynamics, excitation=hydrodynamics.excitation + drag)
+        motions = solve_motions(driven, inertia, stiffness, damping=total)
+        measure: ComplexArray = np.nan_to_num(motions.velocity) @ rows.T - moving
         statistics = response_statistics(hydrodynamics.omega, measure, wave)
         deviation = statistics.standard_deviation
         largest = np.where(np.maximum(deviation, previous) > 0.0, np.maximum(deviation, previous), 1.0)
@@ -188,6 +196,9 @@ def linearised_in_sea(
         target = np.zeros((size, size))
         if quadratic is not None:
             target += quadratic.equivalent_irregular(deviation[size:])
+            if water_motion is not None:
+                carried = quadratic.carried_irregular(deviation[size:], water_motion)
+                drag = carried if used == 1 else 0.5 * (drag + carried)
         if line_damping is not None:
             period = float(
                 np.max(
@@ -198,4 +209,5 @@ def linearised_in_sea(
             )
             target += line_damping(math.sqrt(2.0) * deviation[:size], 2.0 * math.pi / period if period > 0.0 else 0.0)
         equivalent = target if used == 1 else 0.5 * (equivalent + target)
+    motions = replace(motions, drag_excitation=drag if water_motion is not None else None)
     return SeaMotions(motions, equivalent, deviation[size:], used, change <= tolerance)

@@ -55,8 +55,10 @@ def _acceleration(
         work[i] = total
     if lines[0].shape[0] > 0:
         mooring_force(q, lines, work, pulls)
+    # Columns beyond the modes are the motion of the water in the measures of the last rows
+    still = quadratic.size - (external.size - m)
     for k in range(quadratic.size):
-        measure = 0.0
+        measure = -external[m + k - still] if k >= still else 0.0
         for j in range(m):
             measure += rows[k, j] * v[j]
         drag = quadratic[k] * abs(measure) * measure
@@ -103,8 +105,9 @@ def run_state_space(
 ) -> tuple[int, int]:  # fmt: skip
     """Advance ``steps`` steps from step number ``first``; q, v, z change in place.
 
-    ``force`` (2 n + 1, m) holds the external force at half steps. ``exponential`` holds exp(h L/2), exp(h L) and the
-    weights Q, f1, f2, f3 of ETDRK4. ``saved`` is (position, velocity, mooring force, pulls), rows at every ``every``-th
+    ``force`` (2 n + 1, m + w) holds the external force at half steps, and the motion of the water in the measures of
+    the last w rows of the quadratic damping. ``exponential`` holds exp(h L/2), exp(h L) and the weights Q, f1, f2, f3
+    of ETDRK4. ``saved`` is (position, velocity, mooring force, pulls), rows at every ``every``-th
     step. Returns the status and the number of good steps.
     """
     half, full, weight_q, f1, f2, f3 = exponential

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from moyai.core.results import Result
+from moyai.report import breakwater_damping as damping
 from moyai.report import breakwater_figures as figures
 from moyai.report import breakwater_sea_figures as sea_figures
 from moyai.report import breakwater_tables as tables
@@ -215,6 +216,7 @@ def _regular_blocks(level: Level, sea: Sea, measured: Group) -> Sequence[Block |
         sea_figures.stiffness_under_drift(level, sea),
         sea_figures.regular_tension(level, sea),
         *tables.regular_tables(level, sea),
+        damping.regular_damping_table(level, sea),
     )
 
 
@@ -223,6 +225,7 @@ def _irregular_blocks(level: Level, sea: Sea) -> Sequence[Block | None]:
         tables.irregular_waves(level, sea),
         tables.irregular_motions(level, sea),
         tables.irregular_tensions(level, sea),
+        damping.damping_table(level, sea),
         sea_figures.spectra(level, sea),
     )
 

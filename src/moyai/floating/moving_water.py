@@ -1,0 +1,51 @@
+"""Forcing with the motion of the water beside it, for quadratic drag against moving water."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from moyai.floating.arrays import ComplexArray, FloatArray
+from moyai.floating.forcing import Forcing, complex_sum, cosine_ramp
+
+
+@dataclass(frozen=True)
+class MovingWater:
+    """A forcing and what its waves do in the measures of quadratic damping [eq:viscous-water].
+
+    Parameters
+    ----------
+    forcing : Forcing
+        Forces on the body.
+    omega : ndarray (n,)
+        Of the wave components [rad/s].
+    amplitude : ndarray (n,)
+        Complex [m].
+    water : ndarray (n, w)
+        Motion of the water per unit amplitude in the last w measures of the quadratic damping.
+    ramp : float
+        Of the waves [s].
+    """
+
+    forcing: Forcing
+    omega: FloatArray
+    amplitude: ComplexArray
+    water: ComplexArray
+    ramp: float
+
+    @property
+    def shortest_period(self) -> float:
+        """That of the forcing [s]."""
+        return self.forcing.shortest_period
+
+    def fitted_step(self, time_step: float) -> float:
+        """Return the step that suits the forcing [s]."""
+        return self.forcing.fitted_step(time_step)
+
+    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return forces with the motion of the water in further columns (count, m + w), and the elevation."""
+        force, elevation = self.forcing.sample(step, count)
+        series = complex_sum(self.omega, self.amplitude[:, None] * self.water, step, count).real
+        shape = cosine_ramp(step * np.arange(count), self.ramp)
+        return np.concatenate([force, shape[:, None] * series], axis=1), elevation

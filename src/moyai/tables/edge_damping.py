@@ -1,0 +1,54 @@
+"""Numbers of the damping by eddies at edges (data/edge_damping.csv holds them with their sources)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from moyai.tables.reader import read_table
+
+_FILE = "edge_damping.csv"
+
+
+@dataclass(frozen=True)
+class EdgeDampingNumbers:
+    """What the laws of :mod:`moyai.floating.viscous` take from the table.
+
+    Parameters
+    ----------
+    edge_pressure : float
+        C_p of a sharp corner of 90 degrees.
+    plate_drag, plate_exponent, plate_keulegan_carpenter : float
+        C_D = plate_drag KC^plate_exponent of a thin plate, and the KC that it is taken at.
+    smallest_turn : float
+        Turn of the outline below which a vertex is smooth [degrees].
+    thin_plate : float
+        A face shorter than this part of its neighbours is the tip of a plate.
+    largest_radius : float
+        Bilge radius over the shorter face beyond which no corner is left.
+    ikeda_half_beam_low, ikeda_half_beam_high : float
+        Half beam over draught that the law of round bilges is held to.
+    band_low, band_high : float
+        Factors on the damping for the band of an answer.
+    """
+
+    edge_pressure: float
+    plate_drag: float
+    plate_exponent: float
+    plate_keulegan_carpenter: float
+    smallest_turn: float
+    thin_plate: float
+    largest_radius: float
+    ikeda_half_beam_low: float
+    ikeda_half_beam_high: float
+    band_low: float
+    band_high: float
+
+    @property
+    def plate_coefficient(self) -> float:
+        """C_D of a thin plate at the KC of the table."""
+        return float(self.plate_drag * self.plate_keulegan_carpenter**self.plate_exponent)
+
+
+def edge_damping_numbers() -> EdgeDampingNumbers:
+    """Return the numbers of the table."""
+    return EdgeDampingNumbers(**{record["name"]: float(record["value"]) for record in read_table(_FILE)})
