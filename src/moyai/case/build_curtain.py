@@ -155,6 +155,7 @@ def curtain_of(model: schema.CurtainCase, water: Water) -> Curtain:
         skirt=skirt_of(model, water),
         toe=given.toe.kind,
         toe_chain=given.toe.chain_mass if given.toe.chain_mass is not None else math.nan,
+        toe_range=given.toe.range,
         floats=line,
         upper_stiffness=upper,
         lower_stiffness=lower,

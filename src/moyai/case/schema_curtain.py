@@ -114,6 +114,12 @@ class Toe(Block):
     chain_mass: PositiveMassPerLength | None = Field(
         default=None, description="Mass in air of a steel chain, per length; its weight in water follows."
     )
+    range: tuple[LowFactor, HighFactor] = Field(
+        default=(0.9, 1.1),
+        description="Factors [low, high] on the toe's weight in water for the band of the steady load: wear and "
+        "tolerance of the chain, silt that it holds.",
+        examples=[[0.8, 1.1]],
+    )
 
 
 class Cable(Block):

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.curtain.analysis_steady import steady_variables
 from moyai.curtain.assembly import LevelCurtain
 from moyai.curtain.checks import check_class, check_site_class, check_statics
 from moyai.curtain.closed_forms import solve_cable, solve_skirt_arc
@@ -126,15 +127,21 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
     area = curtain.span * given.section.effective_depth
     formulas = [formula(area, abs(unit.normal_speed), water.density) for formula in (us_navy_load, itopf_load)]
     lightest = mildest_class(significant_height, unit.surface_speed)
+    more, coords = steady_variables(unit)
     data = xr.Dataset(
         {
+            **more,
             **{name: ("drag_case", values) for name, values in rows.items()},
             **{name: ((), value) for name, value in scalars.items()},
             "planning_load": ("planning_formula", [formula.force for formula in formulas]),
             "planning_drag_coefficient": ("planning_formula", [formula.drag_coefficient for formula in formulas]),
             "planning_confirmed": ("planning_formula", [float(formula.confirmed) for formula in formulas]),
         },
-        coords={"drag_case": list(DRAG_CASES), "planning_formula": [formula.name for formula in formulas]},
+        coords={
+            **coords,
+            "drag_case": list(DRAG_CASES),
+            "planning_formula": [formula.name for formula in formulas],
+        },
         attrs={
             "curtain_class": curtain.curtain_class,
             "class_for_site": "none" if lightest is None else lightest.name,
@@ -160,13 +167,14 @@ def _anchor_spacing(unit: LevelCurtain) -> Limit:
 
 
 def _laws(unit: LevelCurtain) -> xr.Dataset:
-    """Return all load laws with one pressure and one line load: those of the current's mean square over the skirt."""
+    """Return all load laws: of the section with the pressure of the mean square, of the plan with the section's load."""
     import xarray as xr
 
     curtain, drag = unit.curtain, unit.statics.section.drag_coefficient
     square = (unit.unit_normal_speed * unit.surface_speed) ** 2
     pressure = 0.5 * unit.water.density * drag * square
-    line = pressure * unit.depth
+    # the plan's laws share the load that the section really has; that of an upright plate stands in the comparison
+    line = unit.statics.section.load
     sections = section_laws(unit.depth, curtain.skirt.toe_load, pressure, curtain.skirt.stiffness)
     data: dict[str, Any] = {"pressure": ((), pressure), "line_load": ((), line)}
     for name in ("effective_depth", "flare", "top_tension", "horizontal_load", "top_angle"):

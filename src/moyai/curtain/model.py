@@ -140,6 +140,8 @@ class Curtain:
         Of the components.
     curtain_class : str
         Class of the tables that is claimed; empty for none.
+    toe_range : tuple of float
+        Factors (low, high) on the toe's weight that bound what is known.
     """
 
     span: float
@@ -159,6 +161,7 @@ class Curtain:
     anchors: AnchorLines | None
     strengths: Strengths
     curtain_class: str
+    toe_range: tuple[float, float] = (0.9, 1.1)
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from moyai.core.labels import with_labels
+from moyai.curtain.steady_load import QUANTITIES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,6 +57,24 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "planning_load": ("N", "load of the span by a planning formula"),
     "planning_drag_coefficient": ("1", "drag coefficient that the formula amounts to"),
     "planning_confirmed": ("1", "whether the formula was read in its source"),
+    # the governing steady load and what stands beside it
+    **{
+        f"steady_{name}{end}": (unit, f"{words}, governing steady load{told}")
+        for name, unit, words in QUANTITIES
+        for end, told in (("", ""), ("_low", ", lower end of its band"), ("_high", ", upper end of its band"))
+    },
+    "steady_load_bound": ("N/m", "weights of toe and sheet: no load normal to the sheet can exceed it with a free toe"),
+    "cause_line_load": ("N/m", "load per length with one thing varied"),
+    "cause_cable_tension": ("N", "tension of all cables with one thing varied"),
+    "cause_anchor_force": ("N", "horizontal force on an inner anchor with one thing varied"),
+    "cause_effective_depth": ("m", "vertical reach of the skirt with one thing varied"),
+    "compared_line_load": ("N/m", "load per length of curtain by the model"),
+    "compared_span_load": ("N", "load of the span by the model"),
+    "compared_ratio": ("1", "load by the model over the governing steady load"),
+    "direction_span_load": ("N", "downstream load of one span with the current turned"),
+    "direction_cable_tension": ("N", "tension of all cables with the current turned"),
+    "direction_anchor_force": ("N", "horizontal force on an inner anchor with the current turned"),
+    "steady_direction": ("rad", "angle of the current from the normal of the span"),
     # load laws
     "law_effective_depth": ("m", "vertical reach under the law"),
     "law_flare": ("m", "downstream reach of the toe under the law"),
