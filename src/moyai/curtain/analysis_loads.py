@@ -85,7 +85,7 @@ def loads_dataset(
     name = "" if answer is None else f"impact, model {answer.design_model}"
     rows = []
     for component in COMPONENTS:
-        steady = _steady(unit, component, statics)
+        steady = _steady(unit, component)
         field = _FIELDS[component]
         best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
         factor = _factor(unit, component)
@@ -100,8 +100,9 @@ def loads_dataset(
 def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> tuple[xr.Dataset, tuple[Notice, ...]]:
     """Return the group ``loads`` and its notices where runs of the whole span are all there is."""
     none = math.nan
-    rows = [_row(unit, component, none, none, none, "", "") for component in COMPONENTS]
-    return _table(unit, [row | {"governing_load": none, "utilisation": none, "governing": ""} for row in rows], moved)
+    rows = [_row(unit, component, (none,) * 3, none, none, "", "") for component in COMPONENTS]
+    unknown = dict.fromkeys(("governing_load", "governing_high", "utilisation", "utilisation_high"), none)
+    return _table(unit, [row | unknown | {"governing": ""} for row in rows], moved)
 
 
 def _table(
@@ -132,9 +133,12 @@ def _with_motion(unit: LevelCurtain, row: dict[str, float | str], moved: Dynamic
     row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
     if not math.isfinite(load) or float(row["governing_load"]) >= load:
         return row
-    row |= {"governing_load": load, "governing": "dynamic"}
+    # the upper end of the steady load still counts where it alone is more than the moving span gave
+    above = float(np.nanmax([load, float(row["steady_high"])]))
+    row |= {"governing_load": load, "governing_high": above, "governing": "dynamic"}
     if math.isfinite(float(row["capacity"])):
-        row["utilisation"] = _strength(unit, component).utilisation(load)
+        strength = _strength(unit, component)
+        row |= {"utilisation": strength.utilisation(load), "utilisation_high": strength.utilisation(above)}
     return row
 
 
@@ -197,26 +201,36 @@ def _factor(unit: LevelCurtain, component: str) -> float:
     }.get(component, 1.0)
 
 
-def _steady(unit: LevelCurtain, component: str, statics: CurtainStatics | None) -> float:
+#: Quantity of the steady state that loads a component
+_STEADY = {
+    "upper cable": "upper_tension",
+    "lower cable": "lower_tension",
+    "skirt": "sheet_tension",
+    "joint": "line_load",
+    "float": "float_load",
+    "anchor line": "anchor_line_tension",
+    "anchor": "anchor_force",
+}
+
+
+def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
+    """Return the steady load of a component with the lower and upper end of its band."""
     skirt, floats = unit.curtain.skirt, unit.curtain.floats
     pulled = 0.0
-    if unit.curtain.anchors is not None and unit.curtain.anchors.pretension is not None:
-        pulled = unit.curtain.anchors.pretension
-    if statics is None:
-        if component in ("anchor line", "anchor"):
-            return pulled * _factor(unit, component)
+    if component in ("anchor line", "anchor") and unit.curtain.anchors is not None:
+        pulled = (unit.curtain.anchors.pretension or 0.0) * (_factor(unit, "anchor") if component == "anchor" else 1.0)
+    if unit.surface_speed == 0.0:
         hanging = skirt.toe_load + skirt.submerged_weight * skirt.length
-        still = {"skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length}
-        return still.get(component, floats.weight + hanging if component == "float" else 0.0)
-    return {
-        "upper cable": statics.upper_tension,
-        "lower cable": statics.lower_tension,
-        "skirt": statics.section.sheet_tension,
-        "joint": statics.section.load * unit.curtain.joint_distance,
-        "float": floats.buoyancy - statics.float_reserve,
-        "anchor line": max(statics.anchor_line_tension, pulled),
-        "anchor": max(statics.anchor_force, pulled * _factor(unit, "anchor")),
-    }[component]
+        still = {
+            "skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length,
+            "float": floats.weight + hanging,
+        }
+        return (max(still.get(component, 0.0), pulled),) * 3
+    steady, name = unit.steady, _STEADY[component]
+    per = unit.curtain.joint_distance if component == "joint" else 1.0
+    low, high = steady.band(name)
+    given, low, high = (max(per * value, pulled) for value in (steady.governing.quantity(name), low, high))
+    return given, low, high
 
 
 def _strength(unit: LevelCurtain, component: str) -> Strength:
@@ -235,9 +249,16 @@ def _strength(unit: LevelCurtain, component: str) -> Strength:
 
 
 def _row(
-    unit: LevelCurtain, component: str, steady: float, wave: float, hit: float, source: str, struck: str
+    unit: LevelCurtain,
+    component: str,
+    band: tuple[float, float, float],
+    wave: float,
+    hit: float,
+    source: str,
+    struck: str,
 ) -> dict[str, float | str]:
     strength = _strength(unit, component)
+    steady, low, high = band
     more = float(np.nanmax([0.0, wave, hit]))
     if component == "float":
         # what dips for an instant comes up again: floats are judged at rest
@@ -252,12 +273,16 @@ def _row(
     return {
         "component": component,
         "steady_load": steady if there else math.nan,
+        "steady_low": low if there else math.nan,
+        "steady_high": high if there else math.nan,
         "wave_load": wave if there else math.nan,
         "impact_load": hit if there else math.nan,
         "governing_load": steady + more if there else math.nan,
+        "governing_high": high + more if there else math.nan,
         "capacity": strength.capacity if judged and there else math.nan,
         "safety_factor": strength.safety_factor if judged and there else math.nan,
         "utilisation": strength.utilisation(steady + more) if judged and there else math.nan,
+        "utilisation_high": strength.utilisation(high + more) if judged and there else math.nan,
         "load_unit": _UNITS.get(component, "N"),
         "governing": word if there else "",
         "wave_source": source if there and wave > 0.0 else "",

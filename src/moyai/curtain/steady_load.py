@@ -1,9 +1,9 @@
 """The one steady load of a curtain: value of the model that governs, and its band over what is not known.
 
-Section and plan in equilibrium give the load for a free and for a held toe alike. A skirt whose toe swings flares until
-its weights balance the current: a load normal to the sheet leaves its tension alone, so the top bears at most what hangs
-below it [eq:curtain-steady-bound], however large the drag coefficient is. What is not known is varied one at a time, and
-then everything together that lowers or raises the load.
+Section and plan in equilibrium give the load for a free and for a held toe alike. A skirt whose toe swings flares
+until its weights balance the current: a load normal to the sheet leaves its tension alone, so the top bears at most
+what hangs below it [eq:curtain-steady-bound], however large the drag coefficient is. What is not known is varied one
+at a time, and then everything together that lowers or raises the load.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.curtain.drag import DragLaw
+from moyai.curtain.section import LoadLaw
 from moyai.curtain.statics import CurtainStatics, HangingCurtain
 from moyai.sea.water import Water
 
@@ -229,7 +230,7 @@ def _changes(curtain: HangingCurtain, toe_range: tuple[float, float], passing_fr
                 lambda item: replace(item, drag=partial_gap_drag(item.drag, passing_fraction)),
             )
         )
-    other = "uniform_normal" if curtain.law == "normal_velocity" else "normal_velocity"
+    other: LoadLaw = "uniform_normal" if curtain.law == "normal_velocity" else "normal_velocity"
     words = "pressure normal to the sheet everywhere" if other == "uniform_normal" else "load of the normal velocity"
     found.append(_Change(f"other load law: {words}", "law", lambda item: replace(item, law=other)))
     found.append(
