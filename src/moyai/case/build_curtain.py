@@ -320,6 +320,7 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             cycles.slowest_contact,
             cycles.exceedance,
             cycles.hours,
+            cycles.realisations,
         ),
         anchor_loads=anchor_loads,
         limits=LimitSettings(

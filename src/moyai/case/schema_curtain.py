@@ -295,8 +295,19 @@ class Impact(Block):
 class Cycles(Block):
     """How slack and taut cycles in waves are computed."""
 
-    settled_periods: Whole = Field(default=4, description="Periods of regular waves left out at the start. Default: 4.")
-    analysed_periods: Whole = Field(default=20, description="Periods of regular waves analysed. Default: 20.")
+    settled_periods: Whole = Field(
+        default=4,
+        description="Periods of regular waves left out at the start, at least; more until periods repeat within 1 %. "
+        "Default: 4.",
+    )
+    analysed_periods: Whole = Field(
+        default=20, description="Periods of regular waves over which they must repeat, at least. Default: 20."
+    )
+    realisations: Annotated[int, Field(ge=1, le=100)] = Field(
+        default=5,
+        description="Realisations of an irregular sea, with the seeds that follow the sea's own; the mean of their "
+        "largest tensions counts, their spread is its band. Default: 5.",
+    )
     time_step: AutoDuration = Field(default=None, description="Time step. Default: auto.")
     velocity: Literal["skirt_mean", "surface", "wheeler"] = Field(
         default="skirt_mean",

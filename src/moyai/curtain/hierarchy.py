@@ -116,7 +116,8 @@ def _upright(unit: LevelCurtain, surface: float) -> tuple[Role, str, float]:
     """Return the role of a plate that stands upright as deep as the skirt is long, with the share that decides."""
     curtain = unit.curtain
     share = straight_share(unit, surface)
-    left = f"the current leaves {100.0 * share:.0f} % of the skirt's length as depth (plates need {100.0 * STRAIGHT:.0f} %)"
+    need = f"plates need {100.0 * STRAIGHT:.0f} %"
+    left = f"the current leaves {100.0 * share:.0f} % of the skirt's length as depth ({need})"
     if curtain.toe == "free" or curtain.lower_stiffness <= 0.0:
         return (
             "bound",
