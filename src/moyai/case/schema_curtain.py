@@ -443,12 +443,13 @@ class Dynamic(Block):
         default="uniform", description="Speed of a drifting start over the span: the same, or as the sag."
     )
     settled_periods: Annotated[int, Field(ge=0)] = Field(
-        default=1,
-        description="Periods left out after the ramp of one period; peak periods of an irregular sea. Default: 1.",
+        default=6,
+        description="Periods left out after the ramp of one period, in which the skirt swings out of its start; peak "
+        "periods of an irregular sea. Default: 6.",
     )
-    analysed_periods: Whole = Field(default=3, description="Periods of regular waves analysed. Default: 3.")
+    analysed_periods: Whole = Field(default=10, description="Periods of regular waves that count. Default: 10.")
     wave_count: Annotated[int, Field(ge=2, le=2000)] = Field(
-        default=8, description="Peak periods run around the highest crest of an irregular sea. Default: 8."
+        default=8, description="Peak periods that count around the highest crest of an irregular sea. Default: 8."
     )
     duration: Duration | None = Field(
         default=None,

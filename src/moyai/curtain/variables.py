@@ -247,7 +247,11 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "wave_load": ("", "what waves add to the steady load"),
     "impact_load": ("", "what an impact adds to the steady load"),
     "dynamic_load": ("", "highest tension in the runs of the whole span"),
-    "governing_load": ("", "steady load with the larger of both, or that of the whole span where it is higher"),
+    "governing_load": (
+        "",
+        "load of the whole span where it was run, else the steady load with the larger of wave and impact",
+    ),
+    "load_bound": ("", "whether the governing load is only a bound"),
     "capacity": ("", "strength"),
     "safety_factor": ("1", "safety factor asked"),
     "utilisation": ("1", "governing load times safety factor over strength"),
