@@ -145,13 +145,12 @@ def straight_share(unit: LevelCurtain, surface: float) -> float:
 
 
 def _crest(asked: set[Analysis]) -> ModelRole:
-    if asked & {"waves", "dynamic"}:
-        other = "the whole span is run" if "dynamic" in asked else "slack and taut cycles are run"
-        return ModelRole(CREST, "comparison", "drag in waves", f"{other}; a steady drag knows no snap")
-    return ModelRole(
-        CREST, "governs", "drag in waves",
-        "nothing else is run in waves; a steady drag knows no snap, so 'waves' or 'dynamic' must say that none comes",
-    )  # fmt: skip
+    of = "drag in waves"
+    if "dynamic" in asked:
+        return ModelRole(CREST, "comparison", of, "the whole span is run; a steady drag knows no snap")
+    if "waves" in asked:
+        return ModelRole(CREST, "governs", of, "a steady drag knows no snap: the larger of it and the cycles counts")
+    return ModelRole(CREST, "governs", of, "nothing else is run in waves; a steady drag knows no snap: run 'waves' too")
 
 
 def role_of(roles: Iterable[ModelRole], model: str) -> Role:

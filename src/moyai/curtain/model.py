@@ -203,7 +203,9 @@ class WaveSettings:
     Parameters
     ----------
     settled_periods, analysed_periods : int
-        Periods of regular waves that are left out, and those analysed.
+        Periods of regular waves that are left out at least (more until periods repeat), and those analysed at least.
+    realisations : int
+        Of an irregular sea, with the seeds that follow that of the case; the mean of their largest tensions counts.
     time_step : float or None
         [s]; None: chosen by the program.
     velocity : {"skirt_mean", "surface", "wheeler"}
@@ -223,6 +225,7 @@ class WaveSettings:
     slowest: float = 0.0
     law: SnapLaw = "weibull"
     hours: float = 3.0
+    realisations: int = 5
 
 
 @dataclass(frozen=True)
