@@ -270,8 +270,8 @@ def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
     n = int(risen[np.argmax(alone[risen] - least[risen])])
     return (
         f"a current of {found.speeds[n]:.3g} m/s alone would allow {alone[n]:.3g} m, more than the {least[n]:.3g} m "
-        "of a weaker one: a stronger current keeps the curtain taut, and it snaps less. Weaker currents come with every "
-        "stronger one, so that the least of them all counts"
+        "of a weaker one: a stronger current keeps the curtain taut, and it snaps less. Weaker currents come with "
+        "every stronger one, so that the least of them all counts"
     )
 
 

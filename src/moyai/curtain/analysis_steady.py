@@ -74,8 +74,8 @@ def compared_loads(unit: LevelCurtain) -> tuple[ComparedLoad, ...]:
     )
     words = {
         "catenary": "load of the normal velocity without the weight of the sheet",
-        "circular": "pressure normal to the sheet everywhere; beyond qL/W of half pi the toe rises above its arc's end",
-        "rigid": "a stiff plate hinged at its top: it cannot bend, its lower part stays upright less",
+        "circular": "pressure normal to the sheet everywhere, without its weight: an arc that turns with qL/W",
+        "rigid": "a stiff plate hinged at its top turns as a whole, its angle the same all the way down",
     }
     for law in section_laws(unit.depth, skirt.toe_load, pressure)[:3]:
         why = words[law.name]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -294,41 +294,45 @@ def _beside(name: str, statics: xr.Dataset, value: float) -> str:
 
 def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
     """Return up to which current without waves, and up to which wave height in its own current, a curtain holds."""
-    currents, heights = [], []
-    for level in levels:
-        table = groups.get(f"/{level}/limits")
-        if table is None:
+    for name, label, unit, where, value, key in (
+        ("limit_current", "Holds up to a current of", "m/s", "no waves", "speed_limit", "speed_limit"),
+        (
+            "limit_wave_height", "Holds up to a wave height of", "m", "significant, in currents up to that of the case",
+            "design_limit_height", "design_limit",
+        ),
+    ):  # fmt: skip
+        found = [
+            (float(table[value]), level, table)
+            for level in levels
+            if (table := groups.get(f"/{level}/limits")) is not None
+            and value in table
+            and math.isfinite(float(table[value]))
+        ]
+        if not found:
             continue
-        bound: Literal["", "at least"] = _limit_bound(groups, level)
-        speed = float(table["speed_limit"])
-        if math.isfinite(speed):
-            currents.append((speed, level, str(table.attrs.get("speed_limit_governing", "")), bound))
-        own = float(table["surface_speed"])
-        speeds, known = table["speed"].values, table["limit_height"].values
-        fit = np.isfinite(known)
-        if own > 0.0 and fit.any() and speeds[fit].min() <= own <= speeds[fit].max():
-            height = float(np.interp(own, speeds[fit], known[fit]))
-            nearest = int(np.argmin(np.where(fit, np.abs(speeds - own), np.inf)))
-            heights.append((height, level, str(table["limit_governing"].values[nearest]), bound))
-    for name, label, unit, found, where in (
-        ("limit_current", "Holds up to a current of", "m/s", currents, "no waves"),
-        ("limit_wave_height", "Holds up to a wave height of", "m", heights, "significant, in the current of the case"),
-    ):
-        if found:
-            value, level, what, bound = min(found, key=lambda item: item[0])
-            reached = "no limit up to the highest sought" if what == "not reached" else f"{what} sets it"
-            yield Headline(
-                name, label, value, unit, where=f"{where}: {level}", bound=bound, detail=reached,
-                text="" if value > 0.0 else "none" if not bound else "none shown by the bound",
-            )  # fmt: skip
+        limit, level, table = min(found, key=lambda item: item[0])
+        governing = str(table.attrs.get(f"{key}_governing", ""))
+        # the words for no limit at all, or for one of 0
+        said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
+        bound = str(table.attrs.get(f"{key}_bound", ""))
+        details = [said or f"{governing} sets it"]
+        if limit > 0.0 and governing != "not reached" and said:
+            details.insert(0, f"{governing} sets it")
+        if key == "speed_limit" and math.isfinite(ratio := float(table["speed_limit_ratio"])) and not said:
+            details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
+        band = _limit_band(table) if key == "speed_limit" else None
+        yield Headline(
+            name, label, limit, unit, where=f"{where}: {level}", band=band,
+            bound="at least" if governing == "not reached" else bound,  # type: ignore[arg-type]
+            detail="; ".join(details),
+            text="" if limit > 0.0 else "none",
+        )  # fmt: skip
 
 
-def _limit_bound(groups: Groups, level: str) -> Literal["", "at least"]:
-    """Return ``at least`` where loads that are only bounds enter the limits: the curtain holds in no less."""
-    table = groups.get(f"/{level}/models")
-    if table is None:
-        return ""
-    return "at least" if "bound" in table["model_role"].values else ""
+def _limit_band(table: xr.Dataset) -> Band | None:
+    """Return the band of the largest current over the drag coefficient."""
+    low, high = float(table["speed_limit_low"]), float(table["speed_limit_high"])
+    return Band(low, high, "range of the drag coefficient") if low < high else None
 
 
 def _kilo(value: float, unit: str = "N") -> str:
