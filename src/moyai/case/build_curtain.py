@@ -157,6 +157,7 @@ def curtain_of(model: schema.CurtainCase, water: Water) -> Curtain:
         skirt=skirt_of(model, water),
         toe=given.toe.kind,
         toe_chain=given.toe.chain_mass if given.toe.chain_mass is not None else math.nan,
+        toe_range=given.toe.range,
         floats=line,
         upper_stiffness=upper,
         lower_stiffness=lower,
@@ -323,6 +324,7 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             cycles.slowest_contact,
             cycles.exceedance,
             cycles.hours,
+            cycles.realisations,
         ),
         anchor_loads=anchor_loads,
         limits=LimitSettings(
@@ -351,6 +353,10 @@ def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
         return None
     given, skirt = model.settings.dynamic, model.structure.skirt
     mass, volume = given.sheet_mass, math.nan
+    support, loads = given.support_mass, model.settings.anchor_loads
+    if support is None and loads is not None:
+        # the float that one anchor rope holds
+        support = loads.float_mass
     if mass is None and skirt.mass_per_area is not None:
         mass = skirt.mass_per_area
         volume = mass / skirt.sheet_density if skirt.sheet_density is not None else math.nan
@@ -365,7 +371,7 @@ def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
         shear_stiffness=given.shear_stiffness,
         ballast_density=given.ballast_density,
         float_height=given.float_height,
-        support_mass=given.support_mass,
+        support_mass=support,
         profile=given.start_profile,
         settled_periods=given.settled_periods,
         analysed_periods=given.analysed_periods,

@@ -115,6 +115,12 @@ class Toe(Block):
     chain_mass: PositiveMassPerLength | None = Field(
         default=None, description="Mass in air of a steel chain, per length; its weight in water follows."
     )
+    range: tuple[LowFactor, HighFactor] = Field(
+        default=(0.9, 1.1),
+        description="Factors [low, high] on the toe's weight in water for the band of the steady load: wear and "
+        "tolerance of the chain, silt that it holds.",
+        examples=[[0.8, 1.1]],
+    )
 
 
 class Cable(Block):
@@ -298,8 +304,19 @@ class Impact(Block):
 class Cycles(Block):
     """How slack and taut cycles in waves are computed."""
 
-    settled_periods: Whole = Field(default=4, description="Periods of regular waves left out at the start. Default: 4.")
-    analysed_periods: Whole = Field(default=20, description="Periods of regular waves analysed. Default: 20.")
+    settled_periods: Whole = Field(
+        default=4,
+        description="Periods of regular waves left out at the start, at least; more until periods repeat within 1 %. "
+        "Default: 4.",
+    )
+    analysed_periods: Whole = Field(
+        default=20, description="Periods of regular waves over which they must repeat, at least. Default: 20."
+    )
+    realisations: Annotated[int, Field(ge=1, le=100)] = Field(
+        default=5,
+        description="Realisations of an irregular sea, with the seeds that follow the sea's own; the mean of their "
+        "largest tensions counts, their spread is its band. Default: 5.",
+    )
     time_step: AutoDuration = Field(default=None, description="Time step. Default: auto.")
     velocity: Literal["skirt_mean", "surface", "wheeler"] = Field(
         default="skirt_mean",
@@ -435,12 +452,13 @@ class Dynamic(Block):
         default="uniform", description="Speed of a drifting start over the span: the same, or as the sag."
     )
     settled_periods: Annotated[int, Field(ge=0)] = Field(
-        default=1,
-        description="Periods left out after the ramp of one period; peak periods of an irregular sea. Default: 1.",
+        default=6,
+        description="Periods left out after the ramp of one period, in which the skirt swings out of its start; peak "
+        "periods of an irregular sea. Default: 6.",
     )
-    analysed_periods: Whole = Field(default=3, description="Periods of regular waves analysed. Default: 3.")
+    analysed_periods: Whole = Field(default=10, description="Periods of regular waves that count. Default: 10.")
     wave_count: Annotated[int, Field(ge=2, le=2000)] = Field(
-        default=8, description="Peak periods run around the highest crest of an irregular sea. Default: 8."
+        default=8, description="Peak periods that count around the highest crest of an irregular sea. Default: 8."
     )
     duration: Duration | None = Field(
         default=None,

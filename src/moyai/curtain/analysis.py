@@ -20,6 +20,8 @@ from moyai.curtain.analysis_record import record_dataset, record_ratios
 from moyai.curtain.analysis_statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.curtain.analysis_waves import wave_answer
 from moyai.curtain.assembly import LevelCurtain, assemble
+from moyai.curtain.headlines import curtain_headlines
+from moyai.curtain.hierarchy import hierarchy, hierarchy_dataset
 from moyai.curtain.model import CurtainProblem
 from moyai.curtain.sea_loads import drag_curve
 from moyai.curtain.sea_states import DesignWave, design_waves, significant_height
@@ -93,7 +95,9 @@ def _level_steps(
     root = f"/{unit.name}"
     waves: tuple[DesignWave, ...] = tuple(wave for sea in seas for wave in design_waves(sea, unit.curtain.normal))
     highest = max((significant_height(sea) for sea in seas), default=0.0)
+    roles = hierarchy(unit, settings)
     collected.groups[root] = _header(unit)
+    collected.groups[f"{root}/models"] = hierarchy_dataset(roles)
     if "statics" in settings.analyses:
         require_current(unit)
         collected.groups.update({f"{root}/{name}": data for name, data in statics_groups(unit, highest).items()})
@@ -142,9 +146,7 @@ def _level_steps(
         tensions = moved.loads
         yield
     if not {"statics", "impact", "waves", "anchor_loads", "limits"} & set(settings.analyses):
-        table, notices = dynamic_loads_dataset(unit, tensions)
-        collected.groups[f"{root}/loads"] = table
-        collected.notices.extend(notices)
+        collected.groups[f"{root}/loads"] = dynamic_loads_dataset(unit, tensions)
         yield
         return
     curve = drag_curve(unit, fastest_water(unit, settings, waves))
@@ -152,7 +154,9 @@ def _level_steps(
     if proportions is None and "waves" in settings.analyses:
         # snaps in waves load the components in the proportions of an impact at the current's speed
         proportions = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
-    table, notices = loads_dataset(unit, settings, waves, tuple(oscillator), answer, proportions, curve, tensions)
+    table, notices = loads_dataset(
+        unit, settings, waves, tuple(oscillator), answer, proportions, curve, tensions, roles
+    )
     collected.groups[f"{root}/loads"] = table
     collected.notices.extend(notices)
     yield
@@ -187,6 +191,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         attributes,
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
         notices=_placed(collected, len(problem.environment.water_levels)),
+        headlines=curtain_headlines(collected.groups, [name for name, _ in problem.environment.water_levels]),
         fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
         criteria=problem.criteria,
     )

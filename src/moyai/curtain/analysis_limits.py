@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import Bound
 from moyai.core.progress import Progress
-from moyai.curtain.analysis_anchor import rope_model
-from moyai.curtain.analysis_impact import ImpactAnswer, drag_coefficient
+from moyai.curtain.analysis_impact import ImpactAnswer
 from moyai.curtain.assembly import LevelCurtain
-from moyai.curtain.cycle_table import CycleTable
-from moyai.curtain.impact import peak_by_energy
+from moyai.curtain.hierarchy import CYCLES, IMPACT, Role, hierarchy, role_of
+from moyai.curtain.limit_loads import fastest_water, impact_load, sea_loads
+from moyai.curtain.limit_search import Limit
 from moyai.curtain.limits import height_limit, speed_limit, utilisation
 from moyai.curtain.model import Settings
-from moyai.curtain.sea_loads import DragCurve, ImpactLoad, SeaLoads
-from moyai.curtain.sea_states import DesignWave
-from moyai.curtain.squared_velocity import effective_height, squared_velocity
+from moyai.curtain.sea_loads import DragCurve, SeaLoads
 from moyai.curtain.statics import CurtainStatics
+from moyai.curtain.steady_load import drag_factors
 from moyai.curtain.variables import labelled
 from moyai.sea.breaking import breaking_limit
 
@@ -30,113 +32,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 PARTS = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor", "floats", "effective depth")
 _SPEED_COUNT, _HEIGHT_COUNT = 9, 11
-#: Without impact at a standstill the start speed keeps this ratio to the water's [-]
-_PAPER_RATIO = 1.0
-
-
-def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) -> ImpactLoad:
-    """Return the impact at any speed of the water, in the proportions of the case."""
-    given = settings.impact
-    ratio = _PAPER_RATIO
-    if unit.normal_speed > 0.0 and (given.start_speed is not None or given.start == "slack_phase"):
-        ratio = answer.impact.speed / unit.normal_speed
-    return ImpactLoad(
-        answer.impact,
-        answer.design_tension / peak_by_energy(answer.impact).tension,
-        answer.shares,
-        ratio,
-        answer.half_angle,
-        unit.hanging.anchor_slope,
-    )
-
-
-def fastest_water(unit: LevelCurtain, settings: Settings, waves: tuple[DesignWave, ...]) -> float:
-    """Return the largest root of the squared velocity [m/s] that load table and operating limits ask for.
-
-    Parameters
-    ----------
-    unit : LevelCurtain
-    settings : Settings
-    waves : tuple of DesignWave
-        Of the case.
-    """
-    limits = settings.limits
-    rule, ratio = settings.direction
-    water, speeds = unit.water, [unit.normal_speed]
-
-    def root(height: float, period: float, current: float) -> float:
-        return math.sqrt(float(squared_velocity(height, period, current, unit.depth, water)))
-
-    speeds += [root(wave.effective_height(rule, ratio), wave.period, unit.normal_speed) for wave in waves]
-    if "limits" in settings.analyses:
-        current = unit.unit_normal_speed * limits.highest_speed
-        for height in np.linspace(0.0, limits.highest_height, 30)[1:]:
-            period = limits.period_of(float(height))
-            acting = float(effective_height(height, limits.wave_angle, rule, ratio))
-            if acting <= breaking_limit(period, water).height:
-                speeds.append(root(acting, period, current))
-        speeds.append(current)
-    return 1.0001 * max(speeds)
-
-
-def sea_loads(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer | None, curve: DragCurve) -> SeaLoads:
-    """Return what any sea adds to the steady loads.
-
-    Parameters
-    ----------
-    unit : LevelCurtain
-    settings : Settings
-    answer : ImpactAnswer or None
-        None where neither impact nor slack and taut cycles were asked for.
-    curve : DragCurve
-        Loads at rest, up to :func:`fastest_water`.
-    """
-    limits, anchor = settings.limits, settings.anchor_loads
-    asked = "impact" in settings.analyses
-    lines = unit.curtain.anchors
-    with_lines = anchor is not None and lines is not None and "anchor_loads" in settings.analyses
-    return SeaLoads(
-        period=limits.period_of,
-        angle=limits.wave_angle,
-        rule=settings.direction[0],
-        height_ratio=settings.direction[1],
-        depth=unit.depth,
-        normal_ratio=unit.unit_normal_speed,
-        drag=curve,
-        energy=rope_model(unit, anchor) if with_lines and anchor is not None else None,
-        pretension=_pretension(unit, settings),
-        steady=0.0 if lines is None or lines.pretension is None else lines.pretension,
-        impact=impact_load(unit, answer, settings) if answer is not None and asked and limits.impact else None,
-        snaps=None if answer is None else (_cycles(unit, settings, answer), impact_load(unit, answer, settings)),
-    )
-
-
-def _cycles(unit: LevelCurtain, settings: Settings, answer: ImpactAnswer) -> CycleTable:
-    rule, ratio = settings.direction
-    limits = settings.limits
-
-    def acting(height: float) -> float:
-        return float(effective_height(height, limits.wave_angle, rule, ratio))
-
-    at_unit = unit.site.current(1.0).depth_mean(-unit.depth, 0.0)
-    normal = unit.curtain.normal
-    return CycleTable(
-        answer.impact,
-        drag_coefficient(unit, answer.impact.draught),
-        unit.depth,
-        float(at_unit @ np.array([math.cos(normal), math.sin(normal)])),
-        acting,
-        limits.period_of,
-        limits.highest_height,
-    )
-
-
-def _pretension(unit: LevelCurtain, settings: Settings) -> float | None:
-    """Return the steady tension that the energy model takes [N]; None: that of the statics at each speed."""
-    anchor, lines = settings.anchor_loads, unit.curtain.anchors
-    if anchor is not None and not anchor.pretension:
-        return 0.0
-    return None if lines is None else lines.pretension
 
 
 def limits_dataset(
@@ -146,7 +41,7 @@ def limits_dataset(
     curve: DragCurve,
     progress: Progress,
 ) -> xr.Dataset:
-    """Return the group ``limits``: largest height for each current, and the utilisation over both.
+    """Return the group ``limits``: largest height for currents up to each speed, and the utilisation over both.
 
     Parameters
     ----------
@@ -159,48 +54,224 @@ def limits_dataset(
     progress : Progress
         An interrupt is handed on.
     """
-    import xarray as xr
-
-    limits = settings.limits
     loads = sea_loads(unit, settings, answer, curve)
-    required = unit.requirements
-    most = speed_limit(unit.hanging, unit.site, required, highest=limits.highest_speed, waves=loads)
+    counted = _Counted(unit, settings, loads)
+    most, most_bound = counted.speed()
     speeds = _speeds(unit, settings, most.value)
     rows = []
     for count, speed in enumerate(speeds):
         progress(f"operating limits, {unit.name}", count, len(speeds))
-        rows.append(height_limit(unit.hanging, unit.site, required, loads, speed=speed, highest=limits.highest_height))
+        rows.append(counted.height(speed))
     progress(f"operating limits, {unit.name}", len(speeds), len(speeds))
-    heights = _heights(settings, max((row.value for row in rows), default=0.0))
-    parts = _grid(unit, loads, speeds, heights)
-    worst = np.nanmax(parts, axis=2)
-    names = _governing(parts)
+    heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
+    parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
+    return _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Limits that were searched: of the current, and of the height in each current of the table with its bound."""
+
+    most: Limit
+    most_bound: Bound
+    speeds: tuple[float, ...]
+    rows: tuple[tuple[Limit, Bound], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Counted:
+    """Limits by the models that count: one out of its range sets none, a bound of the load gives a limit 'at least'."""
+
+    unit: LevelCurtain
+    settings: Settings
+    loads: SeaLoads
+    solved: dict[float, CurtainStatics | None] = field(default_factory=dict)
+
+    @property
+    def sure(self) -> SeaLoads:
+        """Loads without the upright plate."""
+        return replace(self.loads, impact=None, snaps=None)
+
+    @property
+    def with_plate(self) -> bool:
+        """Whether an upright plate was run for the limits at all."""
+        return self.loads.impact is not None or self.loads.snaps is not None
+
+    def role(self, speed: float) -> Role:
+        """Return what the upright plate counts for in a current [m/s]."""
+        roles = hierarchy(self.unit, self.settings, speed=speed)
+        found = {role_of(roles, model) for model in (IMPACT, CYCLES)}
+        return next((role for role in _ROLES if role in found), "out of range")
+
+    def loads_in(self, speed: float) -> SeaLoads:
+        """Return the loads that count in a current [m/s]."""
+        return self.loads if self.with_plate and self.role(speed) in ("governs", "bound") else self.sure
+
+    def speed(self) -> tuple[Limit, Bound]:
+        """Return the largest current without waves, and whether it is a bound."""
+        unit, highest = self.unit, self.settings.limits.highest_speed
+
+        def find(loads: SeaLoads) -> Limit:
+            return speed_limit(
+                unit.hanging, unit.site, unit.requirements, highest=highest, waves=loads, solved=self.solved
+            )
+
+        return self._judged(find, lambda limit: limit.value, self.loads.impact is not None)
+
+    def height(self, speed: float) -> tuple[Limit, Bound]:
+        """Return the largest significant height in a current [m/s], and whether it is a bound."""
+        return self._judged(lambda loads: self._height(loads, speed), lambda limit: speed, self.with_plate)
+
+    def _height(self, loads: SeaLoads, speed: float) -> Limit:
+        unit, highest = self.unit, self.settings.limits.highest_height
+        return height_limit(unit.hanging, unit.site, unit.requirements, loads, speed=speed, highest=highest)
+
+    def _judged(
+        self, find: Callable[[SeaLoads], Limit], place: Callable[[Limit], float], plate: bool
+    ) -> tuple[Limit, Bound]:
+        plain = find(self.sure)
+        if not plate:
+            return plain, self._without_snaps(plain)
+        struck = find(self.loads)
+        role = self.role(place(struck))
+        if role == "governs":
+            return struck, ""
+        if role == "bound":
+            return struck, "at least" if struck.value < plain.value else ""
+        return plain, self._without_snaps(plain)
+
+    def _without_snaps(self, limit: Limit) -> Bound:
+        """A steady drag knows no snap: where the whole span is run, the limit can only be lower."""
+        steady = ("effective depth", "floats", "no equilibrium", "breaking")
+        return "at most" if "dynamic" in self.settings.analyses and limit.governing not in steady else ""
+
+
+#: Roles of the plate, the strongest first
+_ROLES: tuple[Role, ...] = ("governs", "bound", "comparison", "out of range")
+
+
+def _limits_group(
+    unit: LevelCurtain, settings: Settings, counted: _Counted, found: _Found, heights: Array, parts: Array
+) -> xr.Dataset:
+    import xarray as xr
+
+    limits, loads, most = settings.limits, counted.loads, found.most
+    alone = np.array([row.value for row, _ in found.rows])
+    # a site with this current has every weaker one as well, twice a tide
+    source = [int(np.argmin(alone[: n + 1])) for n in range(alone.size)]
+    low, high = _drag_band(unit, counted, most)
     data: dict[str, Any] = {
-        "limit_height": ("speed", [row.value for row in rows]),
-        "limit_governing": ("speed", [row.governing for row in rows]),
-        "limit_utilisation": (("speed", "height"), worst),
-        "limit_component": (("speed", "height"), names),
+        "limit_height": ("speed", alone[source]),
+        "limit_governing": ("speed", [found.rows[n][0].governing for n in source]),
+        "limit_bound": ("speed", [found.rows[n][1] for n in source]),
+        "limit_height_alone": ("speed", alone),
+        "limit_note": ("speed", [height_note(row, limits.highest_height) for row, _ in found.rows]),
+        "limit_utilisation": (("speed", "height"), np.nanmax(parts, axis=2)),
+        "limit_component": (("speed", "height"), _governing(parts)),
         "component_utilisation": (("speed", "height", "component"), parts),
         "surface_speed": ((), unit.surface_speed),
         "speed_limit": ((), most.value),
+        "speed_limit_low": ((), low),
+        "speed_limit_high": ((), high),
+        "speed_limit_ratio": ((), most.value / unit.surface_speed if unit.surface_speed > 0.0 else math.nan),
         "drowning_speed": ((), unit.drowning_speed),
     }
+    attributes = _design_height(unit, counted, found, alone, data)
     return labelled(
         xr.Dataset(
             data,
             coords={
-                "speed": ("speed", np.asarray(speeds), {"units": "m/s", "long_name": "surface speed of the current"}),
+                "speed": (
+                    "speed",
+                    np.asarray(found.speeds),
+                    {"units": "m/s", "long_name": "surface speed of the current"},
+                ),
                 "height": heights,
                 "component": list(PARTS),
             },
             attrs={
+                **attributes,
                 "speed_limit_governing": most.governing,
+                "speed_limit_bound": found.most_bound,
+                "speed_limit_text": speed_text(most),
+                "limit_not_monotone": _not_monotone(found, alone, alone[source]),
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
                 "with_energy_model": int(loads.energy is not None),
+                "plate_role": counted.role(unit.surface_speed) if counted.with_plate else "",
             },
         )
+    )
+
+
+def _design_height(
+    unit: LevelCurtain, counted: _Counted, found: _Found, alone: Array, data: dict[str, Any]
+) -> dict[str, str]:
+    """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
+    own = unit.surface_speed
+    if own <= 0.0:
+        data["design_limit_height"] = ((), math.nan)
+        return {"design_limit_governing": "", "design_limit_bound": "", "design_limit_note": ""}
+    rows = [row for speed, row in zip(found.speeds, found.rows) if speed <= own * (1.0 + 1e-9)]
+    if not any(abs(speed - own) <= 1e-9 * own for speed in found.speeds):
+        rows.append(counted.height(own))
+    # where several are alike, the one nearest to the current of the case
+    limit, bound = min(reversed(rows), key=lambda row: row[0].value)
+    data["design_limit_height"] = ((), limit.value)
+    return {
+        "design_limit_governing": limit.governing,
+        "design_limit_bound": bound,
+        "design_limit_note": height_note(limit, counted.settings.limits.highest_height),
+    }
+
+
+def _drag_band(unit: LevelCurtain, counted: _Counted, most: Limit) -> tuple[float, float]:
+    """Return the largest current at the upper and lower end of the drag coefficient; NaN where an impact sets it.
+
+    The load goes with C_D U^2 alone, so that a factor on one is the root of a factor on the other.
+    """
+    if not most.reached or (counted.loads.impact is not None and most.governing not in ("effective depth", "floats")):
+        return math.nan, math.nan
+    low, high = drag_factors(unit.hanging.drag)
+    return most.value / math.sqrt(high), most.value / math.sqrt(low)
+
+
+def speed_text(limit: Limit) -> str:
+    """Return what to say in place of a largest current that is none; empty where the number says it."""
+    if not limit.reached:
+        return f"no limit within the range searched (up to {limit.highest:.3g} m/s)"
+    return _fails_at_once(limit, "m/s") if limit.value <= 0.0 else ""
+
+
+def height_note(limit: Limit, highest: float) -> str:
+    """Return what to say of a largest height besides its number: none found, fails at once, or holds again above."""
+    if not limit.reached:
+        return f"no limit within the range searched (up to {highest:.3g} m)"
+    if limit.value <= 0.0:
+        return _fails_at_once(limit, "m")
+    again = limit.crossings[1::2]
+    if not again:
+        return ""
+    return "holds again from " + ", ".join(f"{value:.3g} m" for value in again) + "; the smallest limit counts"
+
+
+def _fails_at_once(limit: Limit, unit: str) -> str:
+    if limit.governing == "no equilibrium":
+        return f"0 {unit}: no equilibrium in this current"
+    return f"0 {unit}: the current alone is too much for the {limit.governing} ({100.0 * limit.ratio:.0f} %)"
+
+
+def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
+    """Say where a stronger current alone would allow a higher wave, and why."""
+    risen = np.flatnonzero(alone > least * (1.0 + 1e-6) + 1e-9)
+    if not risen.size:
+        return ""
+    n = int(risen[np.argmax(alone[risen] - least[risen])])
+    return (
+        f"a current of {found.speeds[n]:.3g} m/s alone would allow {alone[n]:.3g} m, more than the {least[n]:.3g} m "
+        "of a weaker one: a stronger current keeps the curtain taut, and it snaps less. Weaker currents come with "
+        "every stronger one, so that the least of them all counts"
     )
 
 
@@ -232,12 +303,12 @@ def _round_up(value: float) -> float:
     )
 
 
-def _grid(unit: LevelCurtain, loads: SeaLoads, speeds: tuple[float, ...], heights: Array) -> Array:
+def _grid(unit: LevelCurtain, by_speed: list[SeaLoads], speeds: tuple[float, ...], heights: Array) -> Array:
     """Return the utilisation of each part at each speed and height; infinite beyond equilibrium or breaking."""
     required = unit.requirements
     out = np.full((len(speeds), heights.size, len(PARTS)), math.nan)
     for i, speed in enumerate(speeds):
-        statics = _statics(unit, speed)
+        statics, loads = _statics(unit, speed), by_speed[i]
         for j, height in enumerate(heights):
             if statics is None or _breaks(unit, loads, float(height)):
                 out[i, j] = math.inf
@@ -274,3 +345,6 @@ def _governing(parts: Array) -> NDArray[Any]:
         else:
             out[place] = PARTS[int(np.nanargmax(row))]
     return out
+
+
+__all__ = ["PARTS", "fastest_water", "height_note", "impact_load", "limits_dataset", "sea_loads", "speed_text"]

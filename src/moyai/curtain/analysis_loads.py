@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.curtain.analysis_anchor import rope_model, steady_tension
 from moyai.curtain.analysis_impact import ImpactAnswer
 from moyai.curtain.analysis_limits import impact_load
 from moyai.curtain.assembly import LevelCurtain
+from moyai.curtain.governing import governing_load
+from moyai.curtain.hierarchy import ModelRole, hierarchy
 from moyai.curtain.limits import AddedLoads, Strength
 from moyai.curtain.model import COMPONENTS, Settings
 from moyai.curtain.sea_loads import DragCurve, increase
@@ -59,6 +59,7 @@ def loads_dataset(
     proportions: ImpactAnswer | None,
     curve: DragCurve,
     moved: DynamicLoads = NOT_MOVED,
+    roles: tuple[ModelRole, ...] = (),
 ) -> tuple[xr.Dataset, tuple[Notice, ...]]:
     """Return the group ``loads`` and its notices.
 
@@ -78,6 +79,8 @@ def loads_dataset(
         Loads at rest, up to :func:`moyai.curtain.analysis_limits.fastest_water`.
     moved : mapping
         Highest tension of a component in runs of the whole span [N, N/m] and the run in which it stands.
+    roles : tuple of ModelRole
+        What each model counts for; the hierarchy of the case when left out.
     """
     statics = unit.statics if unit.surface_speed > 0.0 else None
     sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve)
@@ -85,31 +88,30 @@ def loads_dataset(
     name = "" if answer is None else f"impact, model {answer.design_model}"
     rows = []
     for component in COMPONENTS:
-        steady = _steady(unit, component, statics)
+        steady = _steady(unit, component)
         field = _FIELDS[component]
         best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
         factor = _factor(unit, component)
         wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
-        if component == "skirt" and answer is not None and math.isnan(answer.half_angle):
+        if component == "skirt" and proportions is not None and math.isnan(proportions.half_angle):
             hit = math.nan
         rows.append(_row(unit, component, steady, wave, hit, best.source, name))
-    data, told = _table(unit, rows, moved)
-    return data, (*notices, *told)
+    return _table(unit, rows, moved, roles or hierarchy(unit, settings)), tuple(notices)
 
 
-def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> tuple[xr.Dataset, tuple[Notice, ...]]:
-    """Return the group ``loads`` and its notices where runs of the whole span are all there is."""
+def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
+    """Return the group ``loads`` where runs of the whole span are all there is."""
     none = math.nan
-    rows = [_row(unit, component, none, none, none, "", "") for component in COMPONENTS]
-    return _table(unit, [row | {"governing_load": none, "utilisation": none, "governing": ""} for row in rows], moved)
+    rows = [_row(unit, component, (none,) * 3, none, none, "", "") for component in COMPONENTS]
+    return _table(unit, rows, moved, ())
 
 
 def _table(
-    unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads
-) -> tuple[xr.Dataset, tuple[Notice, ...]]:
+    unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...]
+) -> xr.Dataset:
     import xarray as xr
 
-    rows = [_with_motion(unit, row, moved) for row in rows]
+    rows = [_decided(unit, row, moved, roles) for row in rows]
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
     governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
@@ -118,24 +120,30 @@ def _table(
         coords={"component": list(COMPONENTS)},
         attrs={"governing_component": "" if governing is None else str(governing["component"])},
     )
-    return labelled(data), _strength_notices(unit, rows)
+    return labelled(data)
 
 
-def _with_motion(unit: LevelCurtain, row: dict[str, float | str], moved: DynamicLoads) -> dict[str, float | str]:
-    """Return a row with the load of the moving span, which governs where it is higher.
-
-    It bears current, waves and snaps together, so that nothing is added to it.
-    """
+def _decided(
+    unit: LevelCurtain, row: dict[str, float | str], moved: DynamicLoads, roles: tuple[ModelRole, ...]
+) -> dict[str, float | str]:
+    """Return a row with the load of the moving span, the load that governs and its utilisation."""
     component = str(row["component"])
     line, run = moved.get("anchor line" if component == "anchor" else component, (math.nan, ""))
     load = line * _factor(unit, component) if component == "anchor" else line
     row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
-    if not math.isfinite(load) or float(row["governing_load"]) >= load:
-        return row
-    row |= {"governing_load": load, "governing": "dynamic"}
-    if math.isfinite(float(row["capacity"])):
-        row["utilisation"] = _strength(unit, component).utilisation(load)
-    return row
+    row |= governing_load(row, roles)
+    governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
+    # the upper end of the steady load is added to what waves add; beside a moving span it counts where it alone is more
+    above = governing - steady + high
+    if row["governing"] == "dynamic":
+        above = max(governing, high) if math.isfinite(high) else governing
+    row |= {"governing_high": above}
+    judged = math.isfinite(float(row["capacity"])) and math.isfinite(governing)
+    strength = _strength(unit, component)
+    return row | {
+        "utilisation": strength.utilisation(governing) if judged else math.nan,
+        "utilisation_high": strength.utilisation(above) if judged else math.nan,
+    }
 
 
 def _wave_sources(
@@ -197,26 +205,36 @@ def _factor(unit: LevelCurtain, component: str) -> float:
     }.get(component, 1.0)
 
 
-def _steady(unit: LevelCurtain, component: str, statics: CurtainStatics | None) -> float:
+#: Quantity of the steady state that loads a component
+_STEADY = {
+    "upper cable": "upper_tension",
+    "lower cable": "lower_tension",
+    "skirt": "sheet_tension",
+    "joint": "line_load",
+    "float": "float_load",
+    "anchor line": "anchor_line_tension",
+    "anchor": "anchor_force",
+}
+
+
+def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
+    """Return the steady load of a component with the lower and upper end of its band."""
     skirt, floats = unit.curtain.skirt, unit.curtain.floats
     pulled = 0.0
-    if unit.curtain.anchors is not None and unit.curtain.anchors.pretension is not None:
-        pulled = unit.curtain.anchors.pretension
-    if statics is None:
-        if component in ("anchor line", "anchor"):
-            return pulled * _factor(unit, component)
+    if component in ("anchor line", "anchor") and unit.curtain.anchors is not None:
+        pulled = (unit.curtain.anchors.pretension or 0.0) * (_factor(unit, "anchor") if component == "anchor" else 1.0)
+    if unit.surface_speed == 0.0:
         hanging = skirt.toe_load + skirt.submerged_weight * skirt.length
-        still = {"skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length}
-        return still.get(component, floats.weight + hanging if component == "float" else 0.0)
-    return {
-        "upper cable": statics.upper_tension,
-        "lower cable": statics.lower_tension,
-        "skirt": statics.section.sheet_tension,
-        "joint": statics.section.load * unit.curtain.joint_distance,
-        "float": floats.buoyancy - statics.float_reserve,
-        "anchor line": max(statics.anchor_line_tension, pulled),
-        "anchor": max(statics.anchor_force, pulled * _factor(unit, "anchor")),
-    }[component]
+        still = {
+            "skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length,
+            "float": floats.weight + hanging,
+        }
+        return (max(still.get(component, 0.0), pulled),) * 3
+    steady, name = unit.steady, _STEADY[component]
+    per = unit.curtain.joint_distance if component == "joint" else 1.0
+    low, high = steady.band(name)
+    given, low, high = (max(per * value, pulled) for value in (steady.governing.quantity(name), low, high))
+    return given, low, high
 
 
 def _strength(unit: LevelCurtain, component: str) -> Strength:
@@ -235,16 +253,16 @@ def _strength(unit: LevelCurtain, component: str) -> Strength:
 
 
 def _row(
-    unit: LevelCurtain, component: str, steady: float, wave: float, hit: float, source: str, struck: str
+    unit: LevelCurtain,
+    component: str,
+    band: tuple[float, float, float],
+    wave: float,
+    hit: float,
+    source: str,
+    struck: str,
 ) -> dict[str, float | str]:
     strength = _strength(unit, component)
-    more = float(np.nanmax([0.0, wave, hit]))
-    if component == "float":
-        # what dips for an instant comes up again: floats are judged at rest
-        more = 0.0
-    word = "steady"
-    if more > 0.0:
-        word = "steady and impact" if hit >= wave else "steady and wave"
+    steady, low, high = band
     judged = math.isfinite(strength.capacity)
     there = not (component in ("anchor line", "anchor") and unit.curtain.anchors is None) and not (
         component == "lower cable" and unit.curtain.lower_stiffness == 0.0
@@ -252,31 +270,13 @@ def _row(
     return {
         "component": component,
         "steady_load": steady if there else math.nan,
+        "steady_low": low if there else math.nan,
+        "steady_high": high if there else math.nan,
         "wave_load": wave if there else math.nan,
         "impact_load": hit if there else math.nan,
-        "governing_load": steady + more if there else math.nan,
         "capacity": strength.capacity if judged and there else math.nan,
         "safety_factor": strength.safety_factor if judged and there else math.nan,
-        "utilisation": strength.utilisation(steady + more) if judged and there else math.nan,
         "load_unit": _UNITS.get(component, "N"),
-        "governing": word if there else "",
         "wave_source": source if there and wave > 0.0 else "",
         "impact_source": struck if there and hit > 0.0 else "",
     }
-
-
-def _strength_notices(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> tuple[Notice, ...]:
-    return tuple(
-        Notice(
-            "curtain-strength",
-            f"{unit.name}: the {row['component']} is used to {100.0 * float(row['utilisation']):.3g} % "
-            f"({row['governing']})",
-            float(row["utilisation"]),
-            1.0,
-            "warning",
-            "strengthen it, shorten the span, or work in less current or sea",
-            "strength and safety factor of the case",
-        )
-        for row in rows
-        if math.isfinite(float(row["utilisation"])) and float(row["utilisation"]) > 1.0
-    )

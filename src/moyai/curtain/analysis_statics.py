@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.curtain.analysis_laws import laws_dataset
+from moyai.curtain.analysis_steady import steady_variables
 from moyai.curtain.assembly import LevelCurtain
 from moyai.curtain.checks import check_class, check_site_class, check_statics
 from moyai.curtain.closed_forms import solve_cable, solve_skirt_arc
 from moyai.curtain.drag import sample_pressure
-from moyai.curtain.limits import Limit, anchor_spacing, joint_spacing
-from moyai.curtain.load_laws import PlanLaw, SectionLaw, plan_laws, section_laws
+from moyai.curtain.limit_search import Limit
+from moyai.curtain.limits import anchor_spacing, fixed_failures, joint_spacing
 from moyai.curtain.model import UNJUDGED
 from moyai.curtain.on_bed import check_on_bed
 from moyai.curtain.planning import itopf_load, us_navy_load
@@ -30,7 +32,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 DRAG_CASES = ("low", "given", "high")
-_LAW_POINTS = 61
+#: Distance of the anchors up to which a limit is sought, over the span of the case [-]
+_LONGEST_SPANS = 3.0
 _SECTION_POINTS = 61
 
 
@@ -62,7 +65,7 @@ def statics_groups(unit: LevelCurtain, significant_height: float) -> dict[str, x
     cases = drag_cases(unit)
     return {
         "statics": _statics(unit, cases, significant_height),
-        "statics_laws": _laws(unit),
+        "statics_laws": laws_dataset(unit),
         "statics_paper": _paper(unit),
         "section": _section(unit, cases),
         "plan": _plan(unit, cases),
@@ -84,6 +87,7 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
         "toe_gap": [math.nan if deep else case.toe_gap for case in cases],
         "toe_speed": [case.toe_speed for case in cases],
         "toe_speed_ratio": [case.toe_speed_ratio for case in cases],
+        "toe_speed_undisturbed": [case.toe_speed / case.toe_speed_ratio for case in cases],
         "section_load": [case.section.load for case in cases],
         "top_load": [case.section.top_load for case in cases],
         "toe_hold": [case.section.toe_hold for case in cases],
@@ -104,7 +108,7 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
     sunk = submerged_state(unit.hanging, water)
     spacing = _anchor_spacing(unit)
     pressure = 0.5 * water.density * given.section.drag_coefficient * unit.normal_speed**2
-    joint = curtain.strengths.joint
+    joint, highest = curtain.strengths.joint, unit.steady.band("line_load")[1]
     scalars: dict[str, float] = {
         "span": curtain.span,
         "unstretched_length": curtain.length,
@@ -116,8 +120,8 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
         "froude_number": 0.0 if deep else unit.normal_speed / math.sqrt(water.gravity * water.depth),
         "load_ratio": pressure * curtain.skirt.length / curtain.skirt.toe_load,
         "drowning_speed": unit.drowning_speed,
-        "joint_spacing": math.nan if joint is UNJUDGED else joint_spacing(given.section.load, joint),
-        "anchor_spacing": spacing.value,
+        "joint_spacing": math.nan if joint is UNJUDGED else joint_spacing(highest, joint, curtain.span),
+        "anchor_spacing": spacing.value if spacing.reached else math.inf,
         "flooded_net_weight": sunk.net_weight,
         "flooded_sinks": float(sunk.sinks),
         "air_to_surface": sunk.air_to_surface,
@@ -126,22 +130,33 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
     area = curtain.span * given.section.effective_depth
     formulas = [formula(area, abs(unit.normal_speed), water.density) for formula in (us_navy_load, itopf_load)]
     lightest = mildest_class(significant_height, unit.surface_speed)
+    more, coords = steady_variables(unit)
     data = xr.Dataset(
         {
+            **more,
             **{name: ("drag_case", values) for name, values in rows.items()},
             **{name: ((), value) for name, value in scalars.items()},
             "planning_load": ("planning_formula", [formula.force for formula in formulas]),
             "planning_drag_coefficient": ("planning_formula", [formula.drag_coefficient for formula in formulas]),
             "planning_confirmed": ("planning_formula", [float(formula.confirmed) for formula in formulas]),
         },
-        coords={"drag_case": list(DRAG_CASES), "planning_formula": [formula.name for formula in formulas]},
+        coords={
+            **coords,
+            "drag_case": list(DRAG_CASES),
+            "planning_formula": [formula.name for formula in formulas],
+        },
         attrs={
             "curtain_class": curtain.curtain_class,
             "class_for_site": "none" if lightest is None else lightest.name,
         },
     )
     data = labelled(data)
-    data["anchor_spacing"].attrs["governing"] = spacing.governing
+    data["anchor_spacing"].attrs |= {
+        "governing": spacing.governing,
+        "searched": _LONGEST_SPANS * curtain.span,
+        "fails_at_any_distance": ", ".join(fixed_failures(given, unit.requirements)),
+    }
+    data["joint_spacing"].attrs["searched"] = curtain.span
     return data
 
 
@@ -154,73 +169,10 @@ def _anchor_spacing(unit: LevelCurtain) -> Limit:
         unit.site,
         unit.requirements,
         speed=unit.surface_speed,
-        longest=20.0 * unit.curtain.span,
+        longest=_LONGEST_SPANS * unit.curtain.span,
         wave_tension=0.0,
+        load_factor=unit.steady.factor,
     )
-
-
-def _laws(unit: LevelCurtain) -> xr.Dataset:
-    """Return all load laws with one pressure and one line load: those of the current's mean square over the skirt."""
-    import xarray as xr
-
-    curtain, drag = unit.curtain, unit.statics.section.drag_coefficient
-    square = (unit.unit_normal_speed * unit.surface_speed) ** 2
-    pressure = 0.5 * unit.water.density * drag * square
-    line = pressure * unit.depth
-    sections = section_laws(unit.depth, curtain.skirt.toe_load, pressure, curtain.skirt.stiffness)
-    data: dict[str, Any] = {"pressure": ((), pressure), "line_load": ((), line)}
-    for name in ("effective_depth", "flare", "top_tension", "horizontal_load", "top_angle"):
-        data[f"law_{name}"] = ("section_law", [getattr(law, name) for law in sections])
-    points = [_section_points(law, curtain.skirt.toe_load / pressure) for law in sections]
-    data["law_section_x"] = (("section_law", "law_point"), [part[0] for part in points])
-    data["law_section_z"] = (("section_law", "law_point"), [part[1] for part in points])
-    coords: dict[str, Any] = {"section_law": [law.name for law in sections]}
-    if curtain.length > curtain.span:
-        plans = plan_laws(curtain.span, curtain.length, line, unit.hanging.axial_stiffness)
-        coords["plan_law"] = [law.name for law in plans]
-        for ours, theirs in (
-            ("law_plan_tension", "tension"),
-            ("law_sag", "sag"),
-            ("law_downstream_end_force", "downstream_end_force"),
-            ("law_inward_end_force", "inward_end_force"),
-        ):
-            data[ours] = ("plan_law", [getattr(law, theirs) for law in plans])
-        along = np.linspace(0.0, curtain.span, _LAW_POINTS)
-        data["law_plan_x"] = (("plan_law", "law_point"), [_plan_points(law, along, line) for law in plans])
-        data["law_plan_y"] = (("plan_law", "law_point"), [along for _ in plans])
-    return labelled(xr.Dataset(data, coords=coords))
-
-
-def _section_points(law: SectionLaw, radius: float) -> tuple[Array, Array]:
-    """Return the section of a law, x downstream and z below its top, evenly spaced in the angle or the length."""
-    if math.isnan(law.effective_depth):
-        return np.full(_LAW_POINTS, math.nan), np.full(_LAW_POINTS, math.nan)
-    share = np.linspace(0.0, 1.0, _LAW_POINTS)
-    if law.name == "rigid":
-        return law.flare * share, -law.effective_depth * share
-    if law.name == "circular":
-        turn = law.top_angle * (1.0 - share)
-        x, z = radius * (1.0 - np.cos(turn)), radius * np.sin(turn)
-    else:
-        # from the toe: height a arsinh(s/a), flare sqrt(a^2 + s^2) - a
-        s = radius * np.tan(law.top_angle) * (1.0 - share)
-        x, z = s * s / (np.hypot(radius, s) + radius), radius * np.arcsinh(s / radius)
-    return law.flare - x, z - law.effective_depth
-
-
-def _plan_points(law: PlanLaw, along: Array, line_load: float) -> Array:
-    """Return the deflection of a plan law at places along the span."""
-    span = along[-1]
-    if law.name == "rigid" or law.tension == 0.0:
-        return np.zeros_like(along)
-    centred = along - 0.5 * span
-    if law.name == "circular":
-        radius = law.tension / line_load
-        return np.sqrt(np.maximum(radius**2 - centred**2, 0.0)) - (radius - law.sag)
-    if law.name == "small sag":
-        return law.sag * (1.0 - (2.0 * centred / span) ** 2)
-    a = law.tension / line_load
-    return 2.0 * a * np.sinh(0.5 * (0.5 * span + centred) / a) * np.sinh(0.5 * (0.5 * span - centred) / a)
 
 
 def _paper(unit: LevelCurtain) -> xr.Dataset:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -12,13 +13,15 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.curtain.analysis_impact import drag_coefficient, impact_of
 from moyai.curtain.assembly import LevelCurtain
 from moyai.curtain.impact import Impact, speed_factor
-from moyai.curtain.impact_waves import Contact, SlackTautMotion, slack_sag, slack_taut_motion
+from moyai.curtain.impact_waves import Contact, SlackTautMotion, slack_sag
 from moyai.curtain.model import Settings, WaveSettings
+from moyai.curtain.settling import SettledCycles, settled_cycles
 from moyai.curtain.snap_events import SeaSnaps, snaps_in_sea, suggested_time_step
-from moyai.curtain.snap_flow import check_samples, depth_mean_factor, flow_over_skirt
+from moyai.curtain.snap_flow import SkirtFlow, check_samples, depth_mean_factor, flow_over_skirt
 from moyai.curtain.snap_statistics import SnapFit, fit_snaps
 from moyai.curtain.variables import labelled
 from moyai.sea import dispersion
@@ -103,28 +106,30 @@ def _regular(
     for index, period in enumerate(sea.periods):
         progress(f"slack and taut, {sea.name}", index, len(sea.periods))
         amplitude = velocity_amplitude(unit, sea, period, settings)
-        settled = settings.settled_periods * period
-        last = settled + settings.analysed_periods * period
-        motion = slack_taut_motion(
+        found = settled_cycles(
             impact,
             drag_coefficient=drag,
             current=unit.normal_speed,
             velocity_amplitude=amplitude,
             period=period,
-            duration=last,
+            least_settled=settings.settled_periods,
+            least_analysed=settings.analysed_periods,
             time_step=settings.time_step,
         )
-        contacts = [c for c in motion.contacts if c.time >= settled and abs(c.speed) >= settings.slowest]
-        rows.append(_row(impact, motion, contacts, amplitude, period, settled))
+        counted = [c for c in found.motion.contacts if c.time >= found.begin and abs(c.speed) >= settings.slowest]
+        rows.append(_row(impact, found, counted, amplitude))
         groups[f"T {period:g} s"] = _series(
-            motion,
-            motion.contacts,
-            unit.normal_speed + amplitude * np.sin(2.0 * math.pi / period * motion.time),
-            (max(settled, last - 6.0 * period), last),
-            {"period": period, "duration": last},
+            found.motion,
+            counted,
+            unit.normal_speed + amplitude * np.sin(2.0 * math.pi / period * found.motion.time),
+            _shown(found),
+            {"period": period, "duration": found.end, "counted_from": found.begin},
         )
+        place = f"{unit.name}, {sea.name}, T = {period:g} s"
         if rows[-1]["contact_count"] == 0.0:
-            notices.append(_never_taut(unit, sea, period, rows[-1]))
+            notices.append(_never_taut(place, unit, rows[-1]))
+        elif found.kind != "repeating":
+            notices.append(_not_repeating(place, found))
     progress(f"slack and taut, {sea.name}", len(sea.periods), len(sea.periods))
     data = {name: ("period", [row[name] for row in rows]) for name in rows[0]}
     groups[""] = labelled(
@@ -133,43 +138,62 @@ def _regular(
     return WaveAnswer(groups, max(row["maximum_tension"] for row in rows), tuple(notices))
 
 
-def _row(
-    impact: Impact,
-    motion: SlackTautMotion,
-    contacts: list[Contact],
-    amplitude: float,
-    period: float,
-    settled: float,
-) -> dict[str, float]:
+def _shown(found: SettledCycles) -> tuple[float, float]:
+    """Return the stretch that is kept: six periods, or one repetition, about the period whose peak is the number."""
+    width = max(6, found.multiple)
+    first = min(max(found.typical - width // 2, found.first), found.first + found.count - width)
+    first = max(first, found.first)
+    return first * found.period, min(first + width, found.first + found.count) * found.period
+
+
+def _row(impact: Impact, found: SettledCycles, contacts: list[Contact], amplitude: float) -> dict[str, float]:
     first = [contact for contact in contacts if contact.first]
-    later = [contact for contact in contacts if not contact.first]
     largest = max(first, key=lambda contact: contact.tension, default=None)
-    after = motion.time >= settled
-    tension = motion.tension[after]
-    # a contact peaks between the samples
-    top = max([float(tension.max()), *(contact.tension for contact in contacts)])
+    tension = found.motion.tension[found.motion.time >= found.begin]
     factor = float(speed_factor(impact.span_ratio)) * math.sqrt(impact.deep_mass * impact.stiffness)
+    low, high = found.scatter
     return {
         "velocity_amplitude": amplitude,
-        "excursion": amplitude * period / math.pi,
+        "excursion": amplitude * found.period / math.pi,
         "threshold_excursion": 2.0 * slack_sag(impact),
-        "maximum_tension": top,
+        "maximum_tension": found.tension,
+        "maximum_tension_low": low,
+        "maximum_tension_high": high,
         "mean_tension": float(tension.mean()),
-        "first_contact_tension": largest.tension if largest else 0.0,
-        "later_contact_tension": max((contact.tension for contact in later), default=0.0),
+        "first_contact_tension": found.of_contacts(first),
+        "later_contact_tension": found.of_contacts(contact for contact in contacts if not contact.first),
         "largest_contact_speed": abs(largest.speed) if largest else 0.0,
         "contact_count": float(len(contacts)),
         "first_contact_count": float(len(first)),
         "closed_form_tension": factor * abs(largest.speed) if largest else 0.0,
+        "periods_left_out": float(found.first),
+        "periods_analysed": float(found.count),
+        "repeats_after": float(found.multiple) if found.kind == "repeating" else math.nan,
     }
 
 
-def _never_taut(unit: LevelCurtain, sea: RegularSea, period: float, row: dict[str, float]) -> Notice:
+def _not_repeating(place: str, found: SettledCycles) -> Notice:
+    low, high = found.scatter
+    steady = found.kind == "chaotic"
+    state = "are steady in the mean" if steady else "are not steady in the mean either"
+    return Notice(
+        "curtain-chaotic-cycles" if steady else "curtain-unsteady-cycles",
+        f"{place}: periods do not repeat but {state}: the tension is the mean of the largest of 100 periods, "
+        f"{spoken(low, 'N')} to {spoken(high, 'N')} of {found.count} periods after {found.first}",
+        math.nan,
+        math.nan,
+        "information" if steady else "warning",
+        "",
+        "slack and taut cycles; repetition within 1 %, over at most 16 periods",
+    )
+
+
+def _never_taut(place: str, unit: LevelCurtain, row: dict[str, float]) -> Notice:
     if row["mean_tension"] > 0.0:
-        text = f"{unit.name}, {sea.name}, T = {period:g} s: the current keeps it taut, the waves do not slacken it"
+        text = f"{place}: the current keeps it taut, the waves do not slacken it"
         return Notice("curtain-always-taut", text, row["velocity_amplitude"], unit.normal_speed, "information")
     text = (
-        f"{unit.name}, {sea.name}, T = {period:g} s: the water travels {row['excursion']:.3g} m to and fro and never "
+        f"{place}: the water travels {row['excursion']:.3g} m to and fro and never "
         f"draws the curtain taut, which takes {row['threshold_excursion']:.3g} m"
     )
     return Notice("curtain-never-taut", text, row["excursion"], row["threshold_excursion"], "information")
@@ -177,12 +201,12 @@ def _never_taut(unit: LevelCurtain, sea: RegularSea, period: float, row: dict[st
 
 def _series(
     motion: SlackTautMotion,
-    contacts: tuple[Contact, ...],
+    contacts: Sequence[Contact],
     flow: Array,
     window: tuple[float, float],
     attrs: dict[str, float],
 ) -> xr.Dataset:
-    """Return a series within a window, thinned between contacts but not in them, and the contacts of the whole run."""
+    """Return a series within a window, thinned between contacts but not in them, and the contacts that count."""
     import xarray as xr
 
     inside = np.flatnonzero((motion.time >= window[0]) & (motion.time <= window[1]))
@@ -203,8 +227,76 @@ def _series(
 
 
 def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact) -> WaveAnswer:
+    """Run several realisations of a sea: their mean largest tension counts, and all their snaps make the law."""
     import xarray as xr
 
+    peak = sea.spectrum.peak_period
+    transient = min(_TRANSIENT * peak, 0.2 * sea.duration)
+    runs = [
+        _realisation(unit, settings, replace(sea, seed=sea.seed + number), impact, transient)
+        for number in range(settings.realisations)
+    ]
+    snaps = [found for found, _ in runs]
+    tops = np.array([_largest(found, transient) for found in snaps])
+    tensions = np.concatenate([found.snap_tension for found in snaps])
+    hours = sum(found.hours for found in snaps)
+    fit, notices = _fit(unit, sea, tensions, hours, settings)
+    peaks = np.sort(tensions)[::-1]
+    count = sum(found.time.size for found in snaps)
+    later = np.array([found.later_tension.max() if found.later_tension.size else 0.0 for found in snaps])
+    scalars = {
+        "significant_height": sea.spectrum.significant_height,
+        "maximum_tension": float(tops.mean()),
+        "maximum_tension_low": float(tops.min()),
+        "maximum_tension_high": float(tops.max()),
+        "realisations": float(tops.size),
+        "mean_tension": float(
+            np.mean([found.motion.tension[found.motion.time >= transient].mean() for found in snaps])
+        ),
+        "contact_count": float(count),
+        "first_contact_count": float(peaks.size),
+        "contacts_per_hour": count / hours,
+        "snaps_per_hour": peaks.size / hours,
+        "taut_share": float(np.mean([found.taut_share for found in snaps])),
+        "later_contact_tension": float(later.mean()),
+        "weibull_shape": fit.shape.value if fit and fit.law == "weibull" else math.nan,
+        "weibull_scale": fit.scale.value if fit and fit.law == "weibull" else math.nan,
+        "weibull_threshold": fit.threshold if fit and fit.law == "weibull" else math.nan,
+        "analysed_hours": hours,
+        "left_out": transient,
+        **_maximum(fit, settings.hours),
+    }
+    data: dict[str, Any] = {name: ((), value) for name, value in scalars.items()}
+    data["contact_tension_sorted"] = ("snap", peaks)
+    data["exceedance"] = ("snap", np.arange(1, peaks.size + 1) / (peaks.size + 1.0))
+    fitted = np.full(peaks.size, math.nan) if fit is None else fit.exceedance(peaks)
+    data["fitted_exceedance"] = ("snap", fitted)
+    data["realisation_tension"] = ("seed", tops)
+    attrs = {"kind": "irregular", "law": settings.law, "seed": sea.seed, "peak_period": peak}
+    # shown is the realisation whose largest tension is nearest to the mean
+    typical = int(np.argmin(np.abs(tops - tops.mean())))
+    shown, flow = runs[typical]
+    top = float(shown.time[int(np.argmax(shown.tension))]) if shown.time.size else 0.5 * sea.duration
+    window = (max(top - _WINDOW * peak, transient), top + _WINDOW * peak)
+    coords = {"seed": [sea.seed + number for number in range(tops.size)]}
+    groups = {
+        "": labelled(xr.Dataset(data, coords=coords, attrs=attrs)),
+        "largest": _series(
+            shown.motion,
+            [contact for contact in shown.motion.contacts if contact.time >= transient],
+            flow.speed,
+            window,
+            {"period": peak, "duration": sea.duration, "counted_from": transient, "seed": sea.seed + typical},
+        ),
+    }
+    told = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in shown.notices)
+    return WaveAnswer(groups, float(tops.mean()), (*told, *notices))
+
+
+def _realisation(
+    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, transient: float
+) -> tuple[SeaSnaps, SkirtFlow]:
+    """Run one realisation; it starts just taut downstream where a current holds it there."""
     from moyai.sea.irregular import synthesise
 
     peak = sea.spectrum.peak_period
@@ -230,54 +322,23 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
         velocity=settings.velocity,
         span=unit.curtain.span if sea.spreading is not None or _oblique(unit, sea) else 0.0,
     )
-    transient = min(_TRANSIENT * peak, 0.2 * sea.duration)
+    start = None
+    if unit.normal_speed != 0.0:
+        start = (math.copysign(slack_sag(impact), unit.normal_speed), 0.0)
     snaps = snaps_in_sea(
         impact,
         flow,
         drag_coefficient=drag_coefficient(unit, impact.draught),
         slowest=settings.slowest,
         transient=transient,
+        start=start,
     )
-    fit, notices = _fit(unit, sea, snaps, settings)
-    motion = snaps.motion
-    peaks = np.sort(snaps.snap_tension)[::-1]
-    after = motion.time >= transient
-    top = max([float(motion.tension[after].max()), *snaps.tension.tolist()])
-    scalars = {
-        "significant_height": sea.spectrum.significant_height,
-        "maximum_tension": top,
-        "mean_tension": float(motion.tension[after].mean()),
-        "contact_count": float(snaps.time.size),
-        "first_contact_count": float(snaps.counted.sum()),
-        "contacts_per_hour": snaps.time.size / snaps.hours,
-        "snaps_per_hour": snaps.snaps_per_hour,
-        "taut_share": snaps.taut_share,
-        "later_contact_tension": float(snaps.later_tension.max()) if snaps.later_tension.size else 0.0,
-        "weibull_shape": fit.shape.value if fit and fit.law == "weibull" else math.nan,
-        "weibull_scale": fit.scale.value if fit and fit.law == "weibull" else math.nan,
-        "weibull_threshold": fit.threshold if fit and fit.law == "weibull" else math.nan,
-        "analysed_hours": snaps.hours,
-        **_maximum(fit, settings.hours),
-    }
-    data: dict[str, Any] = {name: ((), value) for name, value in scalars.items()}
-    data["contact_tension_sorted"] = ("snap", peaks)
-    data["exceedance"] = ("snap", np.arange(1, peaks.size + 1) / (peaks.size + 1.0))
-    fitted = np.full(peaks.size, math.nan) if fit is None else fit.exceedance(peaks)
-    data["fitted_exceedance"] = ("snap", fitted)
-    attrs = {"kind": "irregular", "law": settings.law, "seed": sea.seed, "peak_period": peak}
-    largest = float(snaps.time[int(np.argmax(snaps.tension))]) if snaps.time.size else 0.5 * sea.duration
-    groups = {
-        "": labelled(xr.Dataset(data, attrs=attrs)),
-        "largest": _series(
-            motion,
-            motion.contacts,
-            flow.speed,
-            (largest - _WINDOW * peak, largest + _WINDOW * peak),
-            {"period": peak, "duration": sea.duration},
-        ),
-    }
-    told = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in snaps.notices)
-    return WaveAnswer(groups, top, (*told, *notices))
+    return snaps, flow
+
+
+def _largest(snaps: SeaSnaps, transient: float) -> float:
+    after = snaps.motion.time >= transient
+    return max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()])
 
 
 def _oblique(unit: LevelCurtain, sea: IrregularSea) -> bool:
@@ -287,14 +348,13 @@ def _oblique(unit: LevelCurtain, sea: IrregularSea) -> bool:
 
 
 def _fit(
-    unit: LevelCurtain, sea: IrregularSea, snaps: SeaSnaps, settings: WaveSettings
+    unit: LevelCurtain, sea: IrregularSea, peaks: Array, hours: float, settings: WaveSettings
 ) -> tuple[SnapFit | None, tuple[Notice, ...]]:
     """Fit the law above a tenth of the largest snap; weak contacts follow no law of extremes."""
-    peaks = snaps.snap_tension
     if peaks.size == 0:
         return None, ()
     try:
-        fit = fit_snaps(peaks, snaps.hours, threshold=0.1 * float(peaks.max()), law=settings.law, seed=sea.seed)
+        fit = fit_snaps(peaks, hours, threshold=0.1 * float(peaks.max()), law=settings.law, seed=sea.seed)
     except InputError as error:
         text = f"{unit.name}, {sea.name}: no law was fitted to the snaps: {error.fault.message}"
         return None, (Notice("snap-no-fit", text, severity="information", remedy=error.fault.remedy),)

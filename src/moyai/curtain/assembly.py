@@ -13,6 +13,7 @@ from moyai.curtain.limits import Requirements, Site, drowning_speed
 from moyai.curtain.model import UNJUDGED, Curtain, CurtainProblem
 from moyai.curtain.on_bed import lies_on_bed
 from moyai.curtain.statics import CurtainStatics, HangingCurtain
+from moyai.curtain.steady_load import SteadyLoad, steady_load
 from moyai.sea import current as currents
 from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent, UniformCurrent
 from moyai.sea.water import Water
@@ -78,7 +79,27 @@ class LevelCurtain:
     @cached_property
     def statics(self) -> CurtainStatics:
         """The curtain at rest in the current of the case."""
-        return self.site.statics(self.hanging, self.surface_speed)
+        return self.steady.governing.statics
+
+    @cached_property
+    def steady(self) -> SteadyLoad:
+        """The governing steady load in the current of the case, with its band."""
+        surface = self.site.current(self.surface_speed).component(np.zeros(1), self.curtain.normal)
+        return steady_load(
+            self.hanging,
+            lambda curtain: self.site.statics(curtain, self.surface_speed),
+            self.water,
+            toe_range=self.curtain.toe_range,
+            passing_fraction=self.curtain.passing_fraction,
+            surface_speed=float(surface[0]),
+        )
+
+    def turned(self, angle: float) -> Site:
+        """Return the site with the current turned to an angle from the normal of the span [rad]."""
+        site, by = self.site, angle - self.flow_angle
+        return replace(
+            site, current=lambda speed: _turned(site.current(speed), by), flow_heading=site.flow_heading + by
+        )
 
     @cached_property
     def facing(self) -> Site:
@@ -186,6 +207,16 @@ def _across(profile: CurrentProfile, normal: float) -> CurrentProfile:
         share = math.cos(profile.heading - normal)
         return replace(profile, surface_speed=share * profile.surface_speed, heading=normal)
     raise TypeError(f"a current of kind {type(profile).__name__} has no part along a heading")
+
+
+def _turned(profile: CurrentProfile, by: float) -> CurrentProfile:
+    """Return a current turned by an angle [rad]."""
+    if isinstance(profile, TabulatedCurrent):
+        c, s = math.cos(by), math.sin(by)
+        return replace(profile, components=profile.components @ np.array([[c, s], [-s, c]]))
+    if isinstance(profile, UniformCurrent | PowerLawCurrent):
+        return replace(profile, heading=profile.heading + by)
+    raise TypeError(f"a current of kind {type(profile).__name__} cannot be turned")
 
 
 def _in_water(profile: CurrentProfile, water: Water) -> CurrentProfile:

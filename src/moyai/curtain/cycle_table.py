@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.curtain.impact import Impact
-from moyai.curtain.impact_waves import slack_sag, slack_taut_motion
+from moyai.curtain.settling import settled_cycles
 from moyai.curtain.snap_flow import depth_mean_factor
 from moyai.sea import dispersion
 from moyai.sea.breaking import breaking_limit
@@ -19,8 +19,6 @@ Array = NDArray[np.float64]
 
 _HEIGHTS = 10
 _SETTLED, _ANALYSED = 4, 10
-#: Let go so close to taut that no time is lost until it is
-_JUST_SLACK = 0.999
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,15 +79,12 @@ class CycleTable:
         omega = 2.0 * math.pi / period
         number = float(dispersion.wave_number(omega, water.depth, water.gravity))
         amplitude = 0.5 * self.acting_height(height) * omega * float(depth_mean_factor(number, self.depth, water))
-        motion = slack_taut_motion(
+        return settled_cycles(
             self.impact,
             drag_coefficient=self.drag_coefficient,
             current=self.normal_ratio * speed,
             velocity_amplitude=amplitude,
             period=period,
-            duration=(_SETTLED + _ANALYSED) * period,
-            start=(_JUST_SLACK * slack_sag(self.impact), 0.0),
-        )
-        after = motion.time >= _SETTLED * period
-        peaks = [contact.tension for contact in motion.contacts if contact.time >= _SETTLED * period]
-        return max([float(motion.tension[after].max()), *peaks])
+            least_settled=_SETTLED,
+            least_analysed=_ANALYSED,
+        ).tension

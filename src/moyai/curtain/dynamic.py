@@ -49,9 +49,9 @@ class DynamicSettings:
     profile : {"uniform", "sag"}
         Speed of a drifting start over the span.
     settled_periods, analysed_periods : int
-        Of regular waves.
+        Periods left out after the ramp of one period, and periods of regular waves that count.
     wave_count : int
-        Peak periods run around the highest crest of an irregular sea.
+        Peak periods that count around the highest crest of an irregular sea.
     duration : float or None
         Of the run in a current alone [s]; None: four rises of model A, longer while the tension still rises.
     start : {"auto", "at_rest", "drifting"}
@@ -71,8 +71,8 @@ class DynamicSettings:
     float_height: float | None = None
     support_mass: float | None = None
     profile: Literal["uniform", "sag"] = "uniform"
-    settled_periods: int = 1
-    analysed_periods: int = 3
+    settled_periods: int = 6
+    analysed_periods: int = 10
     wave_count: int = 8
     duration: float | None = None
     start: Literal["auto", "at_rest", "drifting"] = "auto"

@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 #: Rows in a period and in the rise of model A, components of an irregular sea.
 _ROWS_OF_A_PERIOD, _ROWS_OF_A_RISE, _COMPONENTS = 400, 150, 120
 _RISES = 4.0
+#: Part of what counts of an irregular sea that lies before its highest crest.
+_CREST = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,9 +95,13 @@ def plans_of(unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...],
                 found.append(replace(_wave_plan(name, waves, current, period, last, given, unit, common), regular=True))
         else:
             period = float(sea.spectrum.peak_period)
-            waves = _window(unit, sea, given.wave_count * period)
-            last = given.wave_count * period + period
+            before = (1 + given.settled_periods) * period
+            last = before + given.wave_count * period
+            waves = _window(unit, sea, before + _CREST * given.wave_count * period)
             found.append(_wave_plan(sea.name, waves, current, period, last, given, unit, common))
+    if "impact" in settings.analyses and (settings.impact.start_speed or unit.normal_speed) > 0.0:
+        # the release in the current is an event of its own, which no sea holds
+        found.append(_snap_plan(unit, settings, span, current, common))
     return found
 
 
@@ -139,7 +145,7 @@ def _wave_plan(
         {
             **common, "flow": flow, "duration": last, "output_step": period / _ROWS_OF_A_PERIOD,
             "speed": unit.normal_speed if drifting else 0.0,
-            "from_time": min(1 + given.settled_periods, last / period - 1.0) * period,
+            "from_time": (1 + given.settled_periods) * period,
         },
         period,
     )  # fmt: skip
@@ -164,8 +170,8 @@ def _regular(unit: LevelCurtain, sea: RegularSea, period: float) -> WaveComponen
     )  # fmt: skip
 
 
-def _window(unit: LevelCurtain, sea: IrregularSea, length: float) -> WaveComponents:
-    """Return the sea with its clock set so that the highest crest stands in the middle of a window [s]."""
+def _window(unit: LevelCurtain, sea: IrregularSea, place: float) -> WaveComponents:
+    """Return the sea with its clock set so that the highest crest stands at a time [s], in what counts of the run."""
     from moyai.sea.irregular import synthesise
 
     waves = synthesise(
@@ -174,7 +180,7 @@ def _window(unit: LevelCurtain, sea: IrregularSea, length: float) -> WaveCompone
     )  # fmt: skip
     time = np.arange(0.0, sea.duration, float(sea.spectrum.peak_period) / 40.0)
     crest = float(time[int(np.argmax(waves.elevation(time)))])
-    begin = crest - 0.6 * length
+    begin = crest - place
     return replace(
         waves,
         phase=np.asarray(waves.phase) - np.asarray(waves.omega) * begin,

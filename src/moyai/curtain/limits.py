@@ -1,8 +1,9 @@
 """How far a curtain holds: utilisation of each component, largest current, largest wave in a current, spacings.
 
-Everything is found by bisection on the same statics that a user sees; a state that has no solution counts as beyond the
-limit. What waves and an impact add comes from a :class:`WaveLoading`: the energy model of Tabata et al. alone
-(:class:`WaveLoad`), or with the drag of the waves and the impact (:mod:`moyai.curtain.sea_loads`).
+Everything is found on the same statics that a user sees: the whole range is scanned, then each crossing closed in
+(:mod:`moyai.curtain.limit_search`); a state that has no solution counts as beyond the limit. What waves and an impact
+add comes from a :class:`WaveLoading`: the energy model of Tabata et al. alone (:class:`WaveLoad`), or with the drag of
+the waves and the impact (:mod:`moyai.curtain.sea_loads`).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import Protocol
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.curtain.anchor_energy import EnergyModel
+from moyai.curtain.limit_search import Limit, search
 from moyai.curtain.on_bed import solve_on_bed
 from moyai.curtain.squared_velocity import DirectionRule, effective_height
 from moyai.curtain.statics import CurtainStatics, HangingCurtain, solve_statics
@@ -22,8 +24,8 @@ from moyai.sea.breaking import breaking_limit
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 
-_STEPS = 60
-_CLOSE = 1e-9
+#: Share of the range that stands for nothing at all where a state at 0 does not exist [-]
+_LEAST = 1e-4
 
 
 @dataclass(frozen=True)
@@ -164,22 +166,6 @@ def utilisation(
 
 
 @dataclass(frozen=True)
-class Limit:
-    """A limit and what sets it.
-
-    Parameters
-    ----------
-    value : float
-        Largest speed [m/s], significant height [m] or span [m]; 0 when even the smallest is too much.
-    governing : str
-        Component at its limit, ``no equilibrium``, ``breaking`` or ``not reached``.
-    """
-
-    value: float
-    governing: str
-
-
-@dataclass(frozen=True)
 class Site:
     """Where the curtain hangs, with a family of currents.
 
@@ -270,35 +256,6 @@ class WaveLoad:
         return AddedLoads(anchor_line=rise)
 
 
-def _bisect(worst: Callable[[float], tuple[float, str]], high: float, at_end: str) -> Limit:
-    """Return the largest value whose worst utilisation is at most 1, sought below ``high``.
-
-    The bracket closes by the secant where both ends have a number, kept off its ends and of the Illinois kind, else by
-    halves: a state without equilibrium counts as infinite.
-    """
-    top, name = worst(high)
-    if top <= 1.0:
-        return Limit(high, at_end)
-    low, lack, excess, side = 0.0, math.nan, top - 1.0, 0
-    for _ in range(_STEPS):
-        share = 0.5
-        if math.isfinite(lack) and math.isfinite(excess):
-            share = min(max(lack / (lack - excess), 0.01), 0.99)
-        middle = low + share * (high - low)
-        value, which = worst(middle)
-        if value <= 1.0:
-            low, lack = middle, min(value - 1.0, -1e-300)
-            excess *= 0.5 if side == -1 else 1.0
-            side = -1
-        else:
-            high, name, excess = middle, which, value - 1.0
-            lack *= 0.5 if side == 1 else 1.0
-            side = 1
-        if high - low <= _CLOSE * high:
-            break
-    return Limit(low, name)
-
-
 def _worst(parts: dict[str, float]) -> tuple[float, str]:
     name = max(parts, key=lambda key: parts[key])
     return parts[name], name
@@ -312,6 +269,7 @@ def speed_limit(
     highest: float,
     wave_tension: float = 0.0,
     waves: WaveLoading | None = None,
+    solved: dict[float, CurtainStatics | None] | None = None,
 ) -> Limit:
     """Return the largest surface speed [m/s] that every component bears, with what sets it.
 
@@ -325,17 +283,31 @@ def speed_limit(
         Fluctuating tension of the anchor line that acts along with it [N].
     waves : WaveLoading, optional
         What is added in the current alone, for instance an impact.
+    solved : dict, optional
+        Statics by speed that are already known; filled, so that a second search need not solve them again.
     """
+    known: dict[float, CurtainStatics | None] = {} if solved is None else solved
+
+    def at(speed: float) -> CurtainStatics:
+        if speed not in known:
+            try:
+                known[speed] = site.statics(curtain, speed)
+            except (InputError, ConvergenceError):
+                known[speed] = None
+        statics = known[speed]
+        if statics is None:
+            raise InputError(f"no equilibrium in {speed:g} m/s", path="current")
+        return statics
 
     def worst(speed: float) -> tuple[float, str]:
         try:
-            statics = site.statics(curtain, speed)
+            statics = at(speed)
             more = () if waves is None else (waves.added(statics, 0.0, speed, site.water),)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
         return _worst(utilisation(statics, required, wave_tension, *more))
 
-    return _bisect(worst, highest, "not reached")
+    return search(worst, highest, start=_LEAST * highest)
 
 
 def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> float:
@@ -360,8 +332,8 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
 
-    limit = _bisect(worst, highest, "not reached")
-    return math.inf if limit.governing == "not reached" else limit.value
+    limit = search(worst, highest, start=_LEAST * highest)
+    return limit.value if limit.reached else math.inf
 
 
 def height_limit(
@@ -381,7 +353,7 @@ def height_limit(
     try:
         statics = site.statics(curtain, speed)
     except (InputError, ConvergenceError):
-        return Limit(0.0, "no equilibrium")
+        return Limit(0.0, "no equilibrium", (), highest, math.inf)
 
     def worst(height: float) -> tuple[float, str]:
         if height > 0.0 and waves.height_ratio * height > breaking_limit(waves.period(height), site.water).height:
@@ -392,10 +364,7 @@ def height_limit(
             return math.inf, "no equilibrium"
         return _worst(utilisation(statics, required, 0.0, more))
 
-    still, name = worst(0.0)
-    if still > 1.0:
-        return Limit(0.0, name)
-    return _bisect(worst, highest, "not reached")
+    return search(worst, highest)
 
 
 def operating_limits(
@@ -424,10 +393,24 @@ def operating_limits(
     return tuple(table)
 
 
+#: Components whose load grows with the distance of the anchors; the others are the same at any distance
+_BY_SPAN = ("upper cable", "lower cable", "anchor line", "anchor")
+
+
 def anchor_spacing(
-    curtain: HangingCurtain, site: Site, required: Requirements, *, speed: float, longest: float, wave_tension: float
+    curtain: HangingCurtain,
+    site: Site,
+    required: Requirements,
+    *,
+    speed: float,
+    longest: float,
+    wave_tension: float,
+    load_factor: float = 1.0,
 ) -> Limit:
     """Return the largest distance of the anchors [m] at the same ratio of span to length, with what sets it.
+
+    Only what grows with the distance is judged: cables, anchor lines, anchors. Effective depth, floats, sheet and
+    joints are the same at any distance, and :func:`fixed_failures` names those that fail.
 
     Parameters
     ----------
@@ -439,6 +422,8 @@ def anchor_spacing(
         Distance up to which the limit is sought [m].
     wave_tension : float
         Fluctuating tension of the anchor line [N].
+    load_factor : float
+        Upper end of the steady load over its value [-].
     """
     ratio = curtain.length / curtain.span
 
@@ -447,12 +432,19 @@ def anchor_spacing(
             statics = site.statics(replace(curtain, span=span, length=ratio * span), speed)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
-        return _worst(utilisation(statics, required, wave_tension))
+        parts = utilisation(statics, required, wave_tension)
+        return _worst({name: load_factor * parts[name] for name in _BY_SPAN})
 
-    return _bisect(worst, longest, "not reached")
+    return search(worst, longest, start=0.01 * longest)
 
 
-def joint_spacing(tension_per_length: float, joint: Strength) -> float:
+def fixed_failures(statics: CurtainStatics, required: Requirements) -> tuple[str, ...]:
+    """Return the components that fail at any distance of the anchors, by the steady load alone."""
+    parts = utilisation(statics, required, 0.0)
+    return tuple(name for name, value in parts.items() if name not in _BY_SPAN and value > 1.0)
+
+
+def joint_spacing(tension_per_length: float, joint: Strength, longest: float = math.inf) -> float:
     """Return the largest distance of the joints [m] between curtain units [eq:curtain-joint-spacing].
 
     Each joint of the top load line hands on what its unit collects.
@@ -463,7 +455,10 @@ def joint_spacing(tension_per_length: float, joint: Strength) -> float:
         Load of the current per length of curtain [N/m], the section's load.
     joint : Strength
         Of the connection [N].
+    longest : float
+        Distance up to which it is of interest [m]; beyond it the distance is infinite: the joints set no limit.
     """
     if not tension_per_length > 0.0:
         raise InputError(f"load is {tension_per_length:g} N/m", path="load", allowed="greater than 0")
-    return joint.capacity / (joint.safety_factor * tension_per_length)
+    found = joint.capacity / (joint.safety_factor * tension_per_length)
+    return found if found <= longest else math.inf

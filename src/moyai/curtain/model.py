@@ -141,6 +141,8 @@ class Curtain:
         Of the components.
     curtain_class : str
         Class of the tables that is claimed; empty for none.
+    toe_range : tuple of float
+        Factors (low, high) on the toe's weight that bound what is known.
     """
 
     span: float
@@ -160,6 +162,7 @@ class Curtain:
     anchors: AnchorLines | None
     strengths: Strengths
     curtain_class: str
+    toe_range: tuple[float, float] = (0.9, 1.1)
 
 
 @dataclass(frozen=True)
@@ -201,7 +204,9 @@ class WaveSettings:
     Parameters
     ----------
     settled_periods, analysed_periods : int
-        Periods of regular waves that are left out, and those analysed.
+        Periods of regular waves that are left out at least (more until periods repeat), and those analysed at least.
+    realisations : int
+        Of an irregular sea, with the seeds that follow that of the case; the mean of their largest tensions counts.
     time_step : float or None
         [s]; None: chosen by the program.
     velocity : {"skirt_mean", "surface", "wheeler"}
@@ -221,6 +226,7 @@ class WaveSettings:
     slowest: float = 0.0
     law: SnapLaw = "weibull"
     hours: float = 3.0
+    realisations: int = 5
 
 
 @dataclass(frozen=True)

@@ -98,13 +98,14 @@ def section_load(
     toe: Literal["free", "held"] = "free",
     top_depth: float = 0.0,
     below_bed: bool = False,
+    friction: float = 0.0,
     count: int = 49,
 ) -> PlanLoad:
     """Return the load from sections of the skirt turned against the current: an oblique part flares less.
 
     Parameters
     ----------
-    skirt, current, water, drag, law, toe, top_depth, below_bed
+    skirt, current, water, drag, law, toe, top_depth, below_bed, friction
         As :func:`moyai.curtain.section.solve_section`.
     flow_heading : float
         Heading of the flow near the surface [rad], about which the local angle counts.
@@ -116,7 +117,7 @@ def section_load(
     angle = np.linspace(-_WIDEST, _WIDEST, count)
 
     def loads(turns: Array) -> Array:
-        settings = {"law": law, "toe": toe, "top_depth": top_depth, "below_bed": below_bed}
+        settings = {"law": law, "toe": toe, "top_depth": top_depth, "below_bed": below_bed, "friction": friction}
         return np.array(
             [
                 solve_section(skirt, current, flow_heading - turn, water, drag, **settings).load  # type: ignore[arg-type]

@@ -41,17 +41,19 @@ def _pressure_at(z: float, low: float, step: float, pressure: Array) -> float:
 @njit(cache=True, error_model="numpy")
 def _slopes(state: Array, out: Array, low: float, step: float, pressure: Array, data: Array) -> None:
     """Derivatives of x, z, F_x, F_z along the unstretched skirt, upwards [eq:curtain-section]."""
-    scale, weight, flexibility, uniform = data[0], data[1], data[2], data[3]
+    scale, weight, flexibility, uniform, friction = data[0], data[1], data[2], data[3], data[4]
     tension = math.sqrt(state[2] ** 2 + state[3] ** 2)
     tx, tz = state[2] / tension, state[3] / tension
     stretch = 1.0 + tension * flexibility
-    load = scale * _pressure_at(state[1], low, step, pressure) * stretch
+    head = _pressure_at(state[1], low, step, pressure) * stretch
+    load = scale * head
     if uniform == 0.0:
         load *= tz * abs(tz)
+    drag = friction * head * tx * abs(tx)
     out[0] = stretch * tx
     out[1] = stretch * tz
-    out[2] = -load * tz
-    out[3] = weight + load * tx
+    out[2] = -load * tz - drag * tx
+    out[3] = weight + load * tx - drag * tz
 
 
 @njit(cache=True, error_model="numpy")
@@ -274,9 +276,16 @@ class _Problem:
     """One skirt in one current: solutions for any drag coefficient and hold."""
 
     def __init__(
-        self, skirt: Skirt, current: CurrentProfile, heading: float, water: Water, law: LoadLaw, top_depth: float
+        self,
+        skirt: Skirt,
+        current: CurrentProfile,
+        heading: float,
+        water: Water,
+        law: LoadLaw,
+        top_depth: float,
+        friction: float,
     ) -> None:
-        self.skirt, self.top = skirt, -top_depth
+        self.skirt, self.top, self.friction = skirt, -top_depth, friction
         self.uniform = 1.0 if law == "uniform_normal" else 0.0
         most = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length
         low = max(-water.depth, self.top - skirt.length * (1.0 + 2.0 * most / skirt.stiffness))
@@ -290,7 +299,7 @@ class _Problem:
     def solve(self, drag: float, hold: float) -> tuple[Array, float]:
         """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
         skirt, pressure = self.skirt, self.pressure
-        data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.uniform])
+        data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.uniform, self.friction])
         nodes = self.nodes(drag)
         path = np.empty((nodes.size, 4))
         most = math.hypot(
@@ -351,6 +360,7 @@ def solve_section(
     toe: Literal["free", "held"] = "free",
     top_depth: float = 0.0,
     below_bed: bool = False,
+    friction: float = 0.0,
 ) -> SectionShape:
     """Return the section of a hanging skirt at rest in a current.
 
@@ -375,6 +385,8 @@ def solve_section(
     below_bed : bool
         Let the toe hang below the bed, as if the current went on there: to find how much of a long skirt hangs free
         (:mod:`moyai.curtain.on_bed`).
+    friction : float
+        Coefficient of the load along the sheet from the velocity along it, both faces together [-]; 0 leaves it out.
 
     Raises
     ------
@@ -385,7 +397,7 @@ def solve_section(
 
     Notes
     -----
-    Equilibrium [eq:curtain-section]; load of the current [eq:curtain-drag].
+    Equilibrium [eq:curtain-section]; load of the current [eq:curtain-drag], friction [eq:curtain-friction].
     """
     room = water.depth - top_depth
     if top_depth < 0.0 or (skirt.length > room and not below_bed):
@@ -395,7 +407,7 @@ def solve_section(
             allowed=f"at most {room:g} m",
             remedy="shorten the skirt, or let it lie on the bed",
         )
-    problem = _Problem(skirt, current, heading, water, law, top_depth)
+    problem = _Problem(skirt, current, heading, water, law, top_depth, friction)
 
     def solve(coefficient: float) -> tuple[Array, float, float]:
         if toe == "held":

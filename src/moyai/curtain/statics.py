@@ -66,6 +66,8 @@ class HangingCurtain:
         Coefficient with range and blockage.
     law : {"normal_velocity", "uniform_normal"}
         Load law of the section.
+    friction : float
+        Coefficient of the load along the sheet, both faces together [-].
     """
 
     span: float
@@ -78,6 +80,7 @@ class HangingCurtain:
     anchor_slope: float
     drag: DragLaw
     law: LoadLaw
+    friction: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.anchor_slope < 0.5 * math.pi:
@@ -187,7 +190,13 @@ def solve_statics(
     -----
     Forces of the supports: [eq:curtain-anchor]; floats: [eq:curtain-float-reserve].
     """
-    settings = {"law": curtain.law, "toe": curtain.toe, "top_depth": top_depth, "below_bed": below_bed}
+    settings = {
+        "law": curtain.law,
+        "toe": curtain.toe,
+        "top_depth": top_depth,
+        "below_bed": below_bed,
+        "friction": curtain.friction,
+    }
     section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, **settings)  # type: ignore[arg-type]
     if section.load <= 0.0:
         raise InputError(

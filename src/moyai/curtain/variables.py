@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from moyai.core.labels import with_labels
+from moyai.curtain.steady_load import QUANTITIES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,6 +38,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "toe_gap": ("m", "clearance between toe and bed"),
     "toe_speed": ("m/s", "mean speed under the toe"),
     "toe_speed_ratio": ("1", "mean speed under the toe over that of the undisturbed current there"),
+    "toe_speed_undisturbed": ("m/s", "mean speed of the undisturbed current between toe and bed"),
     "section_load": ("N/m", "load of the current per length of curtain"),
     "top_load": ("N/m", "share of the load at the top"),
     "toe_hold": ("N/m", "share of the load at a held toe"),
@@ -56,6 +58,24 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "planning_load": ("N", "load of the span by a planning formula"),
     "planning_drag_coefficient": ("1", "drag coefficient that the formula amounts to"),
     "planning_confirmed": ("1", "whether the formula was read in its source"),
+    # the governing steady load and what stands beside it
+    **{
+        f"steady_{name}{end}": (unit, f"{words}, governing steady load{told}")
+        for name, unit, words in QUANTITIES
+        for end, told in (("", ""), ("_low", ", lower end of its band"), ("_high", ", upper end of its band"))
+    },
+    "steady_load_bound": ("N/m", "weights of toe and sheet: no load normal to the sheet can exceed it with a free toe"),
+    "cause_line_load": ("N/m", "load per length with one thing varied"),
+    "cause_cable_tension": ("N", "tension of all cables with one thing varied"),
+    "cause_anchor_force": ("N", "horizontal force on an inner anchor with one thing varied"),
+    "cause_effective_depth": ("m", "vertical reach of the skirt with one thing varied"),
+    "compared_line_load": ("N/m", "load per length of curtain by the model"),
+    "compared_span_load": ("N", "load of the span by the model"),
+    "compared_ratio": ("1", "load by the model over the governing steady load"),
+    "direction_span_load": ("N", "downstream load of one span with the current turned"),
+    "direction_cable_tension": ("N", "tension of all cables with the current turned"),
+    "direction_anchor_force": ("N", "horizontal force on an inner anchor with the current turned"),
+    "steady_direction": ("rad", "angle of the current from the normal of the span"),
     # load laws
     "law_effective_depth": ("m", "vertical reach under the law"),
     "law_flare": ("m", "downstream reach of the toe under the law"),
@@ -167,7 +187,23 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "velocity_amplitude": ("m/s", "amplitude of the water's speed along the normal, mean over the skirt"),
     "excursion": ("m", "double amplitude of the water's travel"),
     "threshold_excursion": ("m", "double amplitude below which the curtain never becomes taut without a current"),
-    "maximum_tension": ("N", "largest sum of the tensions of both cables"),
+    "maximum_tension": (
+        "N",
+        "sum of the tensions of both cables: largest that repeats, mean of the largest of 100 periods or realisations",
+    ),
+    "maximum_tension_low": ("N", "least of the largest tensions of 100 periods or of the realisations"),
+    "maximum_tension_high": ("N", "largest of the largest tensions of 100 periods or of the realisations"),
+    "periods_left_out": ("1", "periods left out at the start"),
+    "periods_analysed": ("1", "periods that count"),
+    "repeats_after": ("1", "periods after which the motion repeats; none: it does not"),
+    "realisations": ("1", "realisations of the sea"),
+    "realisation_tension": ("N", "largest tension of each realisation"),
+    "left_out": ("s", "time left out at the start of each realisation"),
+    "model_role": ("", "whether a model governs, is a bound, a comparison or out of range"),
+    "model_of": ("", "what a model gives"),
+    "model_reason": ("", "why it has that role"),
+    "model_value": ("1", "number that decides the role"),
+    "model_limit": ("1", "limit of that number"),
     "mean_tension": ("N", "mean of the tension"),
     "first_contact_tension": ("N", "largest tension of the first contacts"),
     "later_contact_tension": ("N", "largest tension of the later contacts"),
@@ -223,15 +259,28 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "pretension": ("N", "steady tension of the rope"),
     "response_time": ("s", "period of the float on its rope"),
     # limits and loads
-    "limit_height": ("m", "largest significant height that every component bears"),
+    "limit_height": ("m", "largest significant height that every component bears in currents up to this speed"),
+    "limit_height_alone": ("m", "largest significant height that every component bears in this current alone"),
+    "design_limit_height": ("m", "largest significant height in currents up to that of the case"),
+    "speed_limit_low": ("m/s", "largest surface speed without waves at the upper end of the drag coefficient"),
+    "speed_limit_high": ("m/s", "largest surface speed without waves at the lower end of the drag coefficient"),
+    "speed_limit_ratio": ("1", "largest surface speed without waves over the current of the case"),
     "limit_utilisation": ("1", "largest utilisation of all components"),
     "component_utilisation": ("1", "utilisation of each component"),
     "speed_limit": ("m/s", "largest surface speed without waves"),
     "steady_load": ("", "steady load"),
+    "steady_low": ("", "steady load at the lower end of its band"),
+    "steady_high": ("", "steady load at the upper end of its band"),
+    "governing_high": ("", "governing load with the upper end of the steady load"),
+    "utilisation_high": ("1", "governing load at the upper end times safety factor over capacity"),
     "wave_load": ("", "what waves add to the steady load"),
     "impact_load": ("", "what an impact adds to the steady load"),
     "dynamic_load": ("", "highest tension in the runs of the whole span"),
-    "governing_load": ("", "steady load with the larger of both, or that of the whole span where it is higher"),
+    "governing_load": (
+        "",
+        "load of the whole span where it was run, else the steady load with the larger of wave and impact",
+    ),
+    "load_bound": ("", "whether the governing load is only a bound"),
     "capacity": ("", "strength"),
     "safety_factor": ("1", "safety factor asked"),
     "utilisation": ("1", "governing load times safety factor over strength"),

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from moyai.report.curtain_reading import CurtainLevel, key, texts, words
 from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table
 from moyai.report.drawing import with_colours
-from moyai.report.formatting import format_fixed, format_number, format_quantity, pretty_unit, trimmed
+from moyai.report.formatting import DASH, format_fixed, format_number, format_quantity, pretty_unit, trimmed
 from moyai.report.reading import Group
 
 Array = NDArray[np.float64]
@@ -62,7 +62,7 @@ def operating_map(level: CurtainLevel) -> Drawing | None:
         svg,
         with_colours(svg),
         "Largest utilisation of all components over current and wave height, with the component that governs; "
-        f"1 is the limit, orange and red are beyond it. Line: height at the limit.{_considered(group)}",
+        f"1 is the limit, orange and red are beyond it. Line: height held in currents up to each.{_considered(group)}",
     )
 
 
@@ -77,7 +77,13 @@ def _considered(group: Group) -> str:
     if not known:
         return ""
     taken = [words[name] for name in known if float(group.attributes[name]) > 0.0]
-    return f" Beside the steady load: {', '.join(taken) if taken else 'nothing'}."
+    said = f" Beside the steady load: {', '.join(taken) if taken else 'nothing'}."
+    role = str(group.attributes.get("plate_role", ""))
+    if role == "bound":
+        return f"{said} Impact and snaps are those of an upright plate, a bound: the limits that they set are at least."
+    if role in ("comparison", "out of range"):
+        return f"{said} Impact and snaps of an upright plate set no limit here ({role})."
+    return said
 
 
 def _map(group: Group, speed: Array, height: Array, used: Array, names: NDArray[np.str_] | None) -> str:
@@ -174,7 +180,7 @@ def limit_curve(level: CurtainLevel) -> Figure | None:
     if speed is None or limit is None or not np.isfinite(limit).any():
         return None
     x = {"speed": speed}
-    series = [Series("limit of all", x, limit, tone=0, style="line+points")]
+    series = [Series("limit of all, in currents up to each", x, limit, tone=0, style="line+points")]
     height, parts = group.real("height", "height"), group.real("component_utilisation", "speed", "height", "component")
     if height is not None and parts is not None:
         for tone, name in enumerate(group.labels("component")):
@@ -213,16 +219,37 @@ def limit_table(level: CurtainLevel) -> Table | None:
     speed, limit = group.real("speed", "speed"), group.real("limit_height", "speed")
     if speed is None or limit is None:
         return None
+    alone = group.real("limit_height_alone", "speed")
+    bounds, notes = (words(group, name, "speed", speed.size) for name in ("limit_bound", "limit_note"))
+    columns = [
+        Column("Current at the surface", [float(value) for value in speed], "m/s", uniform=False),
+        Column("Significant height held in currents up to it", [float(value) for value in limit], "m"),
+        Column("Governing", words(group, "limit_governing", "speed", speed.size)),
+    ]
+    if any(bounds):
+        columns.insert(1, Column("Bound", [bound or DASH for bound in bounds]))
+    if alone is not None and np.any(alone > limit):
+        columns.append(Column("In this current alone", [float(value) for value in alone], "m"))
+    if any(notes):
+        columns.append(Column("In words", [note or DASH for note in notes]))
     return Table(
-        key(level, "operating-limits"),
-        "Operating limits",
-        (
-            Column("Current at the surface", [float(value) for value in speed], "m/s", uniform=False),
-            Column("Significant height at the limit", [float(value) for value in limit], "m"),
-            Column("Governing", words(group, "limit_governing", "speed", speed.size)),
-        ),
-        note="A height of 0: the current alone is beyond the limit.",
+        key(level, "operating-limits"), "Operating limits", tuple(columns), note=" ".join(filter(None, _why(group)))
     )
+
+
+def _why(group: Group) -> tuple[str, ...]:
+    said = str(group.attributes.get("limit_not_monotone", ""))
+    bounded = "at least" in (group.attributes.get("design_limit_bound", ""), *_bounds(group))
+    return (
+        "A height of 0: the current alone is beyond the limit.",
+        f"{said[0].upper()}{said[1:]}." if said else "",
+        "At least: an upright plate, only a bound of the load, sets this limit." if bounded else "",
+    )
+
+
+def _bounds(group: Group) -> list[str]:
+    speed = group.real("speed", "speed")
+    return [] if speed is None else words(group, "limit_bound", "speed", speed.size)
 
 
 def map_table(level: CurtainLevel) -> Table | None:

@@ -15,6 +15,7 @@ from moyai.report.curtain_drawing import drawings
 from moyai.report.curtain_dynamic import dynamic_blocks
 from moyai.report.curtain_reading import CurtainLevel, governing_component, water_levels
 from moyai.report.curtain_snap import snap_animation
+from moyai.report.curtain_steady import site_table, steady_tables
 from moyai.report.curtain_summary import summary_blocks
 from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
 from moyai.report.formatting import MINUS, format_quantity
@@ -61,7 +62,7 @@ def compose(result: Result) -> Document:
                 *at_each_level(lambda level: [figures.utilisation_bars(level), limits.operating_map(level)]),
             ),
         ),
-        Section("input", "Input", (case_listing(root), *at_each_level(lambda level: [tables.site_table(level)]))),
+        Section("input", "Input", (case_listing(root), *at_each_level(lambda level: [site_table(level)]))),
         Section("shape", "Shape", at_each_level(drawings)),
         Section("loads", "Loads", at_each_level(tables.load_tables)),
         Section("rest", "At rest in the current", at_each_level(_at_rest)),
@@ -114,12 +115,12 @@ def _subtitle(levels: tuple[CurtainLevel, ...]) -> str:
 
 def _at_rest(level: CurtainLevel) -> Sequence[Block | None]:
     return (
+        *steady_tables(level),
         tables.statics_table(level),
         figures.section_laws(level),
         figures.plan_laws(level),
         *tables.law_tables(level),
         tables.paper_table(level),
-        tables.planning_table(level),
     )
 
 

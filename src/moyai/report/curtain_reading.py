@@ -26,6 +26,7 @@ LEVEL_GROUPS = (
     "limits",
     "loads",
     "dynamic",
+    "models",
 )
 GIVEN = "given"
 PARTS = ("steady", "wave", "impact", "dynamic", "governing")
@@ -86,7 +87,7 @@ class Component:
     name : str
     loads : dict
         ``steady``, and what ``wave`` and ``impact`` add to it; ``dynamic`` is that of the whole span through time;
-        ``governing`` is the steady load with the larger of what is added, or the dynamic one where it is higher.
+        ``governing`` is the dynamic one where it was run, else the steady load with the larger of what is added.
     unit : str
         ``N`` or ``N/m``.
     capacity, safety_factor, utilisation : float
@@ -94,6 +95,8 @@ class Component:
         Words for what governs.
     sources : tuple of str
         Where wave and impact come from, and the run of the whole span.
+    bound : str
+        ``at most`` where the governing load is only a bound.
     """
 
     name: str
@@ -104,6 +107,7 @@ class Component:
     utilisation: float
     governing: str
     sources: tuple[str, str, str]
+    bound: str = ""
 
     def share(self, part: str) -> float:
         """Return the utilisation by one part of the load alone, NaN where not known or where it does not count."""
@@ -168,6 +172,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
     capacity, factor, used = column("capacity"), column("safety_factor"), column("utilisation")
     units = words(group, "load_unit", "component", len(names))
     governing = words(group, "governing", "component", len(names))
+    bounds = words(group, "load_bound", "component", len(names))
     sources = [words(group, f"{what}_source", "component", len(names)) for what in ("wave", "impact", "dynamic")]
     return tuple(
         Component(
@@ -179,6 +184,7 @@ def components(level: CurtainLevel) -> tuple[Component, ...]:
             float(used[row]),
             governing[row],
             (sources[0][row], sources[1][row], sources[2][row]),
+            bounds[row],
         )
         for row, name in enumerate(names)
     )

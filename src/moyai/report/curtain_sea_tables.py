@@ -21,7 +21,12 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         ("velocity_amplitude", "Velocity amplitude", "m/s"),
         ("excursion", "Excursion", "m"),
         ("threshold_excursion", "Excursion that pulls taut", "m"),
-        ("maximum_tension", "Largest tension", "N"),
+        ("maximum_tension", "Tension", "N"),
+        ("maximum_tension_low", "From", "N"),
+        ("maximum_tension_high", "To", "N"),
+        ("periods_left_out", "Periods left out", ""),
+        ("periods_analysed", "Analysed", ""),
+        ("repeats_after", "Repeats after", ""),
         ("mean_tension", "Mean tension", "N"),
         ("first_contact_tension", "First contacts", "N"),
         ("later_contact_tension", "Later contacts", "N"),
@@ -43,7 +48,8 @@ def regular_table(level: CurtainLevel, sea: Group) -> Table | None:
         key(level, sea.name, "regular"),
         "Slack and taut in regular waves",
         (Column("Period", [float(value) for value in period], "s", uniform=False), *columns),
-        note="Contacts in the analysed time; first: the first on a side since the other side.",
+        note="Tension of both cables: the largest that repeats within 1 %; where periods never repeat, the mean of the "
+        "largest of 100 periods, with the least and the largest of these. First: the first on a side since the other.",
         emphasised=worst,
     )
 
@@ -52,7 +58,11 @@ def irregular_table(level: CurtainLevel, sea: Group) -> Table | None:
     """Return the counts and the fit of an irregular sea."""
     rows = (
         ("significant_height", "significant wave height", "m"),
-        ("maximum_tension", "largest tension of both cables", "N"),
+        ("maximum_tension", "largest tension of both cables, mean of the realisations", "N"),
+        ("maximum_tension_low", "of the realisations, from", "N"),
+        ("maximum_tension_high", "to", "N"),
+        ("realisations", "realisations", ""),
+        ("left_out", "left out at the start of each", "s"),
         ("most_probable_maximum", "most probable maximum", "N"),
         ("most_probable_maximum_low", "its range, from", "N"),
         ("most_probable_maximum_high", "to", "N"),

@@ -19,7 +19,8 @@ _BY_DRAG = (
     ("flare", "flare", "m"),
     ("toe_gap", "toe gap", "m"),
     ("toe_speed", "mean speed under the toe", "m/s"),
-    ("toe_speed_ratio", "speed under the toe over the current", ""),
+    ("toe_speed_undisturbed", "mean undisturbed current between toe and bed", "m/s"),
+    ("toe_speed_ratio", "speed under the toe over that undisturbed current", ""),
     ("section_load", "load of the section", "N/m"),
     ("top_load", "of it on the upper cable", "N/m"),
     ("toe_hold", "of it on the toe", "N/m"),
@@ -36,23 +37,6 @@ _BY_DRAG = (
     ("anchor_line_tension", "tension of an anchor line", "N"),
     ("float_reserve", "reserve of the floats", "N/m"),
     ("float_reserve_ratio", "reserve over buoyancy", ""),
-)
-_SITE = (
-    ("span", "span B", "m"),
-    ("unstretched_length", "length of cables and skirt l", "m"),
-    ("span_ratio", "B/l", ""),
-    ("skirt_length", "skirt, from top to toe", "m"),
-    ("surface_speed", "current at the surface", "m/s"),
-    ("normal_speed", "mean current over the skirt, along the normal", "m/s"),
-    ("flow_angle", "angle of the current from the normal", "rad"),
-    ("froude_number", "Froude number", ""),
-    ("load_ratio", "load ratio qL/W", ""),
-    ("drowning_speed", "current that drowns the floats", "m/s"),
-    ("joint_spacing", "largest length of a unit for its joints", "m"),
-    ("anchor_spacing", "largest distance of anchors", "m"),
-    ("flooded_net_weight", "net weight when flooded", "N/m"),
-    ("air_to_surface", "air that brings it up again", "m3/m"),
-    ("holding_buoyancy", "buoyancy that holds it up", "N/m"),
 )
 _IMPACT = (
     ("start_speed", "speed when taut", "m/s"),
@@ -83,12 +67,6 @@ _PAPER = (
     ("paper_skirt_sagitta", "sagitta of the skirt", "m"),
     ("chord", "chord of the skirt", "m"),
 )
-_FORMULAS = {
-    "us_navy": "US Navy, 26 A V²",
-    "itopf": "ITOPF, 100 A V²",
-    "tow_trials": "tow trials, K A V²",
-    "tow_trial": "tow trials, K A V²",
-}
 
 
 def load_tables(level: CurtainLevel) -> list[Table]:
@@ -101,6 +79,8 @@ def load_tables(level: CurtainLevel) -> list[Table]:
     def loads(part: str) -> list[Cell]:
         return [entry.loads[part] * unit.factor for entry, unit in zip(found, shown, strict=True)]
 
+    highs = level.part("loads").real("steady_high", "component")
+    upper: list[Cell] = [] if highs is None else [float(v) * u.factor for v, u in zip(highs, shown, strict=True)]
     # only where whole spans were run
     moving = any(math.isfinite(entry.loads["dynamic"]) for entry in found)
     return [
@@ -111,6 +91,7 @@ def load_tables(level: CurtainLevel) -> list[Table]:
                 Column("Component", [entry.name for entry in found]),
                 Column("Unit", [unit.name for unit in shown]),
                 Column("Steady", loads("steady"), uniform=False),
+                *((Column("Steady, upper end", upper, uniform=False),) if upper else ()),
                 Column("Added by waves", loads("wave"), uniform=False),
                 Column("Added by the impact", loads("impact"), uniform=False),
                 *((Column("Whole span", loads("dynamic"), uniform=False),) if moving else ()),
@@ -151,7 +132,7 @@ def _worst(level: CurtainLevel) -> tuple[int, ...]:
     return () if worst is None else (names.index(worst[1].name),)
 
 
-def _numbers(
+def number_table(
     level: CurtainLevel, group: Group, name: str, title: str, rows: tuple[tuple[str, str, str], ...]
 ) -> Table | None:
     """Return single numbers of a group as rows of a table."""
@@ -170,11 +151,6 @@ def _numbers(
             Column("Unit", [pretty_unit(unit.name) for unit in shown]),
         ),
     )
-
-
-def site_table(level: CurtainLevel) -> Table | None:
-    """Return what follows from the case before any load is taken."""
-    return _numbers(level, level.part("statics"), "site", "The curtain and its site", _SITE)
 
 
 def statics_table(level: CurtainLevel) -> Table | None:
@@ -250,29 +226,8 @@ def law_tables(level: CurtainLevel) -> list[Table]:
 
 def paper_table(level: CurtainLevel) -> Table | None:
     """Return equations (2) to (6) of the impact paper on this curtain."""
-    return _numbers(
+    return number_table(
         level, level.part("statics_paper"), "paper-statics", "Equations (2) to (6) of the impact paper", _PAPER
-    )
-
-
-def planning_table(level: CurtainLevel) -> Table | None:
-    """Return the planning formulas of booms and curtains beside the computed load."""
-    group = level.part("statics")
-    names, loads = group.labels("planning_formula"), group.real("planning_load", "planning_formula")
-    if not names or loads is None:
-        return None
-    drag = group.real("planning_drag_coefficient", "planning_formula")
-    confirmed = group.real("planning_confirmed", "planning_formula")
-    columns = [
-        Column("Formula", [_FORMULAS.get(name, name.replace("_", " ")) for name in names]),
-        Column("Load of the span", [float(load) for load in loads], "N"),
-    ]
-    if drag is not None:
-        columns.append(Column("As drag coefficient", [float(value) for value in drag]))
-    if confirmed is not None:
-        columns.append(Column("Source seen", ["yes" if value > 0.0 else "no" for value in confirmed]))
-    return Table(
-        key(level, "planning"), "Planning formulas", tuple(columns), note="For comparison; none of them judges here."
     )
 
 
@@ -331,7 +286,7 @@ def impact_tables(level: CurtainLevel) -> list[Table]:
             emphasised=tuple(row for row, name in enumerate(names) if name == design),
         )
     ]
-    numbers = _numbers(level, group, "impact-numbers", "What the impact rests on", _IMPACT)
+    numbers = number_table(level, group, "impact-numbers", "What the impact rests on", _IMPACT)
     source = str(group.attributes.get("start_speed_source", ""))
     if numbers is not None:
         said = [f"Start speed: {source}." if source else "", f"Design: model {design}." if design else ""]

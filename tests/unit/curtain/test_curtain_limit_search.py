@@ -1,0 +1,147 @@
+"""Limits are searched over the whole range: the smallest crossing counts, nothing is taken to be monotone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from moyai.curtain.drag import constant_drag
+from moyai.curtain.limit_search import NOT_REACHED, search
+from moyai.curtain.limits import (
+    Requirements,
+    Site,
+    Strength,
+    anchor_spacing,
+    fixed_failures,
+    joint_spacing,
+    speed_limit,
+)
+from moyai.curtain.section import Skirt
+from moyai.curtain.statics import FloatLine, HangingCurtain
+from moyai.sea.current import uniform
+from moyai.sea.water import Water
+
+UNJUDGED = Strength(math.inf, 1.0)
+WATER = Water(12.0, 1025.0, 9.81)
+SITE = Site(WATER, lambda speed: uniform(speed, 0.0), 0.0, 0.0, 0.5)
+
+
+def required(**given):
+    plain = {
+        name: given.get(name, UNJUDGED) for name in ("upper_cable", "lower_cable", "sheet", "anchor_line", "anchor")
+    }
+    return Requirements(**plain, least_reserve=0.0, least_depth=given.get("least_depth", 0.0))
+
+
+def curtains(seed, count):
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        span = rng.uniform(10.0, 40.0)
+        yield HangingCurtain(
+            span=span,
+            length=span * rng.uniform(1.05, 1.2),
+            skirt=Skirt(rng.uniform(2.0, 6.0), rng.uniform(0.0, 6.0), rng.uniform(40.0, 200.0), 9e5),
+            floats=FloatLine(2400.0, 100.0, 2400.0),
+            upper_stiffness=2e6,
+            lower_stiffness=0.0,
+            toe="free",
+            anchor_slope=rng.uniform(0.1, 0.4),
+            drag=constant_drag(rng.uniform(1.2, 2.0), (1.0, 1.0), "test"),
+            law="normal_velocity",
+        )
+
+
+def test_smallest_of_several_crossings_is_the_limit():
+    """Bisection from the end found the last one, 0.9, or any other."""
+    found = search(lambda x: (0.5 if x <= 0.3 or 0.6 <= x <= 0.9 else 2.0, "part"), 1.0)
+    assert found.value == pytest.approx(0.3, rel=1e-6) and found.governing == "part"
+    assert found.crossings == pytest.approx((0.3, 0.6, 0.9), rel=1e-6)
+    assert found.ratio == 2.0
+
+
+def test_a_hump_inside_a_range_that_holds_at_its_end_is_found():
+    """Only the end was looked at before the range was called free of limits."""
+    found = search(lambda x: (1.5 - 8.0 * abs(x - 0.4), "hump"), 1.0)
+    assert found.value == pytest.approx(0.3375, rel=1e-6) and found.reached
+    assert found.crossings == pytest.approx((0.3375, 0.4625), rel=1e-6)
+
+
+def test_nothing_found_and_nothing_held_are_told_apart():
+    free = search(lambda x: (0.2, "part"), 3.0)
+    assert (free.value, free.governing, free.reached, free.highest) == (3.0, NOT_REACHED, False, 3.0)
+    none = search(lambda x: (1.7, "effective depth"), 3.0)
+    assert (none.value, none.governing, none.ratio) == (0.0, "effective depth", 1.7)
+    later = search(lambda x: (0.5 if x > 1.2 else 1.7, "part"), 3.0)
+    assert later.value == 0.0 and later.crossings == pytest.approx((1.2,), rel=1e-6)
+
+
+def test_states_without_equilibrium_end_the_range():
+    found = search(lambda x: (0.1, "part") if x < 0.77 else (math.inf, "no equilibrium"), 1.0)
+    assert found.value == pytest.approx(0.77, rel=1e-6) and found.governing == "no equilibrium"
+
+
+def test_limit_rises_with_strength():
+    """Any utilisation that a strength divides, rising or not."""
+    rng = np.random.default_rng(4)
+    for _ in range(40):
+        a, b, c = rng.uniform(0.5, 2.0), rng.uniform(0.2, 1.0), rng.uniform(2.0, 9.0)
+
+        def load(x, a=a, b=b, c=c):
+            return a * x**2 + b * math.sin(c * x)
+
+        values = [search(lambda x, s=s: (load(x) / s, "part"), 2.0).value for s in (0.4, 0.8, 1.6, 3.2)]
+        assert np.all(np.diff(values) >= -1e-9)
+
+
+def test_current_that_keeps_the_depth_rises_with_the_toe_weight():
+    for curtain in curtains(1, 6):
+        need = required(least_depth=0.8 * curtain.skirt.length)
+        values = []
+        for factor in (0.7, 1.0, 1.5):
+            heavy = replace(curtain, skirt=replace(curtain.skirt, toe_load=factor * curtain.skirt.toe_load))
+            found = speed_limit(heavy, SITE, need, highest=2.0)
+            assert found.governing == "effective depth"
+            values.append(found.value)
+        assert values == sorted(values) and values[0] < values[-1]
+
+
+def test_current_that_an_anchor_holds_falls_with_the_distance_and_rises_with_its_strength():
+    for curtain in curtains(2, 5):
+        # a third of what the skirt can put on it at most
+        most = (curtain.skirt.toe_load + curtain.skirt.submerged_weight * curtain.skirt.length) * curtain.span
+        values = []
+        for ratio in (1.0, 1.3, 1.6):
+            longer = replace(curtain, span=ratio * curtain.span, length=ratio * curtain.length)
+            found = speed_limit(longer, SITE, required(anchor=Strength(most / 3.0, 1.0)), highest=2.0)
+            assert found.governing == "anchor"
+            values.append(found.value)
+        assert values[0] > values[1] > values[2]
+        stronger = speed_limit(curtain, SITE, required(anchor=Strength(most / 2.0, 1.0)), highest=2.0)
+        assert stronger.value > values[0]
+
+
+def test_anchor_that_bears_all_weights_has_no_limit_in_any_current():
+    """A free toe bounds the load: with more than toe and sheet weigh no current is too much."""
+    for curtain in curtains(3, 4):
+        most = (curtain.skirt.toe_load + curtain.skirt.submerged_weight * curtain.skirt.length) * curtain.span
+        found = speed_limit(curtain, SITE, required(anchor=Strength(1.02 * most, 1.0)), highest=2.0)
+        assert not found.reached
+
+
+def test_distance_of_anchors_is_judged_by_what_grows_with_it():
+    """A depth that fails at any distance set it to 0 m."""
+    curtain = next(curtains(5, 1))
+    need = replace(required(anchor=Strength(5e3, 1.0)), least_depth=2.0 * curtain.skirt.length)
+    found = anchor_spacing(curtain, SITE, need, speed=0.4, longest=300.0, wave_tension=0.0)
+    assert found.governing == "anchor" and found.value > 5.0
+    assert fixed_failures(SITE.statics(curtain, 0.4), need) == ("effective depth",)
+    upper = anchor_spacing(curtain, SITE, need, speed=0.4, longest=300.0, wave_tension=0.0, load_factor=1.25)
+    assert upper.value == pytest.approx(found.value / 1.25, rel=1e-3)
+
+
+def test_joints_that_bear_more_than_a_span_set_no_length():
+    assert math.isinf(joint_spacing(134.0, Strength(180e3, 3.0), 20.0))
+    assert joint_spacing(134.0, Strength(180e3, 3.0), 1000.0) == pytest.approx(447.76, abs=0.01)
