@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.case.findings import Findings
+from moyai.case.plausibility import check_plausibility
 from moyai.case.structures import part
 from moyai.case.yaml_reader import Document
 
@@ -23,5 +24,6 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
         Folder that file names refer to.
     """
     findings = Findings(document)
+    check_plausibility(model, findings)
     part(model.structure.kind, "check")(model, findings, folder)
     return findings
