@@ -9,6 +9,7 @@ from moyai.case.findings import Findings
 from moyai.case.plausibility import check_plausibility
 from moyai.case.structures import part
 from moyai.case.yaml_reader import Document
+from moyai.core.errors import Fault
 
 
 def check(model: Any, document: Document, folder: Path) -> Findings:
@@ -25,5 +26,27 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
     """
     findings = Findings(document)
     check_plausibility(model, findings)
+    faults, warnings = len(findings.faults), len(findings.warnings)
+    # What cannot be is told before anything is built of it: the checks build only what is sound so far
     part(model.structure.kind, "check")(model, findings, folder)
+    _leave_to_the_particular(findings, faults, warnings)
     return findings
+
+
+def _leave_to_the_particular(findings: Findings, faults: int, warnings: int) -> None:
+    """Leave out a general word on a number of which a check of its own speaks too.
+
+    Parameters
+    ----------
+    findings : Findings
+        Of plausibility first, then of the structure's own checks.
+    faults, warnings : int
+        How many are of plausibility.
+    """
+    own = [found.path for found in (*findings.faults[faults:], *findings.warnings[warnings:])]
+
+    def general(found: Fault) -> bool:
+        return not any(path == found.path or path.startswith((f"{found.path}.", f"{found.path}[")) for path in own)
+
+    findings.faults[:faults] = [found for found in findings.faults[:faults] if general(found)]
+    findings.warnings[:warnings] = [found for found in findings.warnings[:warnings] if general(found)]
