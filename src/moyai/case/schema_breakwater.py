@@ -139,6 +139,10 @@ class BreakwaterStructure(Block):
     roll_inertia: Inertia | None = Field(
         default=None, description="Roll moment of inertia of the unit about its centre of gravity; needs 'mass'."
     )
+    allow_unstable: Truth = Field(
+        default=False,
+        description="Whether a metacentric height of 0 m or less is meant: lines hold the unit upright. Default: false.",
+    )
     damping: DampingFraction | None = Field(default=None, description="Damping as a fraction of critical.")
     roll_damping: RollDampingTerms | None = Field(default=None, description="Linear and quadratic roll damping.")
     additional_mass: AdditionalMass | None = Field(
