@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,11 @@ def _leave_to_the_particular(findings: Findings, faults: int, warnings: int) -> 
     faults, warnings : int
         How many are of plausibility.
     """
+    asked = {found.path: found.remedy for found in findings.faults[:faults] if "number without unit" in found.remedy}
+    findings.faults[faults:] = [
+        replace(found, remedy=asked[found.path]) if found.path in asked and not found.remedy else found
+        for found in findings.faults[faults:]
+    ]
     own = [found.path for found in (*findings.faults[faults:], *findings.warnings[warnings:])]
 
     def general(found: Fault) -> bool:

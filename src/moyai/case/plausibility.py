@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from moyai.case.faults import value_at
 from moyai.case.findings import Findings
 from moyai.case.plausible_sizes import derived_sizes
 from moyai.case.schema_types import Block
@@ -133,7 +134,7 @@ def _judge(
     for factor, path, entry in zip(row.factors, paths, entries):
         if entry is None or not math.isfinite(entry.value) or entry.value == 0.0:
             return
-        if any(path[: len(bad)] == bad or any(bad == key[: len(bad)] for key in entry.of) for bad in told):
+        if any(path[: len(bad)] == bad or any(_overlap(bad, key) for key in entry.of) for bad in told):
             return
         try:
             value *= abs(entry.value) ** factor.power
@@ -156,6 +157,12 @@ def _judge(
     record(blamed[1], message, allowed=_allowed(row, possible), remedy=_remedy(row, value, power, blamed[1], findings))
 
 
+def _overlap(one: KeyPath, other: KeyPath) -> bool:
+    """Whether one of two paths leads through the other."""
+    shorter = min(len(one), len(other))
+    return one[:shorter] == other[:shorter]
+
+
 def _blamed(
     paths: list[KeyPath], entries: list[Entry | None], document: Document
 ) -> tuple[KeyPath, KeyPath, bool] | None:
@@ -176,14 +183,14 @@ def _blamed(
 def _written(paths: list[KeyPath], entries: list[Entry | None], document: Document) -> str:
     """Return the numbers of a ratio as the file writes them."""
     said = []
-    for entry in entries:
-        for place in [entry.place] if entry and entry.place else [place_of(path, document) for path in entry.of]:  # type: ignore[union-attr]
+    for path, entry in zip(paths, entries):
+        if entry is not None and entry.of:
+            said.append(f"{str(path[-1]).removeprefix('@').replace('_', ' ')} {entry.value:.4g}")
+        for place in [entry.place] if entry and entry.place else [place_of(key, document) for key in entry.of]:  # type: ignore[union-attr]
             if place is None:
                 continue
-            data: Any = document.data
-            for step in place:
-                data = data[step]
-            if not isinstance(data, (dict, list)):
+            data = value_at(document.data, place)
+            if data is not None and not isinstance(data, (dict, list)):
                 name = ".".join(str(step) for step in place if isinstance(step, str))
                 said.append(f"{name} {data}")
     return ", ".join(dict.fromkeys(said)) or "from other keys"
@@ -207,9 +214,7 @@ def _allowed(row: PlausibleRange, possible: bool) -> str:
 
 def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findings: Findings) -> str:
     """Return what was probably meant: the same number in another unit."""
-    written: Any = findings.document.data
-    for step in place:
-        written = written[step]
+    written: Any = value_at(findings.document.data, place)
     unit, plain = "", isinstance(written, (int, float)) and not isinstance(written, bool)
     if isinstance(written, str):
         try:

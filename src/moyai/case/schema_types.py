@@ -306,7 +306,7 @@ class Range(Block):
         first, last = getattr(self, "first", None), getattr(self, "last", None)
         if first is not None and last is not None and first > last:
             raise refuse(
-                f"the range runs backwards: 'from' {first:g} is above 'to' {last:g}",
+                f"the range runs backwards: 'from' {first:g} is not below 'to' {last:g}",
                 allowed="'from' below 'to'",
                 remedy=f"write from: {last:g}, to: {first:g}",
             )
