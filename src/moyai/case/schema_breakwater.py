@@ -141,7 +141,7 @@ class BreakwaterStructure(Block):
     )
     allow_unstable: Truth = Field(
         default=False,
-        description="Whether a metacentric height of 0 m or less is meant: lines hold the unit upright. Default: false.",
+        description="Whether a metacentric height of 0 m or less is meant: lines hold it upright. Default: false.",
     )
     damping: DampingFraction | None = Field(default=None, description="Damping as a fraction of critical.")
     roll_damping: RollDampingTerms | None = Field(default=None, description="Linear and quadratic roll damping.")

@@ -90,9 +90,9 @@ class QuantityOf:
             if not math.isfinite(number):
                 return number
             unit = f" {self.kind.unit}" if self.kind.unit else ""
+            shown = value if isinstance(value, str) else f"{value:g}{unit}"
             raise refuse(
-                f"{value if isinstance(value, str) else f'{value:g}{unit}'} is no {self.kind.name.split(' ', 1)[1]} that "
-                "a structure in water can have",
+                f"{shown} is no {self.kind.name.split(' ', 1)[1]} that a structure in water can have",
                 allowed=f"{bounds[0]:g} to {bounds[1]:g}{unit} as a magnitude",
                 remedy="check the number and its unit",
             )

@@ -142,7 +142,7 @@ def refuse_wide_signs(text: str, file: str) -> None:
         for opening, closing in (("{", "}"), ("[", "]")):
             start = bare.find(opening)
             end = bare.rfind(closing) if closing in bare else len(bare)
-            for column in range(start, end) if 0 <= start else ():
+            for column in range(start, end) if start >= 0 else ():
                 plain = _WIDE_IN_BRACES.get(bare[column])
                 if plain is not None and re.search(r"[0-9０-９A-Za-z_\]}]\s*$", bare[start:column]):
                     what = f"a full-width sign '{bare[column]}'"

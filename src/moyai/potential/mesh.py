@@ -30,8 +30,8 @@ _LARGEST_CREST = 4.0
 _LARGEST_TURN = 0.3 * math.pi
 # exp(-_SHADE) is what is left of a wave where its short length no longer matters
 _SHADE = 7.0
-#: Most panels of one problem: dense matrices of some 5000 nodes, 0.4 GB each
-MOST_PANELS = 600
+#: Most panels of one problem: dense matrices of some 3200 nodes, 0.2 GB each; ordinary sections have 20 to 300
+MOST_PANELS = 400
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,7 @@ class PlausibleRange:
 
 @cache
 def plausible_ranges(structure: str) -> tuple[PlausibleRange, ...]:
-    """Return the ranges that hold for a kind of structure: single keys first, then ratios, each in the table's order."""
+    """Return the ranges for a kind of structure: single keys first, then ratios, each in the table's order."""
     rows = [_range(row) for row in read_table(_FILE) if row["structure"] in ("*", structure)]
     return tuple(sorted(rows, key=lambda row: len(row.factors) > 1))
 
