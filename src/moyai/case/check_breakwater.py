@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from moyai.case.check_breakwater_lines import check_chain_on_bed, count_panels
 from moyai.case.check_sea import check_file, check_surroundings, check_waves
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
@@ -359,6 +360,14 @@ def _check_balance(
     error, notices = known
     for notice in notices:
         path: KeyPath = ("structure", "mass") if notice.code == "imbalance" else ("structure",)
+        if notice.code == "unstable":
+            path = ("structure", "centre_of_gravity_above_keel")
+            if not model.structure.allow_unstable:
+                findings.fault(
+                    path, notice.message, allowed="a metacentric height above 0 m",
+                    remedy=f"{notice.remedy}; where lines hold it upright on purpose, say 'allow_unstable: true'",
+                )  # fmt: skip
+                continue
         findings.warn(path, notice.message, remedy=notice.remedy)
     if error is not None:
         findings.raised(error, ("structure",))
@@ -372,8 +381,11 @@ def _rest(problem: BreakwaterProblem) -> tuple[InputError | None, tuple[Notice, 
     for name, level in problem.environment.water_levels:
         try:
             unit = assemble(problem, name, level)
+            if problem.breakwater.coefficients_file is None:
+                count_panels(unit)
         except (InputError, ConvergenceError) as error:
-            again = InputError(error.fault.message, path=error.fault.path, remedy=error.fault.remedy)
+            fault = error.fault
+            again = InputError(fault.message, path=fault.path, allowed=fault.allowed, remedy=fault.remedy)
             return again, tuple(said.values())
         for notice in unit.notices:
             if notice.severity != "information":
@@ -406,10 +418,12 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
         return
     places = {line.name: index for index, line in enumerate(model.lines)}
     said: set[tuple[str, str]] = set()
-    for name, level in environment.water_levels:
+    chains_told: set[str] = set()
+    for name, level in sorted(environment.water_levels, key=lambda entry: -entry[1]):
         water = environment.water_at(level)
         centre = body_to_site(unit.centre_of_gravity, draught, 0.0)
         lines = site_lines(unit, water, centre, draught, 0.0)
+        check_chain_on_bed(model, lines, water.depth + centre[1], name, findings, chains_told)
         for notice in check_line_system(LineSystem(lines, water.depth + centre[1])):
             label, _, message = notice.message.partition(": ")
             line = label.removeprefix("lines.")

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from moyai.case.criteria import criteria_of
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
+from moyai.case.plausibility import check_plausibility
 from moyai.case.schema_environment import sea_names
 from moyai.case.structures import part
 from moyai.case.yaml_reader import Document
-from moyai.core.errors import InputError
+from moyai.core.errors import Fault, InputError
 
 
 def check(model: Any, document: Document, folder: Path) -> Findings:
@@ -27,10 +29,14 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
         Folder that file names refer to.
     """
     findings = Findings(document)
+    check_plausibility(model, findings)
+    faults, warnings = len(findings.faults), len(findings.warnings)
     _check_criteria(model, findings)
     # Checks that build the problem would stumble over criteria that are at fault
     sound = model if findings.sound("criteria") else model.model_copy(update={"criteria": "none"})
+    # What cannot be is reported before anything is built of it: the checks build only what is sound so far
     part(model.structure.kind, "check")(sound, findings, folder)
+    _leave_to_the_particular(findings, faults, warnings)
     return findings
 
 
@@ -50,3 +56,27 @@ def _check_criteria(model: Any, findings: Findings) -> None:
         criteria_of(model)
     except InputError as error:
         findings.raised(error, ("criteria",))
+
+
+def _leave_to_the_particular(findings: Findings, faults: int, warnings: int) -> None:
+    """Leave out a general word on a number of which a check of its own speaks too.
+
+    Parameters
+    ----------
+    findings : Findings
+        Of plausibility first, then of the structure's own checks.
+    faults, warnings : int
+        How many are of plausibility.
+    """
+    asked = {found.path: found.remedy for found in findings.faults[:faults] if "number without unit" in found.remedy}
+    findings.faults[faults:] = [
+        replace(found, remedy=asked[found.path]) if found.path in asked and not found.remedy else found
+        for found in findings.faults[faults:]
+    ]
+    own = [found.path for found in (*findings.faults[faults:], *findings.warnings[warnings:])]
+
+    def general(found: Fault) -> bool:
+        return not any(path == found.path or path.startswith((f"{found.path}.", f"{found.path}[")) for path in own)
+
+    findings.faults[:faults] = [found for found in findings.faults[:faults] if general(found)]
+    findings.warnings[:warnings] = [found for found in findings.warnings[:warnings] if general(found)]

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from moyai.case.schema_types import Block, Notes, QuantityOf
 from moyai.case.yaml_reader import Document, KeyPath, dotted
 from moyai.core.errors import Fault
+from moyai.core.units import plain_text
 
 # What engineers call a key elsewhere, where the spelling alone would not lead to it
 _SYNONYMS = {
@@ -218,6 +219,8 @@ class Translator:
         limits = {name: text for name, text in context.items() if name in ("ge", "le", "gt", "lt")}
         allowed = allowed.format(**context) if context and "{" in allowed else allowed
         remedy = did_you_mean(str(value), ["true", "false"]) if kind == "bool_type" else ""
+        if kind == "int_type" and isinstance(value, str) and plain_text(value).isdigit():
+            remedy = f"write {plain_text(value)}, without quotes and with half-width digits"
         if kind == "bool_type" and not remedy:
             remedy = _truth_meant(value)
         return fault(path, message.format(value=_shown(value), **limits), allowed=allowed, remedy=remedy)

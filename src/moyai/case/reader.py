@@ -14,8 +14,9 @@ from pydantic import ValidationError
 from moyai.case.faults import Translator, did_you_mean, nearest
 from moyai.case.schema import STRUCTURE_KINDS, root_schema
 from moyai.case.schema_types import Block, Notes
-from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault
+from moyai.core.units import plain_text
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ def case_of(document: Document, path: Path) -> Case:
     empty = _empty_values(document.data, (), document)
     root = _choose_root(document, empty)
     model, faults, mended = _validate(document, root)
-    faults = [*empty, *(fault for fault in faults if fault.path not in {known.path for known in empty})]
+    faults = [*empty, *(fault for fault in faults if fault.path not in _without_value(document.data, ()))]
     if empty or (model is None and mended is None):
         raise CaseError(_in_order(faults))
     found = check(model if model is not None else mended, document, path.parent)
@@ -126,7 +127,7 @@ def read_block(document: Document, root: type[Block]) -> Any:
         raise CaseError([document.fault((), "the file is no block of keys", remedy=f"it starts with the keys {keys}")])
     empty = _empty_values(document.data, (), document)
     model, faults, _ = _validate(document, root)
-    faults = [*empty, *(fault for fault in faults if fault.path not in {known.path for known in empty})]
+    faults = [*empty, *(fault for fault in faults if fault.path not in _without_value(document.data, ()))]
     if faults or model is None:
         raise CaseError(_in_order(faults))
     return model
@@ -139,12 +140,46 @@ def _in_order(faults: list[Fault]) -> list[Fault]:
 def _empty_values(data: Any, path: KeyPath, document: Document) -> list[Fault]:
     """Return a fault for every key without a value: nothing in a case file means 'nothing' on purpose."""
     if data is None and path:
+        torn = _decimal_comma(path, document)
+        if torn is not None:
+            return [torn]
         return [document.fault(path, "there is no value", remedy="give one, or remove the key", of_key=True)]
     faults = []
     if isinstance(data, (dict, list)):
         for key, value in data.items() if isinstance(data, dict) else enumerate(data):
             faults.extend(_empty_values(value, (*path, key), document))
     return faults
+
+
+def _without_value(data: Any, path: KeyPath) -> set[str]:
+    """Return the dotted paths of all keys without a value."""
+    if data is None and path:
+        return {dotted(path)}
+    entries = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    return {found for key, value in entries for found in _without_value(value, (*path, key))}
+
+
+def _decimal_comma(path: KeyPath, document: Document) -> Fault | None:
+    """Return a fault where braces tore ``3,6 m`` apart: into the value 3 and a key ``6 m`` without a value."""
+    block: Any = document.data
+    for step in path[:-1]:
+        block = block[step]
+    if not isinstance(block, dict):
+        return None
+    keys = list(block)
+    index = keys.index(path[-1])
+    before = block[keys[index - 1]] if index else None
+    tail = plain_text(str(path[-1]))
+    if isinstance(before, bool) or not isinstance(before, (int, str)) or not tail[:1].isdigit():
+        return None
+    whole = plain_text(str(before))
+    if not whole.lstrip("+-").isdigit():
+        return None
+    return document.fault(
+        (*path[:-1], keys[index - 1]),
+        f"the comma of '{whole},{tail}' ends the value '{whole}' in braces",
+        remedy=f"write a decimal point: {whole}.{tail}",
+    )
 
 
 def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:

@@ -166,6 +166,10 @@ class BreakwaterStructure(Block):
     roll_inertia: Inertia | None = Field(
         default=None, description="Roll moment of inertia of the unit about its centre of gravity; needs 'mass'."
     )
+    allow_unstable: Truth = Field(
+        default=False,
+        description="Whether a metacentric height of 0 m or less is meant: lines hold it upright. Default: false.",
+    )
     damping: DampingTerms | None = Field(
         default=None,
         description="Damping beyond wave radiation. Default: computed from the section, unless roll_damping is given.",

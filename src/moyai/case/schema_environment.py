@@ -75,6 +75,13 @@ class PeriodRange(Range):
 
 
 def _no_repeats(values: tuple[float, ...]) -> tuple[float, ...]:
+    if len(values) > 1 and all(after < before for before, after in itertools.pairwise(values)):
+        rising = ", ".join(f"{value:g}" for value in values[::-1][:12]) + (", ..." if len(values) > 12 else "")
+        raise refuse(
+            f"the list runs backwards, from {values[0]:g} to {values[-1]:g}",
+            allowed="short periods first",
+            remedy=f"write [{rising}]",
+        )
     if len(set(values)) < len(values):
         twice = next(value for index, value in enumerate(values) if value in values[:index])
         raise refuse(f"{twice:g} stands twice in the list", remedy="remove one")

@@ -24,6 +24,7 @@ from pydantic_core import PydanticCustomError, core_schema
 from moyai.core import quantities
 from moyai.core.errors import InputError
 from moyai.core.quantities import Kind, to_si
+from moyai.tables.plausible_ranges import kind_bounds
 
 
 def refuse(message: str, *, allowed: str = "", remedy: str = "") -> PydanticCustomError:
@@ -84,6 +85,17 @@ class QuantityOf:
             raise refuse(
                 fault.message, allowed=fault.allowed or (f"also {words}" if words else ""), remedy=fault.remedy
             ) from None
+        bounds = kind_bounds().get(self.kind.name)
+        if bounds is not None and number != 0.0 and not bounds[0] <= abs(number) <= bounds[1]:
+            if not math.isfinite(number):
+                return number
+            unit = f" {self.kind.unit}" if self.kind.unit else ""
+            shown = value if isinstance(value, str) else f"{value:g}{unit}"
+            raise refuse(
+                f"{shown} is no {self.kind.name.split(' ', 1)[1]} that a structure in water can have",
+                allowed=f"{bounds[0]:g} to {bounds[1]:g}{unit} as a magnitude",
+                remedy="check the number and its unit",
+            )
         if not (self.above < number < self.below and self.least <= number <= self.most):
             shown = value if isinstance(value, str) else f"{value:g}{' ' + self.kind.unit if self.kind.unit else ''}"
             raise refuse(f"{shown} is out of range", allowed=self.allowed)
@@ -285,9 +297,20 @@ def holds_key(block: dict[str, Any], key: str) -> bool:
 
 
 class Range(Block):
-    """Evenly spaced values."""
+    """Evenly spaced values, from the lowest to the highest."""
 
     count: Annotated[int, Field(strict=True, ge=2, le=10_000, description="Number of values.")]
+
+    @model_validator(mode="after")
+    def _from_low_to_high(self) -> Range:
+        first, last = getattr(self, "first", None), getattr(self, "last", None)
+        if first is not None and last is not None and first > last:
+            raise refuse(
+                f"the range runs backwards: 'from' {first:g} is not below 'to' {last:g}",
+                allowed="'from' below 'to'",
+                remedy=f"write from: {last:g}, to: {first:g}",
+            )
+        return self
 
     @staticmethod
     def spread(first: float, last: float, count: int) -> tuple[float, ...]:

@@ -15,7 +15,7 @@ from typing import Any
 
 import yaml
 
-from moyai.case.yaml_text import decode, refuse_odd_characters, syntax_fault
+from moyai.case.yaml_text import decode, refuse_odd_characters, refuse_wide_signs, syntax_fault
 from moyai.core.errors import CaseError, Fault
 
 KeyPath = tuple[str | int, ...]
@@ -143,6 +143,7 @@ def _similar_file(file: str) -> str:
 def parse_yaml(text: str, file: str = "<text>") -> Document:
     """Parse YAML text; see :func:`read_yaml`."""
     refuse_odd_characters(text, file)
+    refuse_wide_signs(text, file)
     try:
         # Null-terminated libyaml strings end at a lone surrogate or NUL; both were refused above
         builder = _Builder(_Loader(text), text, file)

@@ -115,6 +115,63 @@ def refuse_odd_characters(text: str, file: str) -> None:
     )
 
 
+# A key of a case file at the start of a line or behind a brace or comma
+_KEY = r"(?:^[\s\u3000]*(?:-[\s\u3000]+)*|[{,，、][\s\u3000]*)[A-Za-z_][A-Za-z0-9_]*"
+_WIDE: tuple[tuple[re.Pattern[str], str, str], ...] = (
+    (re.compile(rf"{_KEY}\s*(?P<sign>[：︰﹕])"), "a full-width colon", "write a plain ':' and a space"),
+    (re.compile(r"^[ \-]*(?P<sign>\u3000)"), "a full-width space", "indent with plain spaces"),
+    (re.compile(rf"{_KEY}:(?P<sign>\u3000)"), "a full-width space", "write a plain space behind ':'"),
+)
+_WIDE_IN_BRACES = {"，": ",", "、": ",", "：": ":", "｝": "}", "］": "]", "\u3000": " "}
+
+
+def refuse_wide_signs(text: str, file: str) -> None:
+    """Raise the full-width signs of Japanese input that stand where YAML needs plain ones, all at once.
+
+    Titles, names and comments may hold them; what stands in quotes is left alone.
+    """
+    faults = []
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.isascii():
+            continue
+        bare = _without_quotes_and_comment(line)
+        places: dict[int, tuple[str, str]] = {}
+        for pattern, name, remedy in _WIDE:
+            for match in pattern.finditer(bare):
+                places[match.start("sign")] = f"{name} '{match['sign']}'", remedy
+        for opening, closing in (("{", "}"), ("[", "]")):
+            start = bare.find(opening)
+            end = bare.rfind(closing) if closing in bare else len(bare)
+            for column in range(start, end) if start >= 0 else ():
+                plain = _WIDE_IN_BRACES.get(bare[column])
+                if plain is not None and re.search(r"[0-9０-９A-Za-z_\]}]\s*$", bare[start:column]):
+                    what = f"a full-width sign '{bare[column]}'"
+                    places.setdefault(column, (what, f"write '{plain}' in braces and brackets"))
+        faults += [
+            Fault(f"{what} stands where YAML needs a plain one", "", "", remedy, file, number, column + 1)
+            for column, (what, remedy) in sorted(places.items())
+        ]
+    if faults:
+        raise CaseError(faults)
+
+
+def _without_quotes_and_comment(line: str) -> str:
+    """Return a line with what stands in quotes blanked and its comment cut off; columns stay."""
+    out, quote = [], ""
+    for index, letter in enumerate(line):
+        if quote:
+            quote = "" if letter == quote else quote
+            out.append(" ")
+        elif letter in "\"'" and not (index and line[index - 1].isalnum()):
+            quote = letter
+            out.append(" ")
+        elif letter == "#" and (index == 0 or line[index - 1] in " \t\u3000"):
+            break
+        else:
+            out.append(letter)
+    return "".join(out)
+
+
 def syntax_fault(error: Any, text: str, file: str) -> Fault:
     """Return a scanner's or parser's fault in plain words.
 

@@ -229,7 +229,7 @@ def _case_slip(symbol: str, kind: Kind) -> str:
         if candidate != symbol and candidate.lower() == symbol.lower() and unit.dimension == kind.dimension:
             return f"did you mean '{candidate}'?"
     meant = suggest_unit(symbol) if symbol not in unit_table() else ""
-    return f"did you mean '{meant}'?" if meant and unit_table()[meant].dimension == kind.dimension else ""
+    return f"did you mean '{meant}'?" if meant and parse_unit(meant).dimension == kind.dimension else ""
 
 
 def _shorten(text: str, limit: int = 60) -> str:

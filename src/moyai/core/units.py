@@ -170,6 +170,8 @@ _MEANT = {
     "hour": "h", "hours": "h", "hr": "h", "hrs": "h", "minute": "min", "minutes": "min", "mins": "min",
     "day": "d", "days": "d", "feet": "ft", "foot": "ft", "inch": "in", "inches": "in", "lbs": "lb", "pound": "lb",
     "M": "m", "CM": "cm", "MM": "mm", "KM": "km", "percent": "%", "pct": "%",
+    "mps": "m/s", "MPS": "m/s", "cmps": "cm/s", "mmps": "mm/s", "fps": "ft/s", "kmh": "km/h", "kph": "km/h",
+    "Kmh": "km/h", "cms": "cm/s",
 }  # fmt: skip
 
 

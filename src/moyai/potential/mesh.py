@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.errors import InputError
 from moyai.potential.edges import ComplexArray, Edges, FloatArray, arc_position, arc_slope, as_complex
 from moyai.potential.panels import BODY, GAP, OPEN, PLATE, RAY, RAY_DIRECTION, Panels, Piece, make_panels
 from moyai.potential.sections import Chain, Section
@@ -29,6 +30,8 @@ _LARGEST_CREST = 4.0
 _LARGEST_TURN = 0.3 * math.pi
 # exp(-_SHADE) is what is left of a wave where its short length no longer matters
 _SHADE = 7.0
+#: Most panels of one problem: dense matrices of some 3200 nodes, 0.2 GB each; ordinary sections have 20 to 300
+MOST_PANELS = 400
 
 
 @dataclass(frozen=True)
@@ -298,12 +301,25 @@ def _cut(
     stack = [(0.0, 1.0)]
     while stack:
         low, high = stack.pop()
+        if len(parts) + len(stack) > MOST_PANELS:
+            raise too_many_panels()
         if high - low < _SHORTEST or fine(low, high):
             parts.append((low, high, -1 if low == 0.0 and first else 1 if high == 1.0 and last else 0))
         else:
             middle = 0.5 * (low + high)
             stack += [(middle, high), (low, middle)]
     return parts
+
+
+def too_many_panels() -> InputError:
+    """Return the error of a section that no reasonable number of panels resolves."""
+    return InputError(
+        f"the section in its water needs more than {MOST_PANELS} panels on one side",
+        path="structure.section",
+        allowed=f"at most {MOST_PANELS} panels",
+        remedy="its largest length is far beyond its smallest gap, edge or draught, or beyond the shortest wave: check "
+        "the units of beam, draught, points and periods",
+    )
 
 
 def _body_pieces(runs: Sequence[Run], around: Surroundings, resolution: Resolution) -> list[Piece]:
@@ -333,6 +349,8 @@ def _body_pieces(runs: Sequence[Run], around: Surroundings, resolution: Resoluti
                 if (grade < 0 and first) or (grade > 0 and last):
                     grade = 2 * grade  # the square root of a free edge
                 pieces.append(Piece(complex(a), complex(b - a), sweep * (high - low), grade, run.kind, run.body))
+            if len(pieces) > MOST_PANELS:
+                raise too_many_panels()
     return pieces
 
 
@@ -375,6 +393,8 @@ def _ray(
         pieces.append(Piece(x + s * RAY_DIRECTION, size * RAY_DIRECTION, 0.0, grade, RAY, -1))
         s += size
         size = min(resolution.growth * s, around.longest)
+        if len(pieces) > MOST_PANELS:
+            raise too_many_panels()
     return pieces
 
 
@@ -490,4 +510,6 @@ def lay_out(
     else:
         pieces = list(body.panels.pieces[: body.body_count // body.panels.order])
     surface = _surface_pieces(section, around, axis, band, resolution)
+    if len(pieces) + len(surface) > MOST_PANELS:
+        raise too_many_panels()
     return Layout(make_panels(pieces + surface, resolution.order), len(pieces) * resolution.order, axis)

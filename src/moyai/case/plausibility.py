@@ -1,0 +1,240 @@
+"""Hold every number of a case against its plausible range, alone and over other numbers of the case.
+
+The ranges stand in one table, ``tables/data/plausible_ranges.csv``. Single keys are judged first; a ratio one of whose
+keys was told of already says nothing more. What a default gives is not judged: only what stands in the file.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from moyai.case.faults import value_at
+from moyai.case.findings import Findings
+from moyai.case.plausible_sizes import derived_sizes
+from moyai.case.schema_types import Block
+from moyai.case.yaml_reader import Document, KeyPath
+from moyai.core.errors import InputError
+from moyai.core.quantities import parse_quantity
+from moyai.tables.plausible_ranges import Factor, PlausibleRange, plausible_ranges, range_sources
+
+#: Slips that are looked for where a number is out of its usual range: thousands, hundreds, millions
+_SLIPS = (1e-3, 1e3, 1e-2, 1e2, 1e-6, 1e6)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A number of a case.
+
+    Parameters
+    ----------
+    value : float
+        In the unit of plain numbers.
+    place : tuple or None
+        Its path in the file; ``None`` for a default and for what follows from other keys.
+    of : tuple of paths
+        Keys of the model that a derived number follows from.
+    """
+
+    value: float
+    place: KeyPath | None = None
+    of: tuple[KeyPath, ...] = ()
+
+
+def check_plausibility(model: Block, findings: Findings) -> None:
+    """Record what is impossible as a fault and what is unusual as a warning, with range and source."""
+    numbers = {path: Entry(value, place_of(path, findings.document)) for path, value in _numbers(model, ())}
+    kind = str(model.structure.kind)  # type: ignore[attr-defined]
+    for path, (value, of) in derived_sizes(model).items():
+        numbers[path] = Entry(value, None, of)
+    ends: dict[str | int, list[KeyPath]] = {}
+    for path in numbers:
+        last = next((step for step in reversed(path) if isinstance(step, str)), "")
+        ends.setdefault(last, []).append(path)
+    told: set[KeyPath] = set()
+    for row in plausible_ranges(kind):
+        last = row.factors[0].steps[-1]
+        for first in list(numbers) if last == "*" else ends.get(last, ()):
+            captured = _matched(first, row.factors[0].steps)
+            if captured is not None:
+                _judge(row, first, captured, numbers, told, findings)
+
+
+def place_of(path: KeyPath, document: Document) -> KeyPath | None:
+    """Return a path of the model as a path of the file, ``None`` where the file does not hold it.
+
+    A single block may stand for a list of one.
+    """
+    found: list[str | int] = []
+    for step in path:
+        if (*found, step) in document.values:
+            found.append(step)
+        elif not (isinstance(step, int) and step == 0 and tuple(found) in document.values):
+            return None
+    return tuple(found)
+
+
+def _numbers(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, float]]:
+    if isinstance(value, Block):
+        for name, field in type(value).model_fields.items():
+            yield from _numbers(getattr(value, name), (*path, field.alias or name))
+    elif isinstance(value, dict):
+        for name, item in value.items():
+            yield from _numbers(item, (*path, name))
+    elif isinstance(value, (tuple, list)):
+        for index, item in enumerate(value):
+            yield from _numbers(item, (*path, index))
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield path, float(value)
+
+
+def _matched(path: KeyPath, steps: tuple[str, ...]) -> tuple[str | int, ...] | None:
+    """Return what the stars of a pattern stand for in a path, ``None`` where it does not fit."""
+    if "**" in steps:
+        cut = steps.index("**")
+        head, tail = steps[:cut], steps[cut + 1 :]
+        if len(path) < len(head) + len(tail) or _matched(path[: len(head)], head) is None:
+            return None
+        return _matched(path[len(path) - len(tail) :], tail)
+    if len(path) != len(steps):
+        return None
+    captured: list[str | int] = []
+    for step, wanted in zip(path, steps):
+        if wanted == "*":
+            captured.append(step)
+        elif str(step) != wanted:
+            return None
+    return tuple(captured)
+
+
+def _path_of(factor: Factor, first: KeyPath, captured: tuple[str | int, ...]) -> KeyPath:
+    """Return the path of a further factor of a quantity whose first key was found."""
+    if factor.relative:
+        end = len(first)
+        while isinstance(first[end - 1], int):
+            end -= 1
+        return (*first[: end - 1], *factor.steps)
+    stars = iter(captured)
+    return tuple(next(stars) if step == "*" else step for step in factor.steps)
+
+
+def _judge(
+    row: PlausibleRange,
+    first: KeyPath,
+    captured: tuple[str | int, ...],
+    numbers: dict[KeyPath, Entry],
+    told: set[KeyPath],
+    findings: Findings,
+) -> None:
+    paths = [first, *(_path_of(factor, first, captured) for factor in row.factors[1:])]
+    entries = [numbers.get(path) for path in paths]
+    value = 1.0
+    for factor, path, entry in zip(row.factors, paths, entries):
+        if entry is None or not math.isfinite(entry.value) or entry.value == 0.0:
+            return
+        if any(path[: len(bad)] == bad or any(_overlap(bad, key) for key in entry.of) for bad in told):
+            return
+        try:
+            value *= abs(entry.value) ** factor.power
+        except OverflowError:
+            return
+    if row.usual[0] <= value <= row.usual[1]:
+        return
+    blamed = _blamed(paths, entries, findings.document)
+    if blamed is None:
+        return
+    told.add(blamed[0])
+    possible = row.possible[0] * (1.0 - 1e-9) <= value <= row.possible[1] * (1.0 + 1e-9)
+    number = f"{value:.3g}{' ' + row.unit if row.unit else ''}"
+    message = f"the {row.what} is {number}"
+    if len(paths) > 1 or first != blamed[0]:
+        message += f" ({_written(paths, entries, findings.document)})"
+    message += ", which is unusual" if possible else ", which is impossible"
+    power = next(factor.power for factor, path in zip(row.factors, paths) if path == blamed[0]) if blamed[2] else 0
+    record = findings.warn if possible else findings.fault
+    record(blamed[1], message, allowed=_allowed(row, possible), remedy=_remedy(row, value, power, blamed[1], findings))
+
+
+def _overlap(one: KeyPath, other: KeyPath) -> bool:
+    """Whether one of two paths leads through the other."""
+    shorter = min(len(one), len(other))
+    return one[:shorter] == other[:shorter]
+
+
+def _blamed(
+    paths: list[KeyPath], entries: list[Entry | None], document: Document
+) -> tuple[KeyPath, KeyPath, bool] | None:
+    """Return path in the model and place in the file of the number to tell of, and whether it is a factor itself."""
+    first = entries[0]
+    if first is None or (not first.of and first.place is None):
+        return None  # a default: nobody wrote it
+    if first.place is not None:
+        return paths[0], first.place, True
+    for entry in entries:
+        for path in entry.of if entry is not None else ():
+            place = place_of(path, document)
+            if place is not None:
+                return path, place, False
+    return None
+
+
+def _written(paths: list[KeyPath], entries: list[Entry | None], document: Document) -> str:
+    """Return the numbers of a ratio as the file writes them."""
+    said = []
+    for path, entry in zip(paths, entries):
+        if entry is not None and entry.of:
+            said.append(f"{str(path[-1]).removeprefix('@').replace('_', ' ')} {entry.value:.4g}")
+        for place in [entry.place] if entry and entry.place else [place_of(key, document) for key in entry.of]:  # type: ignore[union-attr]
+            if place is None:
+                continue
+            data = value_at(document.data, place)
+            if data is not None and not isinstance(data, (dict, list)):
+                name = ".".join(str(step) for step in place if isinstance(step, str))
+                said.append(f"{name} {data}")
+    return ", ".join(dict.fromkeys(said)) or "from other keys"
+
+
+def _between(limits: tuple[float, float], unit: str) -> str:
+    low, high = limits
+    end = f" {unit}" if unit else ""
+    if low <= 0.0:
+        return f"at most {high:.4g}{end}"
+    return f"at least {low:.4g}{end}" if math.isinf(high) else f"{low:.4g} to {high:.4g}{end}"
+
+
+def _allowed(row: PlausibleRange, possible: bool) -> str:
+    source = range_sources().get(row.source, row.source)
+    usual = f"usually {_between(row.usual, row.unit)}"
+    if possible:
+        return f"{usual} (source: {source})"
+    return f"{_between(row.possible, row.unit)}, {usual} (source: {source})"
+
+
+def _remedy(row: PlausibleRange, value: float, power: int, place: KeyPath, findings: Findings) -> str:
+    """Return what was probably meant: the same number in another unit."""
+    written: Any = value_at(findings.document.data, place)
+    unit, plain = "", isinstance(written, (int, float)) and not isinstance(written, bool)
+    if isinstance(written, str):
+        try:
+            quantity = parse_quantity(written)
+        except InputError:
+            return "check it"
+        number, unit = float(quantity.number), quantity.unit.symbol
+        plain = not unit
+    elif plain:
+        number = float(written)
+    else:
+        return "check it"
+    near = 0.1 * row.usual[0] <= value <= 10.0 * row.usual[1]
+    for slip in () if near else _SLIPS:
+        if power and row.usual[0] <= value * slip**power <= row.usual[1]:
+            meant = f"{number * slip:.6g}{' ' + unit if unit else ''}"
+            if plain and row.unit:
+                millimetres = f"'{number:g} mm'" if row.unit == "m" and slip == 1e-3 else ""
+                return (
+                    f"a number without unit counts in {row.unit}: give the unit; did you mean {millimetres or meant}?"
+                )
+            return f"check the number and its unit: {meant} would be usual"
+    return "check the number and its unit"
