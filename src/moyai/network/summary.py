@@ -67,6 +67,7 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
         coords["solid"] = solids
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
+    made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
     return made
 
 
