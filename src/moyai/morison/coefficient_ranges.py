@@ -43,12 +43,13 @@ class MeasuredRange:
 
 _ALL = (0.0, math.inf)
 _SARPKAYA = "spread of oscillatory-flow and sea measurements, Sarpkaya and Isaacson (1981), chapter 3"
+_LAMINAR = "Sarpkaya (1986), oscillating flow at small KC"
 
 #: Drag by the name of its law; measured drag of circles in waves scatters by about a quarter
 DRAG_RANGES: dict[str, MeasuredRange] = {
     "dnv_c205": MeasuredRange("drag of DNV-RP-C205", _ALL, (1e6, math.inf), 0.25, 0.25, _SARPKAYA),
     "api": MeasuredRange("drag of API RP 2A", (30.0, math.inf), (1e6, math.inf), 0.25, 0.25, "API RP 2A, 2.3.1b7"),
-    "stokes_wang": MeasuredRange("laminar drag of Stokes and Wang", (0.0, 2.0), (0.0, 1e4), 0.10, 0.60, "Sarpkaya (1986)"),
+    "stokes_wang": MeasuredRange("laminar drag of Stokes and Wang", (0.0, 2.0), (0.0, 1e4), 0.10, 0.60, _LAMINAR),
     "steady": MeasuredRange("drag of steady flow", (20.0, math.inf), _ALL, 0.20, 0.50, _SARPKAYA),
 }  # fmt: skip
 #: Inertia by the name of its law: vortices take up to a fifth or more of the ideal coefficient, hardly anything adds
@@ -56,7 +57,7 @@ INERTIA_RANGES: dict[str, MeasuredRange] = {
     "ideal": MeasuredRange("inertia of ideal fluid", (0.0, 5.0), _ALL, 0.20, 0.05, _SARPKAYA),
     "dnv_c205": MeasuredRange("inertia of DNV-RP-C205", _ALL, (1e6, math.inf), 0.15, 0.15, _SARPKAYA),
     "api": MeasuredRange("inertia of API RP 2A", (30.0, math.inf), (1e6, math.inf), 0.20, 0.25, "API RP 2A, 2.3.1b7"),
-    "stokes_wang": MeasuredRange("laminar inertia of Stokes and Wang", (0.0, 2.0), (0.0, 1e4), 0.20, 0.05, "Sarpkaya (1986)"),
+    "stokes_wang": MeasuredRange("laminar inertia of Stokes and Wang", (0.0, 2.0), (0.0, 1e4), 0.20, 0.05, _LAMINAR),
 }  # fmt: skip
 #: Circulation of orbital flow: gamma of 0.936 to 1.036 in three series of measurements, KC up to 2
 CIRCULATION = MeasuredRange("circulation of orbital flow", (0.0, 2.0), _ALL, 0.10, 0.10, "Arai; Otsuka; Chaplin")

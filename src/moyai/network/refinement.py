@@ -24,8 +24,8 @@ from moyai.flexible.simulate import simulate
 from moyai.flexible.snap import SnapRecord
 from moyai.network.assembly import Assembly
 
-#: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The explicit
-#: scheme does some ten million a second; a step of the implicit schemes costs about thirty times as much.
+#: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The
+#: explicit scheme does some ten million a second; a step of the implicit schemes costs about thirty times as much.
 WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 2e9, 30.0
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
