@@ -131,13 +131,13 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
 
 def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
     if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
-        keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity")
+        keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped")
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            low, high = band_of(PeakSensitivity(*values, step=math.nan))
-            words = "mesh and step: half the step, twice the segments, and the change of the mesh continued"
+            low, high = band_of(PeakSensitivity(*values[:5], math.nan, values[5]))
+            words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
             band = Band(min(low, peak.value), max(high, peak.value), words)
-            viscous = [value for value in values[3:] if math.isfinite(value)]
+            viscous = [value for value in values[3:5] if math.isfinite(value)]
             said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
             return band, [said]
     why = str(summary.attrs.get(f"doubt {peak.run}", ""))

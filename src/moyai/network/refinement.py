@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,8 @@ from moyai.network.assembly import Assembly
 #: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The
 #: explicit scheme does some ten million a second; a step of the implicit schemes costs about thirty times as much.
 WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 2e9, 30.0
+#: Part of the critical damping of one bar that calms fronts on the mesh, and bars of the line that they then need.
+DAMPING, DAMPED_BARS = 0.3, 32
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
 _FRONTS = ("wave-front", "landing-front")
@@ -62,7 +65,7 @@ def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord],
 def affordable(history: History, doubtful: bool) -> bool:
     """Whether half the step and twice the bars can be run as well."""
     network = history.network
-    work = 6.0 * len(network.bars) * history.steps * (1.0 if history.method == "explicit" else IMPLICIT)
+    work = 10.0 * len(network.bars) * history.steps * (1.0 if history.method == "explicit" else IMPLICIT)
     return work <= (DOUBTFUL_WORK if doubtful else WORK)
 
 
@@ -120,19 +123,30 @@ def check_peak(
     try:
         finer, state = refined(history.network, 2, begin)
         shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
-        mesh = again(finer, state, np.concatenate([2 * bars, 2 * bars + 1]), **shorter)
+        kept = np.concatenate([2 * bars, 2 * bars + 1])
+        mesh = again(finer, state, kept, **shorter)
         exact = options.get("safety") == 1.0
         step = peak if exact else again(history.network, begin, bars, step=0.5 * history.step)
+        damped = math.nan
+        if not exact and damped_bars(finer) is not finer:
+            factor = 2
+            while factor * bars.size < DAMPED_BARS:
+                factor *= 2
+            calm, state = refined(history.network, factor, begin)
+            kept = np.concatenate([factor * bars + part for part in range(factor)])
+            shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
+            damped = again(damped_bars(calm), state, kept, **shorter)
     except (ConvergenceError, InputError):
         return None
-    return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step)
+    return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped)
 
 
 def change_of(found: PeakSensitivity) -> float:
-    """Return the larger relative change of the peak with half the step or twice the bars."""
+    """Return the largest relative change of the peak with half the step, twice the bars, and bars that are damped."""
     if found.peak == 0.0:
         return 0.0
-    return max(abs(found.half_step / found.peak - 1.0), abs(found.double_mesh / found.peak - 1.0))
+    others = [value for value in (found.half_step, found.double_mesh, found.damped) if math.isfinite(value)]
+    return max(abs(value / found.peak - 1.0) for value in others)
 
 
 def band_of(found: PeakSensitivity) -> tuple[float, float]:
@@ -141,25 +155,44 @@ def band_of(found: PeakSensitivity) -> tuple[float, float]:
     The last one continues the change of the mesh as that of a method of first order, which snaps and fronts are at
     best: twice the bars take half of the error.
     """
-    ends = (found.peak, found.half_step, found.double_mesh, max(2.0 * found.double_mesh - found.peak, 0.0))
+    ends = [found.peak, found.half_step, found.double_mesh, max(2.0 * found.double_mesh - found.peak, 0.0)]
+    if math.isfinite(found.damped):
+        ends.append(found.damped)
     return min(ends), max(ends)
+
+
+def damped_bars(network: Network) -> Network:
+    """Return a network whose bars have three tenths of critical damping at least; itself where they have half of it.
+
+    That is 0.3 l sqrt(EA m) of the longest bar of each type, less on a finer mesh: another mesh, not another line.
+    """
+    bars, types = network.bars, []
+    for number, kind in enumerate(network.bars.types):
+        longest = float(np.max(bars.length[bars.kind == number], initial=0.0))
+        least = DAMPING * longest * kind.impedance
+        types.append(replace(kind, viscosity=least) if kind.viscosity < 0.5 * least else kind)
+    if all(new is old for new, old in zip(types, bars.types, strict=True)):
+        return network
+    return replace(network, bars=replace(bars, types=tuple(types)))
 
 
 def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segments: int) -> str:
     """Return why the peak of a run is not converged and what helps, empty where it is."""
     if not change_of(found) > goal:
         return ""
-    by_mesh = abs(found.double_mesh - found.peak) >= abs(found.half_step - found.peak)
-    half, mesh = (spoken(value, "N", like=found.peak) for value in (found.half_step, found.double_mesh))
+    by_mesh = max(abs(found.double_mesh - found.peak), abs(np.nan_to_num(found.damped, nan=found.peak) - found.peak))
+    by_step = abs(found.half_step - found.peak)
+    half, mesh, calm = (spoken(v, "N", like=found.peak) for v in (found.half_step, found.double_mesh, found.damped))
+    damped = f", {calm} where bars are damped as well" if math.isfinite(found.damped) else ""
     remedy = (
         f"at least {4 * segments} segments, an internal damping of a tenth of critical or more "
         "(damping_ratio: 0.1), or a line that does not go slack"
-        if by_mesh
+        if by_mesh >= by_step
         else "a shorter settings.step, or the internal damping that the line has"
     )
     return (
-        f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the segments and {half} with half the "
-        f"step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
+        f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the segments{damped} and {half} "
+        f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
         f"{' (' + why + ')' if why else ''}; {remedy}"
     )
 

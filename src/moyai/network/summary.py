@@ -57,7 +57,7 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
     if known:
         for key in (
             "peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "discretisation_error",
-            "viscosity_effect",
+            "viscosity_effect", "damped",
         ):  # fmt: skip
             label = "sensitivity_peak" if key == "peak" else key
             values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]

@@ -53,6 +53,7 @@ def compose(result: Result) -> Document:
             at_each_level(
                 lambda level: [
                     figures.drag_figure(level),
+                    tables.law_table(level),
                     tables.current_table(level),
                     tables.split_table(level),
                     tables.lines_table(level),
