@@ -11,6 +11,7 @@ import numpy as np
 
 from moyai.cage.flexible_build import build_cage
 from moyai.cage.flexible_checks import problem_notices, rest_checks, rest_notices, run_checks, run_notices
+from moyai.cage.flexible_laws import laws_dataset
 from moyai.cage.flexible_model import FlexibleCage
 from moyai.cage.flexible_problem import FlexibleCageProblem
 from moyai.cage.flexible_rest import CageRest, solve_rest
@@ -18,13 +19,13 @@ from moyai.cage.flexible_sensitivity import sensitivity_dataset
 from moyai.cage.flexible_statics import cage_dataset, statics_dataset
 from moyai.cage.flexible_time import run_cage, time_dataset
 from moyai.cage.flexible_wake import ScaledCurrent
+from moyai.cage.headlines import flexible_headlines
 from moyai.cage.rigid_model import RegularWaves
-from moyai.cage.rigid_waves import COMPONENTS, Wave, regular_wave
+from moyai.cage.rigid_waves import Wave, regular_wave, sea_components
 from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.flexible.flow import Current
-from moyai.sea.irregular import synthesise
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 
@@ -80,10 +81,7 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
-    parts = synthesise(
-        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
-        method="equal_energy", count=COMPONENTS, current=(float(mean[0]), float(mean[1])),
-    )  # fmt: skip
+    parts = sea_components(sea, water, (float(mean[0]), float(mean[1])))
     number = float(np.interp(2.0 * math.pi / period, np.sort(parts.omega), parts.wave_number[np.argsort(parts.omega)]))
     height = float(sea.spectrum.significant_height)
     return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
@@ -123,6 +121,9 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             collected.notices.extend(rest_notices(name, model, statics))
             close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
             rest = close[0] if close else None
+            if rest is not None and speed > 0.0:
+                collected.groups[f"{root}/laws"] = laws_dataset(model, rest, rests[0], speed, heading, progress)
+                yield
         if problem.seas and {"time", "sensitivity"} & set(problem.settings.analyses):
             rest = rest or solve_rest(model, built, profile)
             for sea in problem.seas:
@@ -177,5 +178,6 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
     return collected.close(
         attributes,
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        headlines=flexible_headlines(problem, collected.groups),
         criteria=problem.criteria,
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.morison.net_law_choice import METAL, choice_notice, law_choice
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -149,6 +150,9 @@ def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
             speeds.append(math.pi * float(sea.spectrum.significant_height) / float(sea.spectrum.peak_period))
     moving = [speed for speed in speeds if speed > 1e-3] or [0.1]
     notices = list(net.law.check(net.net, (min(moving), max(moving)), model.kinematic_viscosity))
+    design = design_speed(problem)
+    choice = law_choice(net.law, net.net, design, model.kinematic_viscosity, metal=net.density > METAL)
+    notices.append(choice_notice(choice, net.net))
     if model.mesh.around < 16 or model.mesh.down < 4:
         notices.append(
             Notice(
@@ -161,6 +165,26 @@ def problem_notices(problem: FlexibleCageProblem) -> tuple[Notice, ...]:
             )
         )
     return tuple(notices)
+
+
+def design_speed(problem: FlexibleCageProblem) -> float:
+    """Return the speed at which the laws of nets are compared: that of the current of the site at the surface, else
+    of the water in the largest wave [m/s].
+    """
+    from moyai.cage.rigid_model import RegularWaves
+
+    current = problem.environment.current
+    if current is not None:
+        speed = float(np.hypot(*np.asarray(current.velocity(np.zeros(1)))[0]))
+        if speed > 0.0:
+            return speed
+    speeds = [0.1]
+    for sea in problem.seas:
+        if isinstance(sea, RegularWaves):
+            speeds.extend(math.pi * height / period for height, period in sea.waves())
+        else:
+            speeds.append(math.pi * float(sea.spectrum.significant_height) / float(sea.spectrum.peak_period))
+    return max(speeds)
 
 
 def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
@@ -212,7 +236,7 @@ def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset) -> tuple[
         notices.append(
             Notice(
                 "cage-line-breaks", f"{level}: the tension of {line!r} exceeds its breaking load",
-                float(statics["utilisation"].max()), 1.0, "error", "take a stronger rope or a looser grid",
+                float(statics["utilisation"].max()), 1.0, "warning", "take a stronger rope or a looser grid",
             )
         )  # fmt: skip
     place = statics["collar_place"].values[..., 2]
@@ -256,7 +280,7 @@ def run_notices(sea: str, run: CageRun, settings: FlexibleSettings) -> tuple[Not
                     "cage-line-breaks",
                     f"{sea}, {run.wave.name}: {part.name!r} reaches {highest:.4g} N, its breaking load is "
                     f"{part.breaking_load:.4g} N",
-                    highest, part.breaking_load, "error", "take a stronger rope or a looser grid",
+                    highest, part.breaking_load, "warning", "take a stronger rope or a looser grid",
                 )
             )  # fmt: skip
     return tuple(notices[:3])

@@ -162,7 +162,8 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
             attrs={
                 "wave": run.wave.name, "wave_height": run.wave.height, "period": run.wave.period,
                 "wavelength": run.wave.wavelength, "ramp": run.ramp, "step": history.step, "steps": history.steps,
-                "status": history.status, "regular": int(run.wave.regular), **wave_attributes(run.wave),
+                "status": history.status, "regular": int(run.wave.regular),
+                "realised_height": 4.0 * float(surface[steady].std()), **wave_attributes(run.wave),
             },
         )
     )  # fmt: skip

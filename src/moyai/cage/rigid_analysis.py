@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.cage.headlines import rigid_headlines
 from moyai.cage.rigid_checks import (
     cage_notices,
     level_notices,
@@ -17,6 +18,7 @@ from moyai.cage.rigid_checks import (
     run_notices,
 )
 from moyai.cage.rigid_datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
+from moyai.cage.rigid_laws import laws_dataset
 from moyai.cage.rigid_lines import CageLine
 from moyai.cage.rigid_model import CageSea, RegularWaves, RigidCageProblem
 from moyai.cage.rigid_modes import natural_modes
@@ -104,7 +106,38 @@ def _steps(
                 yield from _sea_steps(problem, here, rest, water, sea, collected, root, progress)
             if "sensitivity" in problem.settings.analyses and here:
                 yield from _sensitivity_steps(problem, here, water, sea, collected, root, progress)
+        if here and "time" in problem.settings.analyses and problem.equations == "sound":
+            yield from _law_steps(problem, here, rest, water, collected, root, progress)
     progress("water levels", len(levels), len(levels))
+
+
+def _law_steps(
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    rest: Rest,
+    water: Water,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    """Run the wave of the highest tension under every law of nets that is valid for this net."""
+    best: tuple[float, CageSea, int] | None = None
+    for sea in problem.seas:
+        known = collected.groups.get(f"{root}/waves/{sea.name}")
+        if known is None or not known["peak_tension"].size:
+            continue
+        peaks = known["peak_tension"].values.reshape(known.sizes["wave"], -1).max(axis=1)
+        if best is None or float(peaks.max()) > best[0]:
+            best = (float(peaks.max()), sea, int(np.argmax(peaks)))
+    if best is None:
+        return
+    peak, sea, number = best
+    wave = waves_of(problem, sea, water)[number]
+    found, notice = laws_dataset(problem, lines, rest, water, wave, peak, progress)
+    found.attrs["sea"] = sea.name
+    collected.groups[f"{root}/laws"] = found
+    collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
+    yield
 
 
 def _sea_steps(
@@ -187,6 +220,7 @@ def _result(problem: RigidCageProblem, collected: Collected) -> Result:
     return collected.close(
         attributes,
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        headlines=rigid_headlines(collected.groups),
         criteria=problem.criteria,
     )
 

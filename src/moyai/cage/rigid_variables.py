@@ -76,6 +76,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "roll": ("rad", "rotation from rest, positive with the top towards +x"),
     "tension": ("N", "tension of the line at either end"),
     "tension_peak": ("N", "largest tension around the row, at the cage"),
+    "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
+    "law_peak_tension": ("N", "largest tension of all lines in the wave of the highest tension"),
     "varied_stiffness": ("N/m", "stiffness of the lines"),
 }
 

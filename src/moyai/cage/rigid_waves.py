@@ -12,6 +12,7 @@ from moyai.core.errors import InputError
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
+from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 
 #: Components of equal energy that stand for an irregular sea; it never repeats itself
@@ -70,19 +71,29 @@ def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wav
             for height, period in sea.waves()
         )
     period = float(sea.spectrum.peak_period)
-    parts = synthesise(
-        sea.spectrum,
-        water,
-        duration=sea.duration,
-        seed=sea.seed,
-        heading=sea.heading,
-        method="equal_energy",
-        count=COMPONENTS,
-        current=(flow, 0.0),
-    )
+    parts = sea_components(sea, water, (flow, 0.0))
     number = float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, flow * sense))
     height = float(sea.spectrum.significant_height)
     return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
+
+
+def sea_components(sea: IrregularSea, water: Water, current: tuple[float, float]) -> WaveComponents:
+    """Return the components of an irregular sea on a current.
+
+    A sea of whole multiples of its lowest frequency has its significant height over its duration exactly; where that
+    would take more than twice ``COMPONENTS``, that many of equal energy, whose height over the duration is a chance
+    [eq:sea-equal-energy].
+    """
+    parts = synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        current=current,
+    )  # fmt: skip
+    if parts.omega.size <= 2 * COMPONENTS:
+        return parts
+    return synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        method="equal_energy", count=COMPONENTS, current=current,
+    )  # fmt: skip
 
 
 def regular_wave(

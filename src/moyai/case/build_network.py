@@ -89,7 +89,8 @@ def _settings(case: NetworkCase, folder: Path) -> model.Settings:
         analyses=case.analyses, duration=given.duration, output_step=given.output_step, ramp=given.ramp,
         start=given.start, resume=None if given.resume is None else folder / given.resume, method=given.method,
         step=given.step, wave_front=given.wave_front, tolerance=given.tolerance, stretching=given.stretching,
-        skip=given.skip, sensitivity=given.sensitivity, slack_level=given.slack_level,
+        skip=given.skip, sensitivity=given.sensitivity, mesh_check=given.mesh_check, peak_goal=given.peak_goal,
+        slack_level=given.slack_level,
         snap_threshold=given.snap_threshold, modes=given.modes, stiffness_step=given.stiffness_step,
     )  # fmt: skip
 

@@ -59,5 +59,7 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
         findings.raised(error, ("structure",))
         return
     for notice in problem_notices(problem):
+        if notice.severity == "information":
+            continue
         where = ("structure", "mesh") if notice.code == "cage-mesh" else ("structure", "net", "law")
         findings.warn(where, notice.message, remedy=notice.remedy)

@@ -171,6 +171,16 @@ class NetworkSettings(Block):
         description="Run again with half the step, half the bars, half and twice the viscosity, to tell what the peak "
         "is worth.",
     )
+    mesh_check: Literal["auto", "off"] = Field(
+        default="auto",
+        description="auto: run again with half the step and with twice the segments where that takes little time, or "
+        "where snaps, fronts or few segments make the peak doubtful; off: do not.",
+    )
+    peak_goal: Tolerance = Field(
+        default=0.05,
+        description="Change of the highest tension with half the step or twice the segments above which a run is not "
+        "converged. Default: 0.05.",
+    )
     slack_level: Slack = Field(default=0.0, description="Tension at or below which a line is slack. Default: 0.")
     snap_threshold: PositiveForce | None = Field(
         default=None, description="Peak above which a contact is a snap; the mean of the taut tension when left out."

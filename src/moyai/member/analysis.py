@@ -15,6 +15,7 @@ from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.member.checks import member_notices, require_in_water, wave_notices
 from moyai.member.datasets import member_dataset, sea_dataset, time_dataset
+from moyai.member.headlines import headlines_of, range_notices
 from moyai.member.march import WaveForces, march
 from moyai.member.model import MemberProblem, RegularWaves
 from moyai.member.surface import can_be_evaluated, relative_heading, surface_effect, surface_notices
@@ -219,9 +220,11 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
         "purpose": problem.circulation.purpose,
     }
+    collected.notices.extend(range_notices(problem, collected.groups))
     return collected.close(
         attributes,
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        headlines=headlines_of(problem, collected.groups),
         criteria=problem.criteria,
     )
 

@@ -41,6 +41,10 @@ class NetLaw(ABC):
         What is done outside the range of Reynolds numbers.
     skin : str
         What is left when the solidity goes to zero, or the flow is parallel to the panel.
+    basis : str
+        What it was fitted to: ``nets`` (panels of fibre net of several solidities), ``one net``, ``wire nets`` (metal),
+        ``round twines`` (a cylinder in the faster flow between the twines, of any material),
+        ``single twine`` (a cylinder alone, without the faster flow between the twines of a net).
     confirmed : bool
         Whether formula and numbers were read in the source itself; otherwise in the works that use it.
     """
@@ -53,6 +57,7 @@ class NetLaw(ABC):
     reynolds_name: ClassVar[str] = "Re = U d / nu"
     outside: ClassVar[str] = "the coefficients do not depend on Re"
     skin: ClassVar[str]
+    basis: ClassVar[str] = "nets"
     confirmed: ClassVar[bool] = False
 
     @abstractmethod

@@ -22,6 +22,7 @@ from moyai.network.bodies import CoupledRest, drawn_parts, rest_of
 from moyai.network.coefficients import loads_on_time, with_coefficients
 from moyai.network.dynamics import Run
 from moyai.network.dynamics import run as run_through_time
+from moyai.network.headlines import headlines_of
 from moyai.network.model import NetworkProblem
 from moyai.network.rest import (
     bodies_at_rest,
@@ -352,6 +353,8 @@ def _dynamic(
         collected.notices.extend(item.notices)
         if item.history.status == "not_converged":
             collected.failures.append(f"{said}{plan.name}: {item.history.message}")
+        if item.failure:
+            collected.failures.append(f"{said}{plan.name}: {item.failure}")
         if item.history.status == "interrupted":
             collected.interrupted = f"{said}{plan.name}: {item.history.message}"
             raise KeyboardInterrupt
@@ -372,6 +375,7 @@ def _result(problem: NetworkProblem, collected: Collected) -> Result:
     return collected.close(
         attributes,
         [sea.seed for sea in problem.environment.sea_states if hasattr(sea, "seed")],
+        headlines=headlines_of(problem, collected.groups),
         criteria=problem.criteria,
     )
 

@@ -18,6 +18,7 @@ from moyai.flexible.snap import SnapRecord
 from moyai.network.assembly import Assembly
 from moyai.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
 from moyai.network.model import NetworkProblem
+from moyai.network.refinement import affordable, check_peak, doubt, not_converged, unchecked
 from moyai.network.resume import Earlier, joined, last_good_state, with_ends
 from moyai.network.run_notices import capsized, peak_inside, run_notices
 from moyai.network.runs import RunPlan, motions_of
@@ -44,6 +45,10 @@ class Run:
     governing : str
         That line.
     notices, checks : tuple
+    doubt : str
+        Why the peak may hang on mesh and step; empty where nothing says so.
+    failure : str
+        Why the peak is not converged; empty where it is, or was not checked.
     """
 
     plan: RunPlan
@@ -55,6 +60,8 @@ class Run:
     governing: str
     notices: tuple[Notice, ...]
     checks: tuple[IdentityCheck, ...]
+    doubt: str = ""
+    failure: str = ""
 
 
 def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
@@ -133,28 +140,66 @@ def run(
     notices += peak_inside(assembly, series, governing, worst)
     if coupled is not None:
         notices += capsized(series)
-    sensitivity = None
-    if problem.settings.sensitivity and history.status == "converged" and worst >= 0:
-        if earlier is not None:
-            notices.append(
-                Notice("sensitivity-left-out", "what the peak is worth was not found: the run goes on from an earlier "
-                       "one", severity="information", remedy="run it from its start with settings.sensitivity")
-            )  # fmt: skip
-        else:
-            try:
-                sensitivity = _sensitivity(problem, assembly, plan, (begin, hung), (history, coupled), worst, told)
-                notices += list(sensitivity.notices())
-            except (ConvergenceError, InputError) as error:
-                notices.append(Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy))
-            except KeyboardInterrupt:
-                message = "interrupted while it was found what its peak is worth; the run itself is complete"
-                history = replace(history, status="interrupted", message=message)
+    why = doubt(assembly, history, snaps, governing)
+    sensitivity, told_of_peak, history = _worth(
+        problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, told
+    )
+    notices += told_of_peak
+    failure = ""
+    if sensitivity is not None:
+        strand = assembly.lines.get(governing)
+        segments = 0 if strand is None else strand.bars.size
+        failure = not_converged(sensitivity, problem.settings.peak_goal, governing, why, segments)
     prefix = f"{plan.name}: "
     return Run(
         plan, history, series, frames, snaps, sensitivity, governing,
         tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
-        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks),
+        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure,
     )  # fmt: skip
+
+
+def _worth(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    plan: RunPlan,
+    starts: tuple[State, CoupledRest | None],
+    made: tuple[History, CoupledRun | None],
+    peak: tuple[str, int, str],
+    earlier: Earlier | None,
+    told: Progress,
+) -> tuple[PeakSensitivity | None, list[Notice], History]:
+    """Find what the peak of a run is worth: as asked for, or as far as it costs little.
+
+    ``peak`` is the line, its bar and why the peak is doubtful. Returns what was found, what is to be told, and the
+    history, marked where the user ended this part.
+    """
+    (governing, worst, why), (history, coupled) = peak, made
+    if history.status != "converged" or worst < 0:
+        return None, [], history
+    asked = problem.settings.sensitivity
+    if earlier is not None:
+        if not asked:
+            return None, [], history
+        return None, [
+            Notice("sensitivity-left-out", "what the peak is worth was not found: the run goes on from an earlier one",
+                   severity="information", remedy="run it from its start with settings.sensitivity")
+        ], history  # fmt: skip
+    try:
+        if asked:
+            found = _sensitivity(problem, assembly, plan, starts, made, worst, told)
+            return found, list(found.notices()), history
+        if problem.settings.mesh_check == "off" or coupled is not None or not affordable(history, bool(why)):
+            return None, [unchecked(why)] if why else [], history
+        motions = motions_of(problem, plan.duration)
+        checked = check_peak(
+            assembly, history, motions, governing, starts[0], problem.settings.skip, options_of(problem, plan), told
+        )
+        return checked, [unchecked(why)] if checked is None and why else [], history
+    except (ConvergenceError, InputError) as error:
+        return None, [Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy)], history
+    except KeyboardInterrupt:
+        message = "interrupted while it was found what its peak is worth; the run itself is complete"
+        return None, [], replace(history, status="interrupted", message=message)
 
 
 def sound_rows(history: History) -> History:

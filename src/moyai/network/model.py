@@ -261,6 +261,8 @@ class Settings:
     stretching: Stretching = "wheeler"
     skip: float = 0.0
     sensitivity: bool = False
+    mesh_check: Literal["auto", "off"] = "auto"
+    peak_goal: float = 0.05
     slack_level: float = 0.0
     snap_threshold: float | None = None
     modes: int = 6

@@ -57,7 +57,7 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
     if known:
         for key in (
             "peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "discretisation_error",
-            "viscosity_effect",
+            "viscosity_effect", "damped",
         ):  # fmt: skip
             label = "sensitivity_peak" if key == "peak" else key
             values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]
@@ -67,6 +67,7 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
         coords["solid"] = solids
     made = labelled(xr.Dataset(out, coords=coords))
     made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
+    made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
     return made
 
 

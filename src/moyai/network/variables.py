@@ -76,6 +76,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "double_mesh": ("N", "peak with every bar cut in two"),
     "half_viscosity": ("N", "peak with half the viscosity"),
     "double_viscosity": ("N", "peak with twice the viscosity"),
+    "damped": ("N", "peak on a finer mesh of damped bars"),
     "discretisation_error": ("1", "relative change of the peak with step and mesh together"),
     "viscosity_effect": ("1", "largest relative change of the peak with the viscosity"),
     "load_peak": ("N", "highest pull on the point"),

@@ -12,6 +12,17 @@ from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.reading import Group, common_scale
 
 
+def design_mark(level: Level, panel: int = 0) -> tuple[Mark, ...]:
+    """Return the mark of the current of the site, the design point of a sweep of currents."""
+    speed = float(level.group.attributes.get("current", 0.0))
+    return (Mark("current of the site", x=speed, panel=panel),) if speed > 0.0 else ()
+
+
+def design_row(level: Level, speed: np.ndarray) -> int:
+    """Return the row of the current of the site in a sweep."""
+    return int(np.argmin(np.abs(speed - float(level.group.attributes.get("current", 0.0)))))
+
+
 def volume_figure(level: Level) -> Figure | None:
     """Return the remaining volume and the lift of the bottom over the current."""
     statics = level.part("statics")
@@ -35,7 +46,9 @@ def volume_figure(level: Level) -> Figure | None:
         (Abscissa("speed", "current at the surface", "m/s"),),
         (Panel("remaining volume", "%", from_zero=True), Panel("lift of the deepest knot", unit)),
         tuple(series),
-        "Volume inside the net over that as built; the lift is counted from still water.",
+        "Volume inside the net over that as built; the lift is counted from still water. The summary holds the numbers "
+        "at the current of the site.",
+        marks=design_mark(level),
         height=430,
     )
 
@@ -70,12 +83,13 @@ def drag_figure(level: Level) -> Figure | None:
         (Panel("drag along the current", unit, from_zero=True), Panel("over U², first = 1", "", from_zero=True)),
         tuple(series),
         "A net that gives way bears less than the square of the speed would.",
+        marks=design_mark(level),
         height=480,
     )
 
 
 def collar_figure(level: Level) -> Figure | None:
-    """Return stress, bending and axial force around the collar's ring in the fastest current that was run."""
+    """Return stress, bending and axial force around the collar's ring in the current of the site."""
     statics = level.part("statics")
     stress = statics.array("collar_stress", "current", "cage", "ring", "around")
     parts = [
@@ -85,8 +99,8 @@ def collar_figure(level: Level) -> Figure | None:
     speed = statics.real("current_speed", "current")
     if stress is None or speed is None or any(part is None for part in parts):
         return None
-    worst = np.unravel_index(int(np.argmax(stress)), stress.shape)
-    row, cage = int(worst[0]), int(worst[1])
+    row = design_row(level, speed)
+    cage = int(np.unravel_index(int(np.argmax(stress[row])), stress[row].shape)[0])
     around = np.arange(stress.shape[3] + 1) * 360.0 / stress.shape[3]
     x = {"angle": around}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from moyai.report.cage_flexible_figures import design_row
 from moyai.report.cage_rigid_reading import Level, key
 from moyai.report.cage_rigid_tables import _listing as listing
 from moyai.report.cage_rigid_tables import _row as row
@@ -68,6 +69,29 @@ def current_table(level: Level) -> Table | None:
     )  # fmt: skip
 
 
+def law_table(level: Level) -> Table | None:
+    """Return the design state under every law that was measured on nets like this one."""
+    laws = level.part("laws")
+    names = laws.labels("law")
+    if len(names) < 2:
+        return None
+    columns = [Column("Law", list(names))]
+    for name, label, factor, unit in (
+        ("normal_drag_coefficient", "C_D, normal flow", 1.0, ""), ("law_volume_share", "volume left", 100.0, "%"),
+        ("law_drag", "drag", 1.0, "N"), ("law_tension", "largest tension", 1.0, "N"),
+        ("law_offset", "offset", 1.0, "m"), ("law_anchor_pull", "largest anchor pull", 1.0, "N"),
+    ):  # fmt: skip
+        values = laws.real(name, "law")
+        if values is not None and np.isfinite(values).any():
+            columns.append(Column(label, list(factor * values), unit))
+    return Table(
+        key(level, "laws"), "The current of the site under each valid law of nets", in_one_unit(columns),
+        note=f"At {float(laws.attributes.get('speed', 0.0)):.3g} m/s, twine Reynolds number "
+        f"{float(laws.attributes.get('reynolds', 0.0)):.3g}; the first law is that of the case. Laws outside their "
+        "range, of one net or of single twines are left out.",
+    )  # fmt: skip
+
+
 def split_table(level: Level) -> Table | None:
     """Return the drag split in every current."""
     statics = level.part("statics")
@@ -90,7 +114,7 @@ def split_table(level: Level) -> Table | None:
 
 
 def lines_table(level: Level) -> Table | None:
-    """Return the tensions of every line in the slowest and the fastest current."""
+    """Return the tensions of every line in still water and in the current of the site."""
     statics = level.part("statics")
     names, speed = statics.labels("line"), statics.real("current_speed", "current")
     lower, upper = (statics.array(f"tension_{end}", "current", "line") for end in ("lower", "upper"))
@@ -98,11 +122,12 @@ def lines_table(level: Level) -> Table | None:
     if not names or speed is None or lower is None or upper is None or used is None:
         return None
     columns = [Column("Line", list(names))]
-    for k in sorted({0, len(speed) - 1}):
+    design = design_row(level, speed)
+    for k in sorted({0, design}):
         columns.append(Column(f"lower end, {speed[k]:.3g} m/s", list(lower[k]), "N"))
         columns.append(Column(f"upper end, {speed[k]:.3g} m/s", list(upper[k]), "N"))
-    columns.append(Column("of its breaking load", list(100.0 * used.max(axis=0)), "%"))
-    worst = int(np.argmax(used.max(axis=0)))
+    columns.append(Column("of its breaking load", list(100.0 * used[design]), "%"))
+    worst = int(np.argmax(used[design]))
     return Table(
         key(level, "lines"), "Lines, bridles and frame at rest", in_one_unit(columns), emphasised=(worst,),
         note="Breaking load: of new rope, without a safety factor.", collapsed=len(names) > 40,

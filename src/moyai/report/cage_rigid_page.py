@@ -13,9 +13,10 @@ from moyai.report import cage_rigid_tables as tables
 from moyai.report.cage_rigid_drawing import elevation_drawing, orbit_drawing
 from moyai.report.cage_rigid_reading import Level, Record, levels_of, read_record
 from moyai.report.cage_rigid_time import run_blocks
-from moyai.report.document import Block, Choice, Document, KeyFigure, KeyFigures, Option, Paragraph, Section
-from moyai.report.formatting import format_number, format_quantity
+from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group
 
 MOST_RUNS = 12
@@ -51,7 +52,7 @@ def compose(result: Result) -> Document:
 
     literal = str(root.attributes.get("equations", "")) == "literal"
     sections = [
-        Section("summary", "Summary", (*_summary(levels, literal), *notice_blocks(result))),
+        Section("summary", "Summary", (*_summary(result, literal), *notice_blocks(result))),
         Section("cage", "Cage and mooring", at_each_level(_cage)),
         Section("motions", "Motions", at_each_level(_motions)),
         Section("tensions", "Line tensions", at_each_level(_tensions)),
@@ -81,78 +82,12 @@ def _subtitle(levels: tuple[Level, ...], literal: bool) -> str:
     return ", ".join(parts)
 
 
-def _summary(levels: tuple[Level, ...], literal: bool) -> tuple[Block, ...]:
-    items: list[KeyFigure] = []
-    items += _largest(levels, "peak_tension", "largest line tension")
-    items += _governing_motions(levels)
-    for level in levels[:1]:
-        statics = level.part("statics")
-        tension = statics.array("tension_at_rest", "line")
-        if tension is not None and tension.size:
-            items.append(KeyFigure("tension at rest", format_quantity(float(tension.max()), "N"), level.name))
-        share = statics.array("immersion", situation="moored")
-        if share is not None:
-            drowned = float(share) > 1.0 - 1e-9
-            items.append(
-                KeyFigure(
-                    "floats in water at rest",
-                    f"{100.0 * float(share):.3g} %",
-                    level.name,
-                    judgement="caution" if drowned else "",
-                )
-            )
-    blocks: list[Block] = [KeyFigures(tuple(items))] if items else []
+def _summary(result: Result, literal: bool) -> tuple[Block, ...]:
+    found = headline_figures(result)
+    blocks: list[Block] = [] if found is None else [found]
     if literal:
         blocks.append(Paragraph("The equations are those in print, faults included: no result to design by."))
     return tuple(blocks)
-
-
-def _largest(levels: tuple[Level, ...], name: str, words: str) -> list[KeyFigure]:
-    best: tuple[float, str] | None = None
-    used = math.nan
-    for level in levels:
-        loads = level.part("statics").array("breaking_load", "line")
-        for sea in level.part("waves").children():
-            values = sea.array(name, "wave", "line", "end")
-            if values is None or not values.size:
-                continue
-            wave, line, _ = np.unravel_index(int(np.argmax(values)), values.shape)
-            value = float(values.max())
-            if best is None or value > best[0]:
-                where = f"{sea.labels('line')[line]}, {sea.name}, {sea.labels('wave')[wave]}, {level.name}"
-                best = (value, where)
-                used = value / float(loads[line]) if loads is not None and math.isfinite(loads[line]) else math.nan
-    if best is None:
-        return []
-    judged = "" if not math.isfinite(used) else ("bad" if used > 1.0 else "caution" if used > 0.5 else "good")
-    return [
-        KeyFigure(words, format_quantity(best[0], "N"), best[1], utilisation=used, judgement=judged)  # type: ignore[arg-type]
-    ]
-
-
-def _governing_motions(levels: tuple[Level, ...]) -> list[KeyFigure]:
-    found: list[KeyFigure] = []
-    best: dict[str, tuple[float, str]] = {}
-    for level in levels:
-        for sea in level.part("waves").children():
-            ratio, turned = sea.array("range_ratio", "wave", "translation"), sea.array("range", "wave", "mode")
-            if ratio is None or turned is None:
-                continue
-            regular = str(sea.attributes.get("kind", "regular")) == "regular"
-            for n, name in enumerate(("sway", "heave")):
-                label = f"{name} range / H" if regular else f"{name} 4σ / Hs"
-                at = int(np.argmax(ratio[:, n]))
-                value = float(ratio[at, n])
-                if value > best.get(label, (-1.0, ""))[0]:
-                    best[label] = (value, f"{sea.name}, {sea.labels('wave')[at]}, {level.name}")
-            at = int(np.argmax(turned[:, 2]))
-            value = math.degrees(0.5 * float(turned[at, 2]))
-            if value > best.get("rotation ±", (-1.0, ""))[0]:
-                best["rotation ±"] = (value, f"{sea.name}, {sea.labels('wave')[at]}, {level.name}")
-    for label, (value, where) in best.items():
-        text = f"{format_number(value)}°" if label.startswith("rotation") else format_number(value)
-        found.append(KeyFigure(f"largest {label}", text, where))
-    return found
 
 
 def _cage(level: Level) -> list[Block | None]:

@@ -11,14 +11,13 @@ from moyai.report.document import (
     Block,
     Choice,
     Document,
-    KeyFigure,
-    KeyFigures,
     Option,
     Paragraph,
     Section,
 )
-from moyai.report.formatting import format_number, format_quantity
+from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.headlines import headline_figures
 from moyai.report.reading import Group
 
 MOST_RUNS = 12
@@ -50,7 +49,7 @@ def compose(result: Result) -> Document:
 
     purpose = str(root.attributes.get("purpose", ""))
     sections = [
-        Section("summary", "Summary", (*_summary(result, levels, purpose), *notice_blocks(result))),
+        Section("summary", "Summary", (*_summary(result, purpose), *notice_blocks(result))),
         Section("input", "Input", (case_listing(root), *at_each_level(_input))),
         Section("law", "Inertia and circulation over KC", at_each_level(figures.over_keulegan_carpenter)),
         Section("seas", "Sea states", at_each_level(_seas)),
@@ -77,50 +76,16 @@ def _subtitle(levels: tuple[Group, ...]) -> str:
     return ", ".join(part for part in parts if part)
 
 
-def _summary(result: Result, levels: tuple[Group, ...], purpose: str) -> tuple[Block, ...]:
-    items: list[KeyFigure] = []
-    best: tuple[float, str, Group, int] | None = None
-    for level in levels:
-        for sea in level.child("waves").children():
-            values = sea.real("maximum_total_force", "wave")
-            if values is None:
-                continue
-            at = int(values.argmax())
-            if best is None or values[at] > best[0]:
-                best = (float(values[at]), level.name, sea, at)
-    if best is None:
+def _summary(result: Result, purpose: str) -> tuple[Block, ...]:
+    figures_of = headline_figures(result)
+    if figures_of is None:
         return (Paragraph("The result holds no forces."),)
-    value, level_name, sea, at = best
-    wave = sea.labels("wave")[at]
-    where = f"{sea.name}, {wave}, {level_name}" if wave != "sea" else f"{sea.name}, {level_name}"
-    items.append(KeyFigure("largest force on the member", format_quantity(value, "N"), where))
-    for name in ("x", "y", "z"):
-        part = sea.real("maximum_force", "wave", component=name)
-        if part is not None and part[at] > 1e-6 * value:
-            items.append(KeyFigure(f"largest force along {name}", format_quantity(float(part[at]), "N"), where))
-    number = sea.real("keulegan_carpenter", "wave")
-    if number is not None:
-        caution = purpose == "response" and number[at] > 2.0
-        items.append(
-            KeyFigure(
-                "Keulegan-Carpenter number",
-                format_number(float(number[at])),
-                where,
-                judgement="caution" if caution else "",
-            )
-        )
-    for axis in figures.AXES:
-        plain = sea.real("plain_inertia_coefficient", "wave", axis=axis)
-        shown = sea.real("effective_inertia_coefficient", "wave", axis=axis)
-        if plain is not None and shown is not None and math.isfinite(shown[at]):
-            detail = f"without circulation {format_number(float(plain[at]), 4)}"
-            items.append(KeyFigure(f"C_M, {axis} axis", format_number(float(shown[at]), 4), detail))
     said = (
         "The circulation of orbital flow is left out, which keeps the larger inertia force (purpose: extreme)."
         if purpose == "extreme"
         else "The circulation of orbital flow is counted (purpose: response); it lowers the inertia force."
     )
-    return (KeyFigures(tuple(items)), Paragraph(said))
+    return (figures_of, Paragraph(said))
 
 
 def _input(level: Group) -> list[Block | None]:

@@ -227,6 +227,7 @@ def worth_table(level: NetworkLevel) -> Table | None:
     dynamic = level.part("dynamic")
     names = (
         ("sensitivity_peak", "Peak"), ("half_step", "half the step"), ("double_mesh", "twice the bars"),
+        ("damped", "finer and damped"),
         ("half_viscosity", "half the viscosity"), ("double_viscosity", "twice the viscosity"),
     )  # fmt: skip
     values = [dynamic.real(key, "run") for key, _ in names]
@@ -244,8 +245,8 @@ def worth_table(level: NetworkLevel) -> Table | None:
             _column("step and mesh", None if error is None else 100.0 * error, "%", digits=2, uniform=False),
             _column("viscosity", None if effect is None else 100.0 * effect, "%", digits=2, uniform=False),
         ],
-        "The governing line in the same run, five times. The change with step and mesh is what the number is worth; "
-        "the change with the viscosity shows what rests on an input that is seldom well known.",
+        "The governing line in the same run again. The change with step and mesh is what the number is worth; the "
+        "change with the viscosity, where it was asked for, shows what rests on an input that is seldom well known.",
     )  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from moyai.core.errors import CaseError
 from moyai.core.results import read_result
 
 ROOT = Path(__file__).resolve().parents[3]
-BASE = template("cage")
+BASE = template("rigid_cage")
 
 
 def case(*changes):

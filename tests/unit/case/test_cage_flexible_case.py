@@ -198,5 +198,5 @@ def test_sensitivity_tells_what_peaks_are_worth():
 
 
 def test_the_template_is_sound():
-    loaded = case_of(parse_yaml(template("flexible_cage"), "case.yaml"), Path("case.yaml"))
+    loaded = case_of(parse_yaml(template("cage"), "case.yaml"), Path("case.yaml"))
     assert build(loaded).model == "flexible"

@@ -391,7 +391,7 @@ def test_whole_curtain_is_the_same_in_both_sizes(tmp_path):
 
 def test_viscosity_stays_that_of_the_water(tmp_path):
     """A net cage in another size swims in the same water: its kinematic viscosity is no quantity to scale."""
-    given = case_of(parse_yaml(template("cage"), "cage.yaml"), tmp_path / "cage.yaml")
+    given = case_of(parse_yaml(template("rigid_cage"), "cage.yaml"), tmp_path / "cage.yaml")
     scaled = scale_case(given, Scale(25.0, 1.0, 1.0), from_model=True)
     assert scaled.case.model.structure.kinematic_viscosity == given.model.structure.kinematic_viscosity
     assert not any("viscosity" in row.name for row in scaled.rows)

@@ -125,7 +125,7 @@ def test_a_body_that_turns_over_is_told(tmp_path):
 
 
 def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):
-    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s", bars=4)
+    text = CASE.format(analyses="[dynamic]", more=", sensitivity: true, skip: 0.5 s, peak_goal: 0.3", bars=4)
     path = tmp_path / "case.yaml"
     path.write_text(text.replace("duration: 7 s", "duration: 2 s"), encoding="utf-8")
     result = run(build(load_case(path)))

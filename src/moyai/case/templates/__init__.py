@@ -8,7 +8,7 @@ from moyai.case.faults import did_you_mean
 from moyai.case.schema import STRUCTURE_KINDS
 from moyai.core.errors import InputError
 
-FURTHER = ("flexible_cage", "nets", "records", "study")
+FURTHER = ("rigid_cage", "nets", "records", "study")
 """Further models of a structure and files of other commands that have a template too."""
 
 

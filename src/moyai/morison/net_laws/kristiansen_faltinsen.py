@@ -50,6 +50,7 @@ class KristiansenFaltinsen(NetLaw):
     solidity_range: ClassVar[tuple[float, float]] = (0.0, 0.5)
     reynolds_name: ClassVar[str] = "Re = U d / (nu (1 - S))"
     outside: ClassVar[str] = "the drag of the cylinder keeps its value of the limit"
+    basis: ClassVar[str] = "round twines"
     skin: ClassVar[str] = "no force at zero solidity, none along a panel parallel to the flow"
 
     normal_at_45: Literal["cross_flow", "solidity"] = "cross_flow"

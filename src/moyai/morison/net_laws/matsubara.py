@@ -50,6 +50,7 @@ class Matsubara(NetLaw):
     solidity_range: ClassVar[tuple[float, float]] = (0.22, 0.687)
     outside: ClassVar[str] = "below, the power goes on up to the cap; above, the coefficient is held"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
+    basis: ClassVar[str] = "wire nets"
     confirmed: ClassVar[bool] = True
 
     cap: float = 3.0

@@ -21,6 +21,7 @@ class Milne(TwineLaw):
     name: ClassVar[str] = "milne"
     source: ClassVar[str] = "Milne (1972), Fish and Shellfish Farming in Coastal Waters, Fishing News Books"
     reynolds_range: ClassVar[tuple[float, float]] = (100.0, math.inf)
+    basis: ClassVar[str] = "nets"
     outside: ClassVar[str] = "the coefficient does not depend on Re and is too small for slow flow"
 
     def normal_drag(self, reynolds: ArrayLike, net: Net) -> Array:

@@ -49,6 +49,7 @@ class PowerLawNet(NetLaw):
     reynolds_range: ClassVar[tuple[float, float]] = (0.0, math.inf)
     solidity_range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     outside: ClassVar[str] = "below, the power goes on up to the cap; above, the coefficient is held"
+    basis: ClassVar[str] = "one net"
     skin: ClassVar[str] = "no force at zero solidity; the tangential share along the panel"
 
     factor: float

@@ -31,6 +31,7 @@ class TwineLaw(NetLaw):
     kind: ClassVar[str] = "twine"
     solidity_range: ClassVar[tuple[float, float]] = (0.0, 0.3)
     skin: ClassVar[str] = "no force at zero solidity; twines across the flow keep their drag on a parallel panel"
+    basis: ClassVar[str] = "single twine"
 
     azimuth: float = 0.0
 

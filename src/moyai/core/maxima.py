@@ -1,0 +1,56 @@
+"""What the largest value of one random record is worth: mean and scatter over records of the same length."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+#: Blocks that a record is cut into, at most and at least; a block holds that many periods or more.
+MOST_BLOCKS, LEAST_BLOCKS, PERIODS = 20, 6, 4.0
+
+
+@dataclass(frozen=True)
+class Maximum:
+    """The largest value of records of one length.
+
+    Parameters
+    ----------
+    observed : float
+        Largest value of the record at hand.
+    mean, deviation : float
+        Over all records of that length, estimated from the maxima of blocks.
+    blocks : int
+    """
+
+    observed: float
+    mean: float
+    deviation: float
+    blocks: int
+
+
+def maximum_of(time: ArrayLike, values: ArrayLike, period: float) -> Maximum | None:
+    """Estimate mean and scatter of the largest value from the maxima of blocks of one record.
+
+    Maxima of ``N`` blocks follow Gumbel's law with mean ``m`` and deviation ``s``; the largest of ``N`` then has the
+    mean ``m + s sqrt(6)/pi ln N`` and the same deviation ``s`` (Gumbel 1958). ``None`` for records too short.
+
+    Parameters
+    ----------
+    time, values : array_like
+        Record, start-up left out [s].
+    period : float
+        Peak period of the sea [s]; a block holds four of them or more, so that its maximum hardly hangs on the next.
+    """
+    t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    if t.size < 2 or not np.isfinite(x).all():
+        return None
+    count = min(MOST_BLOCKS, int((t[-1] - t[0]) / (PERIODS * period)))
+    if count < LEAST_BLOCKS:
+        return None
+    highest = np.array([float(part.max()) for part in np.array_split(x, count)])
+    mean, deviation = float(highest.mean()), float(highest.std(ddof=1))
+    largest = mean + deviation * math.sqrt(6.0) / math.pi * math.log(count)
+    return Maximum(float(x.max()), largest, deviation, count)

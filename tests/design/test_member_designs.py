@@ -1,0 +1,170 @@
+"""Five ordinary members: each first page beside a hand calculation, all defaults.
+
+Tolerances: linear theory and Morison's equation are the same on both sides, so that they differ by strips (40 along the
+member), 200 steps of a period and stretching alone: 1 % unless said otherwise.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from moyai.case.builder import build
+from moyai.case.reader import case_of
+from moyai.case.yaml_reader import parse_yaml
+from moyai.member.analysis import run
+
+G, RHO = 9.81, 1025.0
+
+
+def result_of(text):
+    return run(build(case_of(parse_yaml(text, "case.yaml"), Path("case.yaml"))))
+
+
+def headline(result, name):
+    return next(item for item in result.headlines if item.name == name)
+
+
+def case(waves, structure, depth=20.0, current=""):
+    return f"""
+moyai: 1
+title: member
+site: {{water_depth: {depth}, density: {RHO}, gravity: {G}}}
+waves: {waves}
+{current}
+structure:
+  kind: member
+{structure}
+{"" if "circulation" in structure else "  circulation: {purpose: extreme}"}
+analyses: [forces]
+"""
+
+
+def wave_number(period, depth):
+    omega, k = 2.0 * math.pi / period, 1.0 / depth
+    for _ in range(200):
+        k = 0.5 * (k + omega**2 / (G * math.tanh(k * depth)))
+    return omega, k
+
+
+def test_a_brace_of_a_pile_group():
+    """Horizontal brace of 1 m across, 20 m long, 5 m deep, crest along it: inertia decides, C_M = 2 by ideal fluid."""
+    found = result_of(
+        case(
+            "{kind: regular, height: 1.0, period: 6.0, heading_deg: 0}",
+            "  section: {shape: circle, diameter: 1.0}\n  start: {y: -10, z: -5}\n  end: {y: 10, z: -5}\n"
+            "  inertia: ideal\n  drag: {law: dnv_c205, roughness: 1 mm}\n  kinematic_viscosity: 1.19e-6",
+        )
+    )
+    peak = headline(found, "peak_force")
+    omega, k = wave_number(6.0, 20.0)
+    sideways = omega**2 * 0.5 * math.cosh(k * 15.0) / math.sinh(k * 20.0)
+    by_hand = RHO * math.pi / 4.0 * 2.0 * sideways * 20.0
+    # 2 %: Wheeler's stretching brings the brace 0.75 eta nearer to the surface under a crest, k 0.75 H/2 = 4 % of the
+    # speed at the crest, part of it at the instant of the largest force; drag adds in quadrature, far below 1 %
+    assert peak.value == pytest.approx(by_hand, rel=0.02)
+    assert peak.detail.startswith("inertia decides")
+    # the band is that of C_M alone: -20 and +5 %
+    assert peak.band.low == pytest.approx(0.80 * peak.value, rel=0.01)
+    assert peak.band.high == pytest.approx(1.05 * peak.value, rel=0.01)
+    number = headline(found, "keulegan_carpenter")
+    speed = omega * 0.5 * math.cosh(k * 15.0) / math.sinh(k * 20.0)
+    # 5 %: the largest speed is that under the crest, 4 % above by Wheeler's stretching
+    assert number.value == pytest.approx(speed * 6.0, rel=0.05)
+    assert "inertia of ideal fluid: KC 0 to 5" in number.detail
+    assert "Re above 1e+06 (outside)" in number.detail
+
+
+def test_a_vertical_pile_in_a_long_wave():
+    """Pile of 1.5 m from bed to above the surface, given C_M = 2, C_D = 1: rho g H/2 C_M A tanh(kd) of inertia."""
+    found = result_of(
+        case(
+            "{kind: regular, height: 0.5, period: 8.0, heading_deg: 0}",
+            "  section: {shape: circle, diameter: 1.5}\n  start: {z: -12}\n  end: {z: 3}\n  inertia: 2.0\n  drag: 1.0\n"
+            "  kinematic_viscosity: 1.19e-6",
+            depth=12.0,
+        )
+    )
+    peak = headline(found, "peak_force")
+    _, k = wave_number(8.0, 12.0)
+    by_hand = 2.0 * RHO * G * 0.25 * math.pi * 1.5**2 / 4.0 * math.tanh(12.0 * k)
+    # 3 %: 40 strips over 15 m cut the wetted length at the surface by up to half a strip, and drag adds a little
+    assert peak.value == pytest.approx(by_hand, rel=0.03)
+    assert peak.detail.startswith("inertia decides")
+    assert headline(found, "keulegan_carpenter").value < 5.0
+
+
+def test_a_pipeline_in_a_current():
+    """Pipeline of 0.6 m, 50 m long near the bed in 1 m/s with hardly a wave: half rho C_D D U2 L, drag decides."""
+    found = result_of(
+        case(
+            "{kind: regular, height: 0.001, period: 8.0, heading_deg: 0}",
+            "  section: {shape: circle, diameter: 0.6}\n  start: {y: -25, z: -18}\n  end: {y: 25, z: -18}\n"
+            "  inertia: 2.0\n  drag: 1.2\n  kinematic_viscosity: 1.19e-6",
+            current="current: {speed: 1.0, heading_deg: 0}",
+        )
+    )
+    peak = headline(found, "peak_force")
+    assert peak.value == pytest.approx(0.5 * RHO * 1.2 * 0.6 * 1.0 * 50.0, rel=0.01)
+    assert peak.detail.startswith("drag decides: inertia 0 %, drag 100 %")
+    # numbers of the case carry a quarter for drag
+    assert peak.band.low == pytest.approx(0.75 * peak.value, rel=0.01)
+    assert peak.band.high == pytest.approx(1.25 * peak.value, rel=0.01)
+
+
+def test_a_pipeline_on_the_bed_where_drag_and_inertia_share():
+    """0.3 m pipe on the bed, H 3 m, T 12 s, 10 m of water: the largest is F_D + F_I^2 / (4 F_D)."""
+    found = result_of(
+        case(
+            "{kind: regular, height: 3.0, period: 12.0, heading_deg: 0}",
+            "  section: {shape: circle, diameter: 0.3}\n  start: {y: -10, z: -9.85}\n  end: {y: 10, z: -9.85}\n"
+            "  inertia: 2.0\n  drag: 1.0\n  kinematic_viscosity: 1.19e-6",
+            depth=10.0,
+        )
+    )
+    omega, k = wave_number(12.0, 10.0)
+    speed = omega * 1.5 * math.cosh(k * 0.15) / math.sinh(k * 10.0)
+    drag = 0.5 * RHO * 1.0 * 0.3 * speed**2 * 20.0
+    inertia = RHO * 2.0 * math.pi * 0.3**2 / 4.0 * omega * speed * 20.0
+    assert drag > 0.5 * inertia
+    # 2 %: the vertical velocity near the bed, 1 % of the horizontal one, is left out by hand
+    assert headline(found, "peak_force").value == pytest.approx(drag + inertia**2 / (4.0 * drag), rel=0.02)
+    assert headline(found, "peak_force").detail.startswith("drag decides")
+    assert headline(found, "keulegan_carpenter").value == pytest.approx(speed * 12.0 / 0.3, rel=0.01)
+
+
+def test_arai_circle_in_an_orbit():
+    """Arai's circle of 4.5 cm: circulation gamma vx vy T takes C_M from 2 to 2 (1 - gamma KC^2 / pi^2)."""
+    text = case(
+        "{kind: regular, height: 0.02, period: 1.0526316, heading_deg: 0}",
+        "  section: {shape: circle, diameter: 0.045}\n  start: {y: -0.395, z: -0.093}\n  end: {y: 0.395, z: -0.093}\n"
+        "  drag: 0.0\n  kinematic_viscosity: 1.14e-6\n  circulation: {purpose: PURPOSE, strength: arai}",
+        depth=0.5,
+    ) + "settings: {stretching: constant}\n"  # fmt: skip
+    whole = result_of(text.replace("PURPOSE", "extreme"))
+    less = result_of(text.replace("PURPOSE", "response"))
+    number = headline(less, "keulegan_carpenter").value
+    shares = headline(less, "peak_force").detail
+    expected = 1.0 - 0.936 * number**2 / math.pi**2
+    # 3 %: the orbit of 50 cm of water is 2 % flat, the hand calculation takes a circle
+    ratio = headline(less, "peak_force").value / headline(whole, "peak_force").value
+    assert ratio == pytest.approx(expected, rel=0.03)
+    assert 0.5 < expected < 0.95
+    assert "lift -" in shares
+    assert "circulation of orbital flow: KC 0 to 2" in headline(less, "keulegan_carpenter").detail
+
+
+def test_coefficients_of_storm_waves_in_small_waves_are_warned_of():
+    """API's values hold above KC = 30; a brace at KC = 2 gets a warning that names the deciding cause."""
+    found = result_of(
+        case(
+            "{kind: regular, height: 1.0, period: 6.0, heading_deg: 0}",
+            "  section: {shape: circle, diameter: 1.0}\n  start: {y: -10, z: -5}\n  end: {y: 10, z: -5}\n"
+            "  inertia: api\n  drag: {law: api, roughness: 1 mm}\n  kinematic_viscosity: 1.19e-6",
+        )
+    )
+    notice = next(item for item in found.notices if item.code == "coefficients-outside-measurement")
+    assert "KC above 30" in notice.message
+    assert "inertia makes" in notice.message

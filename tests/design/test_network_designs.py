@@ -1,0 +1,191 @@
+"""Five ordinary networks: each first page beside a hand calculation, all defaults."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from moyai.case.builder import build
+from moyai.case.reader import case_of
+from moyai.case.templates import template
+from moyai.case.yaml_reader import parse_yaml
+from moyai.network.analysis import run
+
+G, RHO = 9.81, 1025.0
+
+
+def result_of(text):
+    return run(build(case_of(parse_yaml(text, "case.yaml"), Path("case.yaml"))))
+
+
+def headline(result, name):
+    return next(item for item in result.headlines if item.name == name)
+
+
+ROPE = (
+    "rope: {diameter: 40 mm, mass: 9 kg/m, axial_stiffness: 100 MN, viscosity: 0, drag_normal: 0, "
+    "drag_tangential: 0, added_mass_normal: 0}"
+)
+
+
+def case(points, lines, *, motions="", analyses="[statics]", settings="{}", current="", types=ROPE):
+    return f"""
+moyai: 1
+title: network
+site: {{water_depth: 60, density: {RHO}, gravity: {G}}}
+{current}
+structure:
+  kind: network
+  line_types:
+    {types}
+{motions}
+  points:
+{points}
+  lines:
+{lines}
+analyses: {analyses}
+settings: {settings}
+"""
+
+
+def test_a_chain_between_two_fixed_points():
+    """Catenary: 60 m of 9 kg/m over 50 m at one height: s = 2 a sinh(x / 2a), T = w sqrt(a^2 + s^2/4)."""
+    found = result_of(
+        case(
+            "    left: {kind: fixed, position: [0, 0, -10]}\n    right: {kind: fixed, position: [50, 0, -10]}",
+            "    chain: {start: left, end: right, type: rope, length: 60 m, segments: 60}",
+        )
+    )
+    weight = (9.0 - RHO * math.pi / 4.0 * 0.04**2) * G
+    a = 20.0
+    for _ in range(200):
+        # Newton on 2 a sinh(25 / a) = 60
+        f = 2.0 * a * math.sinh(25.0 / a) - 60.0
+        a -= f / (2.0 * math.sinh(25.0 / a) - 50.0 / a * math.cosh(25.0 / a))
+    by_hand = weight * math.hypot(a, 30.0)
+    tension = headline(found, "line_tension")
+    # 2 %: the highest bar is half a bar of 1 m below the end, (30 - 0.5)/30
+    assert tension.value == pytest.approx(by_hand, rel=0.02)
+    assert tension.model == "at rest"
+
+
+def test_a_submerged_buoy_on_a_tether_in_a_current():
+    """Subsurface float: T = sqrt((buoyancy - weight)^2 + drag^2) at the top of a light tether."""
+    volume = math.pi / 6.0
+    found = result_of(
+        case(
+            "    anchor: {kind: fixed, position: [0, 0, -60]}\n"
+            f"    float: {{kind: free, position: [0, 0, -39.9], mass: 200 kg, volume: {volume}, drag_area: 0.4, "
+            "added_mass_coefficient: 0.5}",
+            "    tether: {start: anchor, end: float, type: rope, length: 20 m, segments: 20}",
+            current="current: {speed: 0.8, heading_deg: 0}",
+        )
+    )
+    lift = (RHO * volume - 200.0) * G
+    drag = 0.5 * RHO * 0.4 * 0.8**2
+    # 1 %: the uppermost bar is half a bar below the float, half a metre of 76 N/m on some 3.3 kN
+    assert headline(found, "line_tension").value == pytest.approx(math.hypot(lift, drag), rel=0.013)
+
+
+STRUCK = {
+    "points": "    wall: {kind: fixed, position: [0, 0, -30]}\n"
+    "    pull: {kind: driven, position: [46, 0, -30], motion: jerk}",
+    "motions": "  motions:\n    jerk: {kind: table, file: jerk.csv}",
+}
+
+
+def struck(tmp_path, segments, settings):
+    """A straight rope of 46 m whose end is pulled away at 1 m/s from the start; one way takes 0.0138 s."""
+    (tmp_path / "jerk.csv").write_text("0,0,0,0\n1,1,0,0\n", encoding="utf-8")
+    text = case(
+        STRUCK["points"],
+        f"    rope: {{start: wall, end: pull, type: rope, length: 46 m, segments: {segments}, shape: straight}}",
+        motions=STRUCK["motions"],
+        analyses="[dynamic]",
+        settings=settings,
+        types=ROPE.replace("mass: 9 kg/m", "mass: 9 kg/m, volume: 8.78048780487805e-3 m2"),
+    )
+    return run(build(case_of(parse_yaml(text, "case.yaml"), tmp_path / "case.yaml")))
+
+
+#: Front of a suddenly moving end, sqrt(EA m) v, doubled at the wall; the rope weighs nothing in this water
+FRONT = 2.0 * math.sqrt(100e6 * 9.0) * 1.0
+ONE_WAY = 46.0 / math.sqrt(100e6 / 9.0)
+
+
+def test_a_struck_rope_at_the_pace_of_the_wave_is_exact(tmp_path):
+    """At the pace of the wave the front is exact on any number of equal bars: 2 sqrt(EA m) v at the wall."""
+    settings = f"{{duration: {1.9 * ONE_WAY} s, output_step: {ONE_WAY / 20} s, start: as_built, wave_front: true}}"
+    found = struck(tmp_path, 20, settings)
+    tension = headline(found, "line_tension")
+    # 1 %: rounding of whole steps alone
+    assert tension.value == pytest.approx(FRONT, rel=0.01)
+    assert found.status == "converged", found.message
+
+
+@pytest.mark.parametrize("segments", [1, 2, 3, 5])
+def test_a_struck_rope_of_few_bars_is_not_called_converged(tmp_path, segments):
+    """A struck rope of 1 to 5 bars was 12 to 72 % off under 'converged'."""
+    settings = f"{{duration: {1.9 * ONE_WAY} s, output_step: {ONE_WAY / 40} s, start: as_built}}"
+    found = struck(tmp_path, segments, settings)
+    tension = headline(found, "line_tension")
+    off = abs(tension.value / FRONT - 1.0)
+    if found.status == "converged":
+        assert off < 0.05
+    else:
+        assert found.status == "not_converged"
+        assert "twice the segments" in found.message
+        assert tension.band is not None
+        assert tension.band.high - tension.band.low > 0.05 * tension.value
+
+
+def test_a_heaving_weight_on_a_stiff_line():
+    """2 t hung from a head that heaves 0.2 m every 6 s: T = W + (m + m_a) omega^2 A, the line being stiff."""
+    found = result_of(
+        case(
+            "    head: {kind: driven, position: [0, 0, 0], motion: heave}\n"
+            "    weight: {kind: free, position: [0, 0, -20.01], mass: 2000 kg, volume: 0.25 m3, "
+            "added_mass_coefficient: 0.5}",
+            "    line: {start: head, end: weight, type: rope, length: 20 m, segments: 10}",
+            motions="  motions:\n    heave: {kind: harmonic, amplitude: [0, 0, 0.2 m], period: 6 s, ramp: 12 s}",
+            analyses="[statics, dynamic]",
+            settings="{duration: 60 s, skip: 24 s}",
+            types=ROPE.replace("viscosity: 0", "viscosity: 1e5 N s"),
+        )
+    )
+    line = (9.0 - RHO * math.pi / 4.0 * 0.04**2) * G * 20.0
+    weight = (2000.0 - RHO * 0.25) * G + line
+    omega = 2.0 * math.pi / 6.0
+    inertia = (2000.0 + 0.5 * RHO * 0.25 + 9.0 * 20.0) * omega**2 * 0.2
+    tension = headline(found, "line_tension")
+    # 1 %: half a bar of line weight at the head, and a natural period of 0.13 s against 6 s
+    assert tension.value == pytest.approx(weight + inertia, rel=0.01)
+    assert found.status == "converged", found.message
+    assert tension.band is not None
+    assert tension.band.high / tension.band.low < 1.02
+
+
+def test_the_template_is_converged_on_its_mesh():
+    """The buoy of `moyai new network`: its band holds what four times the segments give."""
+    found = result_of(template("network"))
+    assert found.status == "converged", found.message
+    tension = headline(found, "line_tension")
+    assert tension.band is not None
+    assert tension.band.high / tension.band.low < 1.05
+    finer = result_of(template("network").replace("segments: 48}", "segments: 96}"))
+    assert tension.band.low <= headline(finer, "line_tension").value <= tension.band.high * 1.005
+
+
+def test_a_chain_that_goes_slack_on_the_bed_is_not_called_converged():
+    """The same buoy in a weak current: 24, 48 and 96 segments gave 11.8, 9.4 and 5.6 kN under 'converged'."""
+    text = template("network").replace("speed: 1 m/s", "speed: 0.3 m/s").replace("segments: 48}", "segments: 24}")
+    text = text.replace("damping_ratio: 0.1", "damping_ratio: 0.3")
+    found = result_of(text)
+    assert found.status == "not_converged"
+    assert "land on the bed" in found.message
+    assert "damping" in found.message
+    tension = headline(found, "line_tension")
+    # the band reaches down to where finer meshes go: 5.6 kN with 96 segments
+    assert tension.band.low < 5.6e3 < tension.band.high
