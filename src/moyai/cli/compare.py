@@ -70,7 +70,7 @@ def compare(
         else:
             from moyai.cli.tables import print_summary
 
-            print_summary(rich_console(), found, files, seconds, [])
+            print_summary(rich_console(), found, files, seconds)
         raise typer.Exit(OK)
 
 

@@ -45,7 +45,7 @@ def records(
         elif not quiet:
             from moyai.cli.tables import print_summary
 
-            print_summary(rich_console(), result, files, seconds, [])
+            print_summary(rich_console(), result, files, seconds)
         elif result.status != "converged":
             tell(f"{result.status}: {result.message}")
         raise typer.Exit(OK if result.status == "converged" else FAILED)

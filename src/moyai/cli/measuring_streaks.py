@@ -54,7 +54,7 @@ def streaks(
         elif not quiet:
             from moyai.cli.tables import print_summary
 
-            print_summary(rich_console(), result, files, seconds, [])
+            print_summary(rich_console(), result, files, seconds)
         elif result.status != "converged":
             tell(f"{result.status}: {result.message}")
         raise typer.Exit(OK if result.status == "converged" else FAILED)

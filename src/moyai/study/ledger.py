@@ -44,6 +44,8 @@ class Record:
         Time it took [s].
     values : dict
         What was kept (:func:`moyai.study.responses.kept`).
+    verdict : str
+        Whether the design holds; empty where nothing was to be judged.
     """
 
     index: int
@@ -51,6 +53,7 @@ class Record:
     message: str
     seconds: float
     values: dict[str, Any]
+    verdict: str = ""
 
     def line(self) -> str:
         """Return the record as one line."""
@@ -61,6 +64,7 @@ class Record:
                 "message": self.message,
                 "seconds": self.seconds,
                 "values": self.values,
+                "verdict": self.verdict,
             }
         )
 
@@ -245,7 +249,8 @@ def read_records(path: Path) -> Iterator[Record]:
             try:
                 item = json.loads(line)
                 yield Record(
-                    int(item["index"]), item["status"], item["message"], float(item["seconds"]), item["values"]
-                )
+                    int(item["index"]), item["status"], item["message"], float(item["seconds"]), item["values"],
+                    item.get("verdict", ""),
+                )  # fmt: skip
             except (ValueError, KeyError, TypeError):
                 continue

@@ -34,6 +34,10 @@ _COMPARE: dict[str, Callable[[Any, Any], Any]] = {
 }
 
 
+_WORDS = ("status", "message", "verdict")
+"""Columns that are words of each case."""
+
+
 @dataclass(frozen=True)
 class Column:
     """One column of the table of cases.
@@ -84,6 +88,9 @@ class StudyTable:
         root: Any = tree.to_dataset(inherit=False)
         self.status = [str(one) for one in root["case_status"].values.reshape(self.count)]
         self.message = [str(one) for one in root["case_message"].values.reshape(self.count)]
+        # Studies of before the verdict have none
+        judged = root["case_verdict"].values.reshape(self.count) if "case_verdict" in root else [""] * self.count
+        self.verdict = [str(one) for one in judged]
 
     @property
     def names(self) -> list[str]:
@@ -101,7 +108,7 @@ class StudyTable:
         return found
 
     def column(self, text: str) -> Column:
-        """Return a column by name: an axis, ``case``, ``status``, ``message``, or a response.
+        """Return a column by name: an axis, ``case``, ``status``, ``message``, ``verdict``, or a response.
 
         A response may be told by the end of its name, where that is only one, and by labels:
         ``maximum_tension[line=seaward]``; the largest entry of what is left counts.
@@ -123,8 +130,8 @@ class StudyTable:
             return Column(text, str(axis["unit"] or "1"), values, labels)
         if text == "case":
             return Column(text, "1", np.arange(self.count, dtype=float), tuple(map(str, range(self.count))))
-        if text in ("status", "message"):
-            return Column(text, "", None, tuple(self.status if text == "status" else self.message))
+        if text in _WORDS:
+            return Column(text, "", None, tuple(getattr(self, text)))
         name, variable = self._response(text)
         dims = [dim for dim in self.names if dim in variable.dims]
         table = np.asarray(variable.transpose(*dims, ...).values, dtype=float).reshape(self.count, -1)
@@ -142,7 +149,7 @@ class StudyTable:
             name for name in everything if name.endswith("/" + wanted)
         ]
         if not near:
-            known = [*self.names, "case", "status", "message", *everything]
+            known = [*self.names, "case", *_WORDS, *everything]
             ends = [name.rpartition("/")[2] for name in everything]
             raise InputError(
                 f"there is no axis and no response '{wanted}'",

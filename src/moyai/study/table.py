@@ -34,7 +34,7 @@ def study_result(study: Study, records: Iterable[Record], *, interrupted: bool =
     -------
     Result
         Its tree has the groups of a case's result, every variable with the axes of the study in front; the root holds
-        ``case_status``, ``case_message`` and, where points have weights, ``probability``.
+        ``case_status``, ``case_message``, ``case_verdict`` and, where points have weights, ``probability``.
     """
     import xarray as xr
 
@@ -91,11 +91,13 @@ def _root(study: Study, known: dict[int, Record]) -> xr.Dataset:
     dims = tuple(axis.name for axis in study.axes)
     status = np.full(len(study.cases), "not run", dtype=object)
     message = np.full(len(study.cases), "", dtype=object)
+    verdict = np.full(len(study.cases), "", dtype=object)
     for index, record in known.items():
-        status[index], message[index] = record.status, record.message
+        status[index], message[index], verdict[index] = record.status, record.message, record.verdict
     data: dict[str, Any] = {
         "case_status": (dims, status.reshape(study.shape), {"units": "1", "long_name": "status of the case"}),
         "case_message": (dims, message.reshape(study.shape), {"units": "1", "long_name": "what the case said"}),
+        "case_verdict": (dims, verdict.reshape(study.shape), {"units": "1", "long_name": "whether the design holds"}),
     }
     weights = [np.array([point.probability for point in axis.points]) for axis in study.axes]
     weighted = [index for index, weight in enumerate(weights) if np.isfinite(weight).all()]

@@ -64,7 +64,7 @@ def run_case(
     """
     from moyai.case.reader import case_of
 
-    started = time.perf_counter()
+    started, verdict = time.perf_counter(), ""
     try:
         case = case_of(varied(task.base, combination), task.base_path)
     except (CaseError, InputError) as error:
@@ -81,6 +81,7 @@ def run_case(
             result.write(task.results_folder / f"{combination.index:06d}" / "results.nc")
         values = kept(result.tree, task.wanted)
         status, message = result.status, result.message
+        verdict = result.verdict.outcome if result.verdict.message else ""
         failed = [check.name for check in result.checks if not check.passed]
         if failed and status == "converged":
             status, message = "outside_validity", f"identities missed: {', '.join(failed)}"
@@ -93,7 +94,7 @@ def run_case(
     except Exception as error:
         # A fault of the program in one case must not cost the others
         status, message, values = "failed", f"internal error, {type(error).__name__}: {error}", {}
-    return Record(combination.index, status, message, time.perf_counter() - started, values)
+    return Record(combination.index, status, message, time.perf_counter() - started, values, verdict)
 
 
 def _listener(cancelled: Callable[[], bool] | None, progress: Progress) -> Progress:

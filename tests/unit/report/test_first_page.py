@@ -1,0 +1,120 @@
+"""The first page: both badges, numbers before criteria before notices, one unit of forces, each notice once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import synthetic_result
+
+from moyai.core.headline import Criterion, Headline, Verdict, judge
+from moyai.core.results import Result
+from moyai.core.validity import Notice
+from moyai.report.document import KeyFigures, NoticeBlock, Table
+from moyai.report.first_page import badges
+from moyai.report.headlines import headline_figures
+from moyai.report.html import least_width, render_html
+from moyai.report.notices import first_page_notices, grouped
+from moyai.report.writer import compose_document
+
+FACTOR = Criterion(
+    "line_safety_factor", "line_utilisation", 0.5, "at most", "case file", "factor of safety", as_factor=True
+)
+UPLIFT = Criterion("greatest_uplift", "anchor_uplift", 5e3, "at most", "case file", "uplift on the anchors", "N")
+
+
+def judged(*criteria: Criterion, **kwargs: object) -> Result:
+    headlines = (
+        Headline("line_tension", "Largest line tension", 1.766e6, "N", "HWL, storm"),
+        Headline("line_utilisation", "Load over strength", 2.1, "1", "HWL, storm"),
+        Headline("anchor_uplift", "Uplift on an anchor", 3184.0, "N", "HWL, storm"),
+    )
+    result = synthetic_result.build(duration=60.0)
+    verdict = judge(headlines, criteria, computed=True)
+    return replace(result, headlines=headlines, verdict=verdict, **kwargs)
+
+
+def snap(place: str, value: float) -> Notice:
+    return Notice("quasi-static-snap", f"{place}: line a reaches {value:g} times its mean tension", value, 5.0)
+
+
+def test_an_overloaded_line_is_computed_well_and_does_not_hold() -> None:
+    result = judged(FACTOR, UPLIFT)
+    assert [(badge.label, badge.word) for badge in badges(result)] == [
+        ("Computation", "Converged"),
+        ("Design", "Does not hold"),
+    ]
+    page = render_html(compose_document(result))
+    assert "Does not hold" in page and "Factor of safety 0.476 is below 2" in page
+
+
+def test_outside_the_range_never_holds_even_if_it_is_told_late() -> None:
+    result = judged(UPLIFT)
+    assert result.verdict.outcome == "holds"
+    late = result.with_notices(Notice("range", "the wave breaks", severity="error"))
+    assert (late.status, late.verdict.outcome) == ("outside_validity", "not judged")
+
+
+def test_a_result_that_judges_nothing_has_one_badge() -> None:
+    assert len(badges(replace(judged(), verdict=Verdict()))) == 1
+
+
+def test_numbers_come_before_criteria_before_notices() -> None:
+    result = judged(FACTOR, UPLIFT, notices=(snap("HWL, storm", 6.0),))
+    blocks = compose_document(result).sections[0].blocks
+    kinds = [type(block) for block in blocks]
+    assert kinds[0] is KeyFigures and kinds[2] is NoticeBlock
+    assert isinstance(blocks[1], Table) and blocks[1].key == "criteria"
+    columns = {column.label: list(column.values) for column in blocks[1].columns}
+    assert columns["Outcome"] == ["does not hold", "holds"]
+    assert columns["Found"] == ["0.476", "3.18 kN"] and columns["Limit"] == ["at least 2.00", "at most 5.00 kN"]
+
+
+def test_forces_of_the_page_have_one_unit() -> None:
+    figures = headline_figures(judged())
+    assert figures is not None
+    assert [item.text for item in figures.items] == ["1766 kN", "2.10", "3.18 kN"]
+
+
+def test_a_number_that_is_not_shown_is_judged_at_its_sea_only() -> None:
+    headlines = (
+        Headline("transmission", "K_T", 0.4, "1", sea="storm"),
+        Headline("transmission", "K_T", 0.9, "1", sea="swell", shown=False),
+    )
+    everywhere = Criterion("greatest_transmission", "transmission", 0.5, "at most", "case file")
+    assert judge(headlines, [everywhere], computed=True).outcome == "holds"
+    assert judge(headlines, [replace(everywhere, sea="swell")], computed=True).outcome == "does not hold"
+    assert judge(headlines, [replace(everywhere, sea="calm")], computed=True).outcome == "not judged"
+
+
+def test_notices_are_grouped_counted_and_the_most_severe_is_shown() -> None:
+    mild = Notice("other", "something else", severity="warning")
+    grave = Notice("range", "LWL, swell: the wave breaks", 1.2, 1.0, severity="error")
+    groups = grouped([mild, snap("HWL, storm", 6.0), snap("LWL, storm", 9.0), snap("HWL, swell", 5.5), grave, mild])
+    assert [(group.notice.code, group.count) for group in groups] == [
+        ("range", 1),
+        ("other", 1),
+        ("quasi-static-snap", 3),
+    ]
+    assert groups[2].notice.value == 9.0
+    assert groups[2].places == ("HWL, storm", "LWL, storm", "HWL, swell")
+    assert groups[2].where.startswith("3 times: HWL, storm; LWL, storm; HWL, swell")
+    assert groups[0].where == ""
+
+
+def test_warnings_of_the_case_stay_apart_by_their_key() -> None:
+    warnings = [Notice("case", f"odd value {n}", source=f"waves[{n}].height") for n in range(2)]
+    assert len(grouped(warnings)) == 2
+
+
+def test_a_notice_that_repeats_a_number_of_the_page_goes() -> None:
+    over = Notice("line-breaks", "HWL: line a would bear 210 % of its breaking load", 2.1, 1.0)
+    note = Notice("note", "for information", severity="information")
+    result = judged(FACTOR, notices=(over, note, snap("HWL", 6.0)))
+    assert [notice.code for notice in first_page_notices(result)] == ["quasi-static-snap"]
+    assert first_page_notices(replace(result, headlines=()))[0] is over
+
+
+def test_letters_of_a_drawing_keep_nine_pixels() -> None:
+    svg = '<svg viewBox="0 0 980 300"><text font-size="12">a</text><text font-size="13">b</text></svg>'
+    assert 12.0 * least_width(svg) / 980.0 >= 9.0
+    assert least_width("<svg></svg>") == 0.0
