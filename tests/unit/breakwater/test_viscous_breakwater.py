@@ -12,7 +12,7 @@ from moyai.breakwater.viscous_damping import unit_drag_rows, viscous_notices
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml
-from moyai.sea.spectra import Jonswap
+from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea, RegularSea
 
 CASE = """\
@@ -131,7 +131,7 @@ def test_long_waves_pass_a_body_that_follows_them(pontoon_problem):
 
 
 def test_irregular_sea_carries_its_damping_and_band(pontoon_problem):
-    sea = IrregularSea("sea", Jonswap(0.03, 1.0 / 0.95, 3.3), heading=0.0, duration=200.0, seed=1)
+    sea = IrregularSea("sea", jonswap(0.03, 0.95, 3.3), heading=0.0, duration=200.0, seed=1)
     data = run(changed(pontoon_problem, COMPUTED, (sea,))).tree["SWL/frequency/sea"]
     assert float(data.transmission_coefficient_low) < float(data.transmission_coefficient)
     assert float(data.transmission_coefficient) < float(data.transmission_coefficient_high)

@@ -1,5 +1,6 @@
 """Damping by eddies at the edges of a section: exact laws, identities, and Ikeda's formula."""
 
+import itertools
 import math
 
 import numpy as np
@@ -78,7 +79,7 @@ def test_froude_scaling(scale):
         rectangle(4.0 * scale, 2.0 * scale), 1.2 * scale, centre=(0.1 * scale, -0.4 * scale), length=7.0 * scale
     )
     v = np.array([0.3, -0.2, 0.15])
-    # Velocities scale with the root of the length, turns with its inverse; forces with its cube, moments with its fourth
+    # Velocities scale with the root of the length, turns with its inverse; forces with its cube
     scaled = v * np.array([scale**0.5, scale**0.5, scale**-0.5])
     assert large.force(scaled) == pytest.approx(small.force(v) * np.array([scale**3, scale**3, scale**4]), rel=1e-12)
 
@@ -215,7 +216,7 @@ def test_edges_of_shapes():
 def test_round_bilges_shed_less_and_sharp_ones_all():
     factors = [rounding_factor(1.0, radius) for radius in (0.0, 0.02, 0.1, 0.25, 0.4)]
     assert factors[0] == 1.0
-    assert all(a > b > 0.0 for a, b in zip(factors, factors[1:], strict=False))
+    assert all(a > b > 0.0 for a, b in itertools.pairwise(factors))
 
 
 def test_thin_plate_has_its_drag_coefficient():
