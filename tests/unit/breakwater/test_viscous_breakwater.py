@@ -1,6 +1,7 @@
 """Viscous damping of a breakwater case: what is the default, what carries the band, time against frequency."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -35,7 +36,7 @@ settings: {drift: false}
 
 def damping_of(text):
     document = parse_yaml(CASE.replace("DAMPING", text), "box.yaml")
-    return build(case_of(document)).breakwater.damping
+    return build(case_of(document, Path("box.yaml"))).breakwater.damping
 
 
 @pytest.mark.parametrize(
