@@ -53,7 +53,7 @@ class CornerEdge:
     before, after : Face
         The faces on both sides.
     pressure : float
-        C_p, rounding and angle included.
+        C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
     """
 
     point: tuple[float, float]
