@@ -313,8 +313,8 @@ def test_run_without_identities_does_not_claim_that_they_hold(tmp_path):
 def test_cycle_table_is_the_oscillator(small):
     """At a height that was run the table is the run itself, and it never falls with the height."""
     from moyai.curtain.analysis_impact import drag_coefficient, solve_impact
-    from moyai.curtain.limit_loads import _cycles
     from moyai.curtain.impact_waves import slack_sag, slack_taut_motion
+    from moyai.curtain.limit_loads import _cycles
     from moyai.curtain.snap_flow import depth_mean_factor
     from moyai.sea.dispersion import wave_number
 
