@@ -318,12 +318,14 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         details = [said or f"{governing} sets it"]
         if limit > 0.0 and governing != "not reached" and said:
             details.insert(0, f"{governing} sets it")
+        if bound == "at most":
+            details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := float(table["speed_limit_ratio"])) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
         band = _limit_band(table) if key == "speed_limit" else None
         yield Headline(
             name, label, limit, unit, where=f"{where}: {level}", band=band,
-            bound="at least" if governing == "not reached" else bound,  # type: ignore[arg-type]
+            bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]
             detail="; ".join(details),
             text="" if limit > 0.0 else "none",
         )  # fmt: skip
