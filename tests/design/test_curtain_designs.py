@@ -134,7 +134,7 @@ def test_held_toe_carries_at_most_the_drag_of_its_length(designs) -> None:
     given, result = designs("held toe")
     line = float(result.tree["/SWL/statics"]["section_load"].sel(drag_case="given"))
     upright = pressure(given) * given["skirt"]
-    # the load along the flow is q times the integral of cos^3 over the arc, the depth that of cos: by the means of powers
+    # the load along the flow is q times the integral of cos^3 over the arc, the depth that of cos: means of powers
     share = headline(result, "effective_depth").value / given["skirt"]
     assert share**3 * upright <= line <= upright
     assert 0.5 < share <= 1.0
