@@ -30,10 +30,8 @@ _USED = (
     ("joint_utilisation", "Joints, load over strength", ("joint",)),
     ("fabric_utilisation", "Sheet, load over strength", ("skirt",)),
 )
-_REMEDY = {
-    "at most": "add 'dynamic' to 'analyses' for the value",
-    "at least": "its snap needs 'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'",
-}
+_REMEDY = "add 'dynamic' to 'analyses' for the value"
+_MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
 @dataclass(frozen=True)
@@ -87,10 +85,11 @@ def curtain_headlines(groups: Groups, levels: Sequence[str]) -> tuple[Headline, 
         Water levels; of each number the least favourable one counts and is named.
     """
     loads = [load for level in levels for load in _loads_of(groups, level)]
-    # what is only a bound does not govern, so it stands behind the values
-    used = sorted(_used(loads), key=lambda item: (("", "at most", "at least").index(item.bound), -item.value))
+    # by use of the strength with its safety factor; what is only a bound does not govern and stands behind the values
+    ranked = sorted(_used(loads), key=lambda item: (math.isnan(item[1].value), item[1].bound != "", -item[0]))
+    used = [headline for _, headline in ranked]
     found = [*_tensions(loads), *used, *_steady(groups, levels), *_depths(groups, levels), *_limits(groups, levels)]
-    if used:
+    if used and not math.isnan(used[0].value):
         # the load behind the most used component stands beside it
         first = used[0]
         behind = "anchor_load" if first.name.startswith("anchor") else "cable_tension"
@@ -124,36 +123,41 @@ def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
             name, label, load.number("governing_load"), "N",
             where=f"{load.component}, {load.source}: {load.level}",
             model=load.model, band=load.band, bound=load.bound,
-            detail="; ".join(part for part in (detail, _REMEDY.get(load.bound, "")) if part),
+            detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
         )  # fmt: skip
 
 
-def _used(loads: Sequence[_Load]) -> Iterator[Headline]:
+def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
+    """Return each load over its strength, with its utilisation, the safety factor included."""
     for name, label, components in _USED:
         load = max(
             (one for one in loads if one.component in components and math.isfinite(one.used)),
-            key=lambda one: one.used,
+            key=lambda one: one.number("utilisation"),
             default=None,
         )
         if load is None:
             continue
         strength = load.number("capacity")
+        unit = load.words("load_unit")
+        of = f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}"
+        where = f"{load.component}, {load.source}: {load.level}"
+        if load.bound == "at least":
+            # what only waits for its snap is no number to design with
+            said = f"{of} without its snap, which needs {_MISSING}"
+            headline = Headline(
+                name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known"
+            )
+            yield load.number("utilisation"), headline
+            continue
         band = load.band
         if band is not None:
             band = Band(band.low / strength, band.high / strength, band.of, band.decides)
-        unit = load.words("load_unit")
-        yield Headline(
-            name, label, load.used, "1", where=f"{load.component}, {load.source}: {load.level}", model=load.model,
-            band=band, bound=load.bound,
-            detail="; ".join(
-                part
-                for part in (
-                    f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}",
-                    _REMEDY["at least"] if load.bound == "at least" else "",
-                )
-                if part
+        yield (
+            load.number("utilisation"),
+            Headline(
+                name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of
             ),
-        )  # fmt: skip
+        )
 
 
 def _band(groups: Groups, load: _Load) -> Band | None:

@@ -403,7 +403,9 @@ def test_irregular_sea_has_snaps_and_a_law(tmp_path):
     assert np.max(np.abs(fitted[above] - share[above] / share[above][-1])) < 0.15
     assert float(sea["most_probable_maximum_low"]) < float(sea["most_probable_maximum"])
     largest = result.tree["SWL/waves/storm/largest"]
-    assert float(largest["tension"].max()) == pytest.approx(peaks[0], rel=0.02)
+    # shown is the realisation whose largest tension is nearest to the number that counts
+    nearest = tops[np.argmin(np.abs(tops - tops.mean()))]
+    assert float(largest["tension"].max()) == pytest.approx(nearest, rel=0.02)
 
 
 def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):
