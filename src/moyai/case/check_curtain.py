@@ -273,10 +273,11 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
             "the analysis 'dynamic' needs the mass of the sheet",
             remedy="give 'settings.dynamic.sheet_mass', or 'mass_per_area' with 'sheet_density' in 'structure.skirt'",
         )
-    if unit.anchors is not None and given.support_mass is None:
+    loads = model.settings.anchor_loads
+    if unit.anchors is not None and given.support_mass is None and (loads is None or loads.float_mass is None):
         findings.fault(
             ("settings", "dynamic"),
-            "the buoys of anchored supports need 'settings.dynamic.support_mass'",
+            "the buoys of anchored supports need 'settings.dynamic.support_mass' or 'settings.anchor_loads.float_mass'",
             remedy="give the mass of one buoy with its added mass, or leave 'structure.anchors' out for fixed supports",
         )
     if unit.length <= unit.span:
@@ -300,7 +301,7 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
             remedy="give both, or neither",
         )
     # rows of a run are counted out; more periods would be kept more coarsely than their snaps
-    longest = max(1 + given.settled_periods + given.analysed_periods, 1 + given.wave_count)
+    longest = 1 + given.settled_periods + max(given.analysed_periods, given.wave_count)
     if model.waves and longest > MOST_PERIODS:
         findings.fault(
             ("settings", "dynamic"),

@@ -441,7 +441,9 @@ class Dynamic(Block):
         default=None, description="Height of the floats; absent: of a round float with the buoyancy given."
     )
     support_mass: Mass | None = Field(
-        default=None, description="Of the buoy at a support with its added mass; needed with 'structure.anchors'."
+        default=None,
+        description="Of the buoy at a support with its added mass; needed with 'structure.anchors'. Default: "
+        "'settings.anchor_loads.float_mass', where that is given.",
     )
     start: Literal["auto", "at_rest", "drifting"] = Field(
         default="auto",

@@ -57,7 +57,7 @@ def limits_dataset(
     loads = sea_loads(unit, settings, answer, curve)
     counted = _Counted(unit, settings, loads)
     most, most_bound = counted.speed()
-    speeds = _speeds(unit, settings, most.value)
+    speeds = _speeds(unit, settings, most)
     rows = []
     for count, speed in enumerate(speeds):
         progress(f"operating limits, {unit.name}", count, len(speeds))
@@ -120,7 +120,12 @@ class _Counted:
 
     def height(self, speed: float) -> tuple[Limit, Bound]:
         """Return the largest significant height in a current [m/s], and whether it is a bound."""
-        return self._judged(lambda loads: self._height(loads, speed), lambda limit: speed, self.with_plate)
+        limit, bound = self._judged(lambda loads: self._height(loads, speed), lambda _: speed, self.with_plate)
+        steady = ("effective depth", "floats", "no equilibrium", "breaking")
+        if self.loads_in(speed).snaps is None and limit.governing not in steady:
+            # a steady drag knows no snap: the limit can only be lower
+            return limit, "at most"
+        return limit, bound
 
     def _height(self, loads: SeaLoads, speed: float) -> Limit:
         unit, highest = self.unit, self.settings.limits.highest_height
@@ -131,19 +136,14 @@ class _Counted:
     ) -> tuple[Limit, Bound]:
         plain = find(self.sure)
         if not plate:
-            return plain, self._without_snaps(plain)
+            return plain, ""
         struck = find(self.loads)
         role = self.role(place(struck))
         if role == "governs":
             return struck, ""
         if role == "bound":
             return struck, "at least" if struck.value < plain.value else ""
-        return plain, self._without_snaps(plain)
-
-    def _without_snaps(self, limit: Limit) -> Bound:
-        """A steady drag knows no snap: where the whole span is run, the limit can only be lower."""
-        steady = ("effective depth", "floats", "no equilibrium", "breaking")
-        return "at most" if "dynamic" in self.settings.analyses and limit.governing not in steady else ""
+        return plain, ""
 
 
 #: Roles of the plate, the strongest first
@@ -275,17 +275,23 @@ def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
     )
 
 
-def _speeds(unit: LevelCurtain, settings: Settings, limit: float) -> tuple[float, ...]:
-    """Return the speeds of the table: as given, or up to the limit, with the current of the case."""
+def _speeds(unit: LevelCurtain, settings: Settings, limit: Limit) -> tuple[float, ...]:
+    """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
     if settings.limits.speeds is not None:
         # a table begins at a current: without one there is no shape to speak of
         return tuple(max(speed, 1e-3) for speed in settings.limits.speeds)
-    top = max(1.2 * limit, unit.surface_speed, 0.1)
+    top = max(1.2 * limit.value, unit.surface_speed, 0.1)
     top = min(top, settings.limits.highest_speed)
     even = np.linspace(0.0, _round_up(top), _SPEED_COUNT)[1:]
     values = [float(value) for value in even]
     if unit.surface_speed > 0.0 and min(abs(unit.surface_speed - value) for value in values) > 1e-9:
         values.append(unit.surface_speed)
+    if limit.reached and limit.value > 0.0:
+        # just held: the height does not fall to nothing on the way to the next current of the table
+        values = [
+            value for value in values if abs(value - limit.value) > 0.02 * limit.value or value == unit.surface_speed
+        ]
+        values.append(limit.value * (1.0 - 1e-6))
     return tuple(sorted(values))
 
 

@@ -276,7 +276,8 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
     # shown is the realisation whose largest tension is nearest to the mean
     typical = int(np.argmin(np.abs(tops - tops.mean())))
     shown, flow = runs[typical]
-    top = float(shown.time[int(np.argmax(shown.tension))]) if shown.time.size else 0.5 * sea.duration
+    after = shown.motion.time >= transient
+    top = float(shown.motion.time[after][int(np.argmax(shown.motion.tension[after]))])
     window = (max(top - _WINDOW * peak, transient), top + _WINDOW * peak)
     coords = {"seed": [sea.seed + number for number in range(tops.size)]}
     groups = {

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Headline
 from moyai.core.wording import spoken
@@ -29,10 +30,8 @@ _USED = (
     ("joint_utilisation", "Joints, load over strength", ("joint",)),
     ("fabric_utilisation", "Sheet, load over strength", ("skirt",)),
 )
-_REMEDY = {
-    "at most": "add 'dynamic' to 'analyses' for the value",
-    "at least": "its snap needs 'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'",
-}
+_REMEDY = "add 'dynamic' to 'analyses' for the value"
+_MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
 @dataclass(frozen=True)
@@ -86,9 +85,11 @@ def curtain_headlines(groups: Groups, levels: Sequence[str]) -> tuple[Headline, 
         Water levels; of each number the least favourable one counts and is named.
     """
     loads = [load for level in levels for load in _loads_of(groups, level)]
-    used = sorted(_used(loads), key=lambda item: -item.value)
+    # by use of the strength with its safety factor; what is only a bound does not govern and stands behind the values
+    ranked = sorted(_used(loads), key=lambda item: (math.isnan(item[1].value), item[1].bound != "", -item[0]))
+    used = [headline for _, headline in ranked]
     found = [*_tensions(loads), *used, *_steady(groups, levels), *_depths(groups, levels), *_limits(groups, levels)]
-    if used:
+    if used and not math.isnan(used[0].value):
         # the load behind the most used component stands beside it
         first = used[0]
         behind = "anchor_load" if first.name.startswith("anchor") else "cable_tension"
@@ -122,43 +123,48 @@ def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
             name, label, load.number("governing_load"), "N",
             where=f"{load.component}, {load.source}: {load.level}",
             model=load.model, band=load.band, bound=load.bound,
-            detail="; ".join(part for part in (detail, _REMEDY.get(load.bound, "")) if part),
+            detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
         )  # fmt: skip
 
 
-def _used(loads: Sequence[_Load]) -> Iterator[Headline]:
+def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
+    """Return each load over its strength, with its utilisation, the safety factor included."""
     for name, label, components in _USED:
         load = max(
             (one for one in loads if one.component in components and math.isfinite(one.used)),
-            key=lambda one: one.used,
+            key=lambda one: one.number("utilisation"),
             default=None,
         )
         if load is None:
             continue
         strength = load.number("capacity")
+        unit = load.words("load_unit")
+        of = f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}"
+        where = f"{load.component}, {load.source}: {load.level}"
+        if load.bound == "at least":
+            # what only waits for its snap is no number to design with
+            said = f"{of} without its snap, which needs {_MISSING}"
+            headline = Headline(
+                name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known"
+            )
+            yield load.number("utilisation"), headline
+            continue
         band = load.band
         if band is not None:
             band = Band(band.low / strength, band.high / strength, band.of, band.decides)
-        unit = load.words("load_unit")
-        yield Headline(
-            name, label, load.used, "1", where=f"{load.component}, {load.source}: {load.level}", model=load.model,
-            band=band, bound=load.bound,
-            detail="; ".join(
-                part
-                for part in (
-                    f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}",
-                    _REMEDY["at least"] if load.bound == "at least" else "",
-                )
-                if part
+        yield (
+            load.number("utilisation"),
+            Headline(
+                name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of
             ),
-        )  # fmt: skip
+        )
 
 
 def _band(groups: Groups, load: _Load) -> Band | None:
     """Return what the governing load of a component varies with: mesh, realisations, or the drag coefficient."""
     how, value = load.words("governing"), load.number("governing_load")
     if how == "dynamic":
-        return _mesh_band(groups, load, value)
+        return _moving_band(groups, load, value)
     if how == "steady and wave":
         return _scatter(groups, load)
     if how == "steady":
@@ -166,21 +172,37 @@ def _band(groups: Groups, load: _Load) -> Band | None:
     return None
 
 
-def _mesh_band(groups: Groups, load: _Load, value: float) -> Band | None:
-    """Return the change with half the cells and half the step of the run, where those runs were made."""
+def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
+    """Return the change with mesh and step of the run, where these runs were made, else the scatter of its periods."""
     run = groups.get(f"/{load.level}/dynamic/{load.words('dynamic_source')}")
-    if run is None or "line_half_mesh" not in run:
+    if run is None or "line_peak" not in run:
         return None
-    names = [str(name) for name in run["line"].values]
-    mine = [row for row, name in enumerate(names) if name.startswith(load.component)]
+    # the load of an anchor is that of its line, turned to the horizontal
+    line = "anchor line" if load.component == "anchor" else load.component
+    mine = [row for row, name in enumerate(run["line"].values) if str(name).startswith(line)]
     if not mine:
         return None
     row = max(mine, key=lambda number: float(run["line_peak"].values[number]))
-    others = [float(run[name].values[row]) for name in ("line_half_mesh", "line_half_step")]
+    factor = value / float(run["line_peak"].values[row])
+    others = [factor * float(run[name].values[row]) for name in ("line_half_mesh", "line_half_step")]
     known = [other for other in others if math.isfinite(other)]
-    if not known:
+    if known:
+        return Band(min(value, *known), max(value, *known), "with half the cells and with half the step")
+    if not run.attrs.get("regular"):
         return None
-    return Band(min(value, *known), max(value, *known), "with half the cells and with half the step")
+    peaks = factor * _period_peaks(run, row)
+    if peaks.size < 2:
+        return None
+    return Band(float(peaks.mean()), value, f"{peaks.size} periods, mean to highest", decides=False)
+
+
+def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:
+    """Return the highest tension of a line in each period that counts [N]."""
+    time, period = run["time"].values, float(run.attrs["period"])
+    number = np.floor((time - float(run.attrs["counted_from"])) / period * (1.0 + 1e-9)).astype(int)
+    count = round((float(time[-1]) - float(run.attrs["counted_from"])) / period)
+    values = run["tension_peak"].values[row]
+    return np.array([values[number == one].max() for one in range(count) if np.any(number == one)])
 
 
 def _scatter(groups: Groups, load: _Load) -> Band | None:
@@ -318,12 +340,14 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         details = [said or f"{governing} sets it"]
         if limit > 0.0 and governing != "not reached" and said:
             details.insert(0, f"{governing} sets it")
+        if bound == "at most":
+            details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := float(table["speed_limit_ratio"])) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
         band = _limit_band(table) if key == "speed_limit" else None
         yield Headline(
             name, label, limit, unit, where=f"{where}: {level}", band=band,
-            bound="at least" if governing == "not reached" else bound,  # type: ignore[arg-type]
+            bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]
             detail="; ".join(details),
             text="" if limit > 0.0 else "none",
         )  # fmt: skip

@@ -97,7 +97,7 @@ def hierarchy(unit: LevelCurtain, settings: Settings, *, speed: float | None = N
             plate = "comparison"
             words = f"the whole span is run; {reason}"
         found.append(ModelRole(model, plate, of, words, share, STRAIGHT))
-    if {"waves", "anchor_loads", "limits"} & asked:
+    if asked != {"dynamic"}:
         found.append(_crest(asked))
     if "anchor_loads" in asked and unit.curtain.anchors is not None and settings.anchor_loads is not None:
         found.append(

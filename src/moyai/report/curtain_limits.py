@@ -239,11 +239,12 @@ def limit_table(level: CurtainLevel) -> Table | None:
 
 def _why(group: Group) -> tuple[str, ...]:
     said = str(group.attributes.get("limit_not_monotone", ""))
-    bounded = "at least" in (group.attributes.get("design_limit_bound", ""), *_bounds(group))
+    bounds = (group.attributes.get("design_limit_bound", ""), *_bounds(group))
     return (
         "A height of 0: the current alone is beyond the limit.",
         f"{said[0].upper()}{said[1:]}." if said else "",
-        "At least: an upright plate, only a bound of the load, sets this limit." if bounded else "",
+        "At least: an upright plate, only a bound of the load, sets this limit." if "at least" in bounds else "",
+        "At most: no snap is counted." if "at most" in bounds else "",
     )
 
 

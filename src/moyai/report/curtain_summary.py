@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from moyai.core.results import Result
 from moyai.report.curtain_reading import Component, CurtainLevel, components, governing_component, words
 from moyai.report.document import Block, Column, Paragraph, Table
@@ -60,7 +62,9 @@ def models_table(levels: tuple[CurtainLevel, ...]) -> Table | None:
 
 def _components_table(levels: tuple[CurtainLevel, ...], worst: tuple[CurtainLevel, Component] | None) -> Table | None:
     """Return the utilisation of every component at every water level."""
-    rows = [(level, entry) for level in levels for entry in components(level)]
+    rows = [
+        (level, entry) for level in levels for entry in components(level) if math.isfinite(entry.loads["governing"])
+    ]
     if not rows:
         return None
     emphasised = tuple(

@@ -314,7 +314,7 @@ def test_cycle_table_is_the_oscillator(small):
     """At a height that was run the table is the run itself, and it never falls with the height."""
     from moyai.curtain.analysis_impact import drag_coefficient, solve_impact
     from moyai.curtain.limit_loads import _cycles
-    from moyai.curtain.impact_waves import slack_sag, slack_taut_motion
+    from moyai.curtain.settling import settled_cycles
     from moyai.curtain.snap_flow import depth_mean_factor
     from moyai.sea.dispersion import wave_number
 
@@ -326,16 +326,16 @@ def test_cycle_table_is_the_oscillator(small):
     period, acting = 3.86 * math.sqrt(height), 1.8 * height
     number = float(wave_number(2.0 * math.pi / period, 8.0, 9.81))
     amplitude = acting * math.pi / period * float(depth_mean_factor(number, 4.0, unit.water))
-    motion = slack_taut_motion(
+    settled = settled_cycles(
         answer.impact,
         drag_coefficient=drag_coefficient(unit, answer.impact.draught),
         current=0.3,
         velocity_amplitude=amplitude,
         period=period,
-        duration=14.0 * period,
-        start=(0.999 * slack_sag(answer.impact), 0.0),
+        least_settled=4,
+        least_analysed=10,
     )
-    largest = max(contact.tension for contact in motion.contacts if contact.time >= 4.0 * period)
+    largest = settled.tension
     assert table.tension(0.3, height) >= largest * (1.0 - 1e-9)
     series = [table.tension(0.3, float(h)) for h in np.linspace(0.0, 2.0, 40)]
     assert np.all(np.diff(series) >= 0.0) and series[0] == 0.0
@@ -394,13 +394,18 @@ def test_irregular_sea_has_snaps_and_a_law(tmp_path):
     sea = result.tree["SWL/waves/storm"].to_dataset()
     peaks, share = sea["contact_tension_sorted"].values, sea["exceedance"].values
     assert peaks.size > 30 and np.all(np.diff(peaks) <= 0.0) and np.all(np.diff(share) > 0.0)
-    assert float(sea["maximum_tension"]) == pytest.approx(peaks[0], rel=1e-6)
+    tops = sea["realisation_tension"].values
+    assert tops.size == 5 and peaks[0] == pytest.approx(tops.max(), rel=1e-6)
+    assert float(sea["maximum_tension"]) == pytest.approx(tops.mean(), rel=1e-12)
+    assert float(sea["maximum_tension_low"]) == tops.min() < tops.max() == float(sea["maximum_tension_high"])
     fitted = sea["fitted_exceedance"].values
     above = peaks > float(sea["weibull_threshold"])
     assert np.max(np.abs(fitted[above] - share[above] / share[above][-1])) < 0.15
     assert float(sea["most_probable_maximum_low"]) < float(sea["most_probable_maximum"])
     largest = result.tree["SWL/waves/storm/largest"]
-    assert float(largest["tension"].max()) == pytest.approx(peaks[0], rel=0.02)
+    # shown is the realisation whose largest tension is nearest to the number that counts
+    nearest = tops[np.argmin(np.abs(tops - tops.mean()))]
+    assert float(largest["tension"].max()) == pytest.approx(nearest, rel=0.02)
 
 
 def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):

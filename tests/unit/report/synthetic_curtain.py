@@ -12,6 +12,7 @@ import xarray as xr
 
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.curtain.headlines import curtain_headlines
 
 DRAG = ["low", "given", "high"]
 COMPONENTS = ["upper cable", "lower cable", "skirt", "joint", "float", "anchor line", "anchor"]
@@ -292,6 +293,7 @@ def limits(factor: float) -> xr.Dataset:
             "limit_utilisation": v(("speed", "height"), used),
             "limit_component": v(("speed", "height"), np.array(COMPONENTS)[largest]),
             "component_utilisation": v(("speed", "height", "component"), parts),
+            "surface_speed": v((), 0.3, "m/s"),
             "speed_limit": v((), 0.66, "m/s"),
             "drowning_speed": v((), 0.62, "m/s"),
         },
@@ -313,6 +315,7 @@ def loads(factor: float) -> xr.Dataset:
             "wave_load": v("component", wave, "N"),
             "impact_load": v("component", snap_load, "N"),
             "governing_load": v("component", steady + more, "N"),
+            "load_bound": ("component", [""] * len(steady)),
             "capacity": v("component", capacity, "N"),
             "safety_factor": v("component", safety),
             "utilisation": v("component", (steady + more) * safety / capacity),
@@ -380,4 +383,5 @@ def build(*, anchored: bool = True) -> Result:
             Notice("curtain-class", "class C does not allow 0.3 m/s", 0.3, 0.1, "warning", "take class B", "SEPTA"),
         ),
         provenance=make_provenance(case_hash="ab12"),
+        headlines=curtain_headlines(tree, ["HWL", "LWL"]),
     )

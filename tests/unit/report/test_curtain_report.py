@@ -22,7 +22,7 @@ from moyai.report.curtain_limits import colour, operating_map
 from moyai.report.curtain_page import compose
 from moyai.report.curtain_reading import components, governing_component, water_levels
 from moyai.report.curtain_snap import snap_animation
-from moyai.report.document import Animation, Document, Drawing, Figure, KeyFigures, Paragraph, Table
+from moyai.report.document import Animation, Document, Drawing, Figure, KeyFigures, Table
 from moyai.report.encoding import figure_csv, table_csv
 from moyai.report.html import render_html
 from moyai.report.writer import compose_document, write_report
@@ -75,54 +75,23 @@ def test_first_page_names_the_governing_component(result: Result, document: Docu
     used = max(float(np.nanmax(result.tree[f"/{name}/loads"]["utilisation"])) for name in ("HWL", "LWL"))
     assert entry.utilisation == pytest.approx(used)
     first = document.sections[0].blocks[0]
-    assert isinstance(first, Paragraph)
-    assert entry.name in first.text and level.name in first.text and "beyond its limit" in first.text
-    keys = next(block for block in document.sections[0].blocks if isinstance(block, KeyFigures))
-    labels = [item.label for item in keys.items]
-    for wanted in ("Largest utilisation", "Holds up to a current of", "Holds up to a wave height of", "Effective depth",
-                   "Toe gap", "Snap, both cables", "Reserve of the floats"):  # fmt: skip
+    assert isinstance(first, KeyFigures)
+    leading = result.headlines[0]
+    assert first.items[0].label == leading.label
+    assert leading.value == pytest.approx(entry.loads["governing"] / entry.capacity)
+    assert f"{entry.name}," in leading.where and level.name in leading.where
+    labels = [item.label for item in first.items]
+    for wanted in ("Effective depth", "Clearance of the toe from the bed", "Largest tension of a cable"):
         assert wanted in labels
-    held = next(item for item in keys.items if item.label == "Holds up to a wave height of")
-    limits = result.tree["/HWL/limits"]
-    assert held.text.startswith(f"{float(np.interp(0.3, limits['speed'], limits['limit_height'])):.2f}")
 
 
-def test_current_beyond_a_limit_that_is_no_component(result: Result) -> None:
-    tree = result.tree.copy()
-    limits = tree["/LWL/limits"].to_dataset().assign(speed_limit=0.2)
-    limits.attrs["speed_limit_governing"] = "effective depth"
-    tree["/LWL/limits"] = xr.DataTree(limits)
-    first = compose(replace(result, tree=tree)).sections[0].blocks[0]
-    assert "At LWL the current of 0.300 m/s is beyond the 0.200 m/s" in first.text and "effective depth" in first.text
-    assert "beyond the 0" not in compose(result).sections[0].blocks[0].text
-
-
-def test_first_page_tells_the_least_toe_gap_and_what_sets_the_height(result: Result) -> None:
-    """The least gap may be at another water level than the least effective depth."""
-    tree = result.tree.copy()
-    statics = tree["/LWL/statics"].to_dataset()
-    given = statics["effective_depth"] + 1.0, statics["toe_gap"] * 0.0 + 0.4
-    tree["/LWL/statics"] = xr.DataTree(statics.assign(effective_depth=given[0], toe_gap=given[1]))
-    for name in ("HWL", "LWL"):
-        limits = tree[f"/{name}/limits"].to_dataset()
-        words = np.full(limits["speed"].size, "not reached", dtype=object)
-        tree[f"/{name}/limits"] = xr.DataTree(limits.assign(limit_governing=("speed", words)))
-    keys = next(
-        block for block in compose(replace(result, tree=tree)).sections[0].blocks if isinstance(block, KeyFigures)
-    )
-    items = {item.label: item for item in keys.items}
-    assert items["Toe gap"].text.startswith("0.4") and items["Toe gap"].detail.endswith("LWL")
-    assert items["Effective depth"].detail.endswith("HWL")
-    assert "no limit up to there" in items["Holds up to a wave height of"].detail
-
-
-def test_height_held_of_a_run_without_statics(result: Result) -> None:
-    bare = without(result, "/HWL/statics", "/LWL/statics")
-    limits = bare.tree["/HWL/limits"].to_dataset().assign(surface_speed=0.3)
-    bare.tree["/HWL/limits"] = xr.DataTree(limits)
-    keys = next(block for block in compose(bare).sections[0].blocks if isinstance(block, KeyFigures))
-    held = next(item for item in keys.items if item.label == "Holds up to a wave height of")
-    assert held.text.startswith(f"{float(np.interp(0.3, limits['speed'], limits['limit_height'])):.2f}")
+def test_first_page_shows_the_headlines_and_nothing_else(result: Result, document: Document) -> None:
+    """Table, verdict and page show one number: the page computes none of its own."""
+    keys = document.sections[0].blocks[0]
+    assert isinstance(keys, KeyFigures)
+    assert [item.label for item in keys.items] == [headline.label for headline in result.headlines]
+    none = compose(replace(result, headlines=()))
+    assert "no governing numbers" in render_html(none)
 
 
 def test_load_table_is_the_result(result: Result, document: Document) -> None:
@@ -283,13 +252,10 @@ def test_nothing_but_the_case() -> None:
     assert "no governing numbers" in render_html(document)
 
 
-def test_many_warnings_stand_below_the_numbers(result: Result) -> None:
-    many = replace(result, notices=result.notices * 6)
-    blocks = compose(many).sections[0].blocks
-    kinds = [type(block).__name__ for block in blocks]
-    assert kinds.index("KeyFigures") < kinds.index("NoticeBlock")
-    few = [type(block).__name__ for block in compose(result).sections[0].blocks]
-    assert few.index("NoticeBlock") < few.index("KeyFigures")
+def test_warnings_stand_below_the_numbers(result: Result) -> None:
+    for notices in (result.notices, result.notices * 6):
+        kinds = [type(block).__name__ for block in compose(replace(result, notices=notices)).sections[0].blocks]
+        assert kinds.index("KeyFigures") < kinds.index("NoticeBlock")
 
 
 def test_flume_record_is_shown(result: Result) -> None:

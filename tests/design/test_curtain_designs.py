@@ -1,0 +1,233 @@
+"""Ordinary curtains in default settings: the first page beside a hand calculation.
+
+Hand calculation: with the pressure q = rho C_D U^2 / 2 and the weight W at the toe a weightless skirt hangs as
+d = a asinh(L/a), a = W/q, and pulls its top with W L / sqrt(a^2 + L^2) per length. The sheet's own weight lies between
+top and toe, so that depth and load lie between those with the toe's weight alone and with all weight at the toe. In
+plan the line load acts as cos^2 of the angle to the flow (catenary) where the skirt hangs straight, and hardly changes
+with it where the weight limits it (circle): the tension lies between both.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import moyai
+from moyai.curtain import hierarchy as models
+
+GRAVITY, STEEL, SEA = 9.81, 7850.0, 1025.0
+CASE = """moyai: 1
+title: Ordinary curtain
+site: {{water_depth: {depth} m, density: 1025 kg/m3, gravity: 9.81 m/s2}}
+current: {{speed: {speed} m/s, heading_deg: 0}}
+waves:
+  - {{name: daily, kind: regular, height: {daily} m, periods: [3 s, 4 s, 5 s], heading_deg: 0}}
+  - {{name: storm, kind: jonswap, significant_height: {storm} m, significant_period: {period} s, peak_enhancement: 3.3,
+     heading_deg: 0, duration: 20 min, seed: 1}}
+structure:
+  kind: curtain
+  span: {span} m
+  length: {length} m
+  skirt: {{length: {skirt} m, mass_per_area: 0.8 kg/m2, sheet_density: 1380 kg/m3, stiffness: 900 kN/m,
+          strength: 160 kN/m}}
+  toe: {{kind: {toe}, chain_mass: {chain} kg/m}}
+  cables:
+    upper: {{catalogue: polyester, diameter: 28 mm}}
+{lower}  floats: {{buoyancy: {buoyancy} N/m, weight: {weight} N/m}}
+  anchors: {{line_length: 40 m, axial_stiffness: 10 MN, breaking_load: 300 kN, holding_force: 120 kN}}
+  drag: {{law: constant, coefficient: {drag}, range: [0.8, 1.3]}}
+analyses: [{analyses}]
+settings:
+  anchor_loads: {{energy_factor: 0.2, float_mass: 500 kg}}
+  safety_factors: {{cable: 3, sheet: 4, anchor_line: 3, anchor: 1.5}}
+{more}"""
+BASE = {
+    "depth": 10.0, "speed": 0.5, "daily": 0.4, "storm": 0.8, "period": 3.5, "span": 20.0, "length": 22.5, "skirt": 5.0,
+    "toe": "free", "chain": 15.0, "lower": "", "buoyancy": 2352.0, "weight": 300.0, "drag": 1.5, "more": "",
+    "analyses": "statics, impact, waves, anchor_loads",
+}  # fmt: skip
+LOWER = "    lower: {axial_stiffness: 850 kN, breaking_load: 130 kN}\n"
+#: Classes of Japanese practice by sea, current, float and chain; the curtain of the issue; a tidal channel; a held toe.
+DESIGNS = {
+    "class B": {"storm": 1.0, "period": 3.9, "speed": 0.2, "chain": 8.0, "buoyancy": 980.0, "weight": 150.0},
+    "class C": {"storm": 0.8, "speed": 0.1, "chain": 8.0, "buoyancy": 588.0, "weight": 100.0, "skirt": 4.0},
+    "class D": {"storm": 0.5, "period": 2.8, "speed": 0.05, "chain": 4.0, "buoyancy": 294.0, "weight": 60.0,
+                "skirt": 3.0, "daily": 0.2},
+    "strong current": {},
+    "tidal channel": {"depth": 8.0, "speed": 0.8, "chain": 30.0, "drag": 1.2, "span": 15.0, "length": 17.5},
+    "held toe": {"toe": "held", "lower": LOWER, "chain": 20.0, "speed": 0.25, "skirt": 6.0, "depth": 12.0},
+}  # fmt: skip
+FREE = [name for name in DESIGNS if name != "held toe"]
+
+
+def ran(folder: Path, **changes: object):
+    given = BASE | changes
+    file = folder / "case.yaml"
+    file.write_text(CASE.format(**given), encoding="utf-8")
+    return given, moyai.run(moyai.load_case(file))
+
+
+@pytest.fixture(scope="module")
+def designs(tmp_path_factory: pytest.TempPathFactory):
+    made: dict[str, tuple[dict, object]] = {}
+
+    def get(name: str):
+        if name not in made:
+            made[name] = ran(tmp_path_factory.mktemp("curtain"), **DESIGNS[name])
+        return made[name]
+
+    return get
+
+
+def headline(result, name: str):
+    return next(item for item in result.headlines if item.name == name)
+
+
+def weights(given: dict) -> tuple[float, float]:
+    """Weight of the toe alone and with the whole sheet, per length of curtain [N/m]."""
+    toe = given["chain"] * GRAVITY * (1.0 - SEA / STEEL)
+    return toe, toe + 0.8 * GRAVITY * (1.0 - SEA / 1380.0) * given["skirt"]
+
+
+def pressure(given: dict) -> float:
+    return 0.5 * SEA * given["drag"] * given["speed"] ** 2
+
+
+def plan_numbers(ratio: float) -> tuple[float, float]:
+    """Tension over line load times length, of a catenary under cos^2 and of a circle under an even load."""
+    catenary = brentq(lambda tau: 2.0 * tau * math.sinh(ratio / (2.0 * tau)) - 1.0, 0.05, 50.0)
+    angle = brentq(lambda theta: math.sin(theta) / theta - ratio, 1e-6, math.pi)
+    return catenary, 0.5 / angle
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> None:
+    given, result = designs(name)
+    low, high = (w / pressure(given) * math.asinh(given["skirt"] * pressure(given) / w) for w in weights(given))
+    depth = headline(result, "effective_depth")
+    # 0.5 %: the skirt stretches a little, the quadrature of the section has a finite step
+    assert 0.995 * low <= depth.value <= 1.005 * high
+    assert depth.band.low < depth.value < depth.band.high
+    toe = headline(result, "toe_clearance")
+    assert toe.value == pytest.approx(given["depth"] - depth.value, abs=0.01)
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_steady_load_is_what_the_weights_allow(designs, name: str) -> None:
+    given, result = designs(name)
+    loads = []
+    for weight in weights(given):
+        a = weight / pressure(given)
+        loads.append(weight * given["skirt"] / math.hypot(a, given["skirt"]))
+    found = float(result.tree["/SWL/statics"]["section_load"].sel(drag_case="given"))
+    assert 0.995 * loads[0] <= found <= 1.005 * loads[1]
+    steady = float(result.tree["/SWL/loads"]["steady_load"].sel(component="upper cable"))
+    catenary, circle = (number * found * given["length"] for number in plan_numbers(given["span"] / given["length"]))
+    assert 0.99 * catenary <= steady <= 1.01 * circle
+
+
+def test_held_toe_carries_at_most_the_drag_of_its_length(designs) -> None:
+    given, result = designs("held toe")
+    line = float(result.tree["/SWL/statics"]["section_load"].sel(drag_case="given"))
+    upright = pressure(given) * given["skirt"]
+    # the load along the flow is q times the integral of cos^3 over the arc, the depth that of cos: means of powers
+    share = headline(result, "effective_depth").value / given["skirt"]
+    assert share**3 * upright <= line <= upright
+    assert 0.5 < share <= 1.0
+
+
+@pytest.mark.parametrize("name", list(DESIGNS))
+def test_snap_is_of_the_size_of_its_energy(designs, name: str) -> None:
+    """T = u d sqrt(2 rho B EA / (pi l)): the cable takes at most the energy of the water in front of a plate."""
+    given, result = designs(name)
+    group = result.tree["/SWL/impact"]
+    stiffness = float(group["cable_stiffness"])
+    speed = float(group["start_speed"])
+    bound = speed * given["skirt"] * math.sqrt(2.0 * SEA * given["span"] * stiffness / (math.pi * given["length"]))
+    model_a = float(group["impact_tension"].sel(impact_model="A"))
+    assert 0.6 * bound < model_a < bound
+    # waves of a slow rise add to the mass: two and a half times that of infinite frequency for a plate under a lid
+    assert float(group["design_tension"]) < math.sqrt(math.pi**2 / 4.0) * bound
+
+
+@pytest.mark.parametrize("name", list(DESIGNS))
+def test_one_number_on_page_table_and_record(designs, name: str) -> None:
+    _, result = designs(name)
+    assert result.status == "converged"
+    loads = result.tree["/SWL/loads"].to_dataset()
+    cables = loads["governing_load"].sel(component=["upper cable", "lower cable"]).values
+    assert headline(result, "cable_tension").value == np.nanmax(cables)
+    assert headline(result, "anchor_load").value == float(loads["governing_load"].sel(component="anchor line"))
+    for sea in ("daily",):
+        table = result.tree[f"/SWL/waves/{sea}"].to_dataset()
+        for period in table["period"].values:
+            record = result.tree[f"/SWL/waves/{sea}/T {period:g} s"].to_dataset()
+            number = float(table["maximum_tension"].sel(period=period))
+            if np.isfinite(float(table["repeats_after"].sel(period=period))) and number > 0.0:
+                # the record holds samples, the table the peak between them
+                assert float(record["tension"].max()) == pytest.approx(number, rel=0.02)
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_a_plate_never_governs_a_free_toe(designs, name: str) -> None:
+    """A model out of its range is told as a bound, and why."""
+    _, result = designs(name)
+    roles = result.tree["/SWL/models"].to_dataset()
+    for model in (models.IMPACT, models.CYCLES):
+        row = roles.sel(model=model)
+        assert str(row["model_role"].values) == "bound" and "toe is free" in str(row["model_reason"].values)
+    cable = headline(result, "cable_tension")
+    assert cable.bound == "at most" and "dynamic" in cable.detail
+    # and what only a bound exceeds is not judged to fail
+    assert all(item.bound for item in result.headlines if item.name == "cable_utilisation")
+
+
+def test_a_straight_held_plate_governs(designs, tmp_path: Path) -> None:
+    _, result = designs("held toe")
+    row = result.tree["/SWL/models"].to_dataset().sel(model=models.IMPACT)
+    share = float(row["model_value"])
+    assert str(row["model_role"].values) == ("governs" if share >= models.STRAIGHT else "bound")
+    slow = DESIGNS["held toe"] | {"speed": 0.02, "chain": 60.0, "analyses": "statics, impact"}
+    _, straight = ran(tmp_path, **slow)
+    row = straight.tree["/SWL/models"].to_dataset().sel(model=models.IMPACT)
+    assert float(row["model_value"]) >= models.STRAIGHT and str(row["model_role"].values) == "governs"
+    assert headline(straight, "cable_tension").bound == ""
+
+
+def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
+    """H 0.4 m at 3, 4, 5 s: with 120 periods left out the numbers are the same, and no chance of a start is in them."""
+    _, result = designs("strong current")
+    _, late = ran(tmp_path, analyses="waves", more="  waves: {settled_periods: 120, realisations: 1}\n")
+    tables = [found.tree["/SWL/waves/daily"].to_dataset() for found in (result, late)]
+    numbers = [table["maximum_tension"].values for table in tables]
+    assert numbers[0] == pytest.approx(numbers[1], rel=0.015)
+    assert list(tables[0]["repeats_after"].values) == [1.0, 2.0, 8.0]
+    # 72.8 and 42.1 kN once stood here for 3 and 4 s by other data of the cables; released, this one gives 56 kN at 3 s
+    assert numbers[0][0] < 30e3
+    assert np.all(tables[0]["periods_left_out"].values >= 4)
+    storm = result.tree["/SWL/waves/storm"].to_dataset()
+    assert float(storm["maximum_tension"]) > numbers[0].max()
+    cable = headline(late, "cable_tension")
+    assert cable.value == pytest.approx(float(late.tree["/SWL/waves/daily"]["maximum_tension"].max()), rel=0.35)
+
+
+@pytest.mark.slow  # five runs of a whole span through time, about half a minute
+def test_the_whole_span_governs_where_it_is_run(designs, tmp_path: Path) -> None:
+    """A free toe in 0.5 m/s: the span gives a fraction of the plate, below the bound, and the page shows it."""
+    _, bound = designs("strong current")
+    more = "  dynamic: {cells_along: 12, cells_down: 4, sensitivity: false}\n"
+    _, result = ran(tmp_path, analyses="statics, impact, waves, anchor_loads, dynamic", more=more)
+    for name in ("cable_tension", "anchor_load"):
+        found, most = headline(result, name), headline(bound, name)
+        assert found.model == models.SPAN and not found.bound and most.bound == "at most"
+        assert found.value < 0.5 * most.value
+    runs = result.tree["/SWL/dynamic"].to_dataset()
+    assert headline(result, "cable_tension").value == float(runs["upper_peak"].max())
+    assert "snap in the current" in runs["run"].values
+    # the highest crest of the storm lies in what counts
+    attrs = result.tree["/SWL/dynamic/storm"].attrs
+    assert attrs["counted_from"] == pytest.approx(7.0 * attrs["period"])
