@@ -150,7 +150,7 @@ def _judge(
     number = f"{value:.3g}{' ' + row.unit if row.unit else ''}"
     message = f"the {row.what} is {number}"
     if len(paths) > 1 or first != blamed[0]:
-        message += f" ({_written(paths, entries, findings.document)})"
+        message += f" ({_written(paths, entries, numbers, findings.document)})"
     message += ", which is unusual" if possible else ", which is impossible"
     power = next(factor.power for factor, path in zip(row.factors, paths) if path == blamed[0]) if blamed[2] else 0
     record = findings.warn if possible else findings.fault
@@ -180,11 +180,13 @@ def _blamed(
     return None
 
 
-def _written(paths: list[KeyPath], entries: list[Entry | None], document: Document) -> str:
+def _written(
+    paths: list[KeyPath], entries: list[Entry | None], numbers: dict[KeyPath, Entry], document: Document
+) -> str:
     """Return the numbers of a ratio as the file writes them."""
     said = []
     for path, entry in zip(paths, entries):
-        if entry is not None and entry.of:
+        if entry is not None and entry.of and (len(entry.of) > 1 or entry.of[0] not in numbers):
             said.append(f"{str(path[-1]).removeprefix('@').replace('_', ' ')} {entry.value:.4g}")
         for place in [entry.place] if entry and entry.place else [place_of(key, document) for key in entry.of]:  # type: ignore[union-attr]
             if place is None:

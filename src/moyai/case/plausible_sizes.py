@@ -22,17 +22,15 @@ def derived_sizes(model: Any) -> Sizes:
     """Return the sizes of a case by their path, with the keys that each follows from."""
     sizes: Sizes = {}
     site = model.site
-    levels = tuple(("site", "water_levels", name) for name in site.water_levels)
+    levels: tuple[KeyPath, ...] = tuple(("site", "water_levels", name) for name in site.water_levels)
     sizes[("@depth",)] = site.water_depth + max(site.water_levels.values()), (_DEPTH, *levels)
     sizes[("structure", "@depth_mass")] = site.density * site.water_depth, (_DENSITY, _DEPTH)
     periods = _seas(model, sizes)
     _OF_KIND[model.structure.kind](model, sizes)
     if model.structure.kind == "network" and not periods:
-        periods = [
-            (motion.period, ("structure", "motions", name, "period"))
-            for name, motion in model.structure.motions.items()
-            if getattr(motion, "period", None) is not None
-        ]
+        for name, motion in model.structure.motions.items():
+            if getattr(motion, "period", None) is not None:
+                periods.append((motion.period, ("structure", "motions", name, "period")))
     if periods:
         shortest, longest = min(periods, key=lambda entry: entry[0]), max(periods, key=lambda entry: entry[0])
         sizes[("@shortest_period",)] = shortest[0], (shortest[1],)
@@ -73,7 +71,7 @@ def _seas(model: Any, sizes: Sizes) -> list[tuple[float, KeyPath]]:
 def _duration(model: Any, sizes: Sizes) -> None:
     """Add the length of a run of a network."""
     settings = model.settings
-    lasting = [
+    lasting: list[tuple[float, KeyPath]] = [
         (state.duration, ("waves", index, "duration"))
         for index, state in enumerate(model.waves)
         if getattr(state, "duration", None) is not None
@@ -82,7 +80,7 @@ def _duration(model: Any, sizes: Sizes) -> None:
         lasting.append((settings.duration, ("settings", "duration")))
     longest = sizes.get(("@longest_period",))
     if lasting:
-        value, key = max(lasting)
+        value, key = max(lasting, key=lambda entry: entry[0])
         sizes[("@duration",)] = value, (key,)
     elif longest is not None:
         sizes[("@duration",)] = 20.0 * longest[0], longest[1]
@@ -187,8 +185,8 @@ def _cage(model: Any, sizes: Sizes) -> None:
                 mass = site.density * 0.25 * math.pi * pipe.diameter**2
                 sizes[(*base, "@displaced_mass")] = mass, ((*base, "diameter"), _DENSITY)
         if unit.collar is not None:
-            key = ("structure", "collar", "pipe", "diameter")
-            sizes[("structure", "collar", "@pipe_diameter")] = unit.collar.pipe.diameter, (key,)
+            of: KeyPath = ("structure", "collar", "pipe", "diameter")
+            sizes[("structure", "collar", "@pipe_diameter")] = unit.collar.pipe.diameter, (of,)
         if unit.mooring.kind == "grid":
             _grid(unit.mooring, site, sizes)
         return

@@ -297,7 +297,7 @@ def _cut(
             return False
         return enough(low, high)
 
-    parts = []
+    parts: list[tuple[float, float, int]] = []
     stack = [(0.0, 1.0)]
     while stack:
         low, high = stack.pop()

@@ -57,6 +57,12 @@ def sources() -> Iterator[tuple[str, str, Path]]:
             yield str(path.relative_to(ROOT)), text, path.parent
 
 
+def designs() -> Iterator[tuple[str, str, Path]]:
+    """Yield name, text and folder of designs that were written after the ranges were set."""
+    for path in sorted((Path(__file__).parent / "designs").glob("*.yaml")):
+        yield path.name, path.read_text(encoding="utf-8"), path.parent
+
+
 def numbers(data: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[tuple[str | int, ...], Any]]:
     """Yield path and value of every number but zero in the data of a case."""
     if isinstance(data, dict):
@@ -154,7 +160,7 @@ def table(found: list[Slip]) -> str:
 if __name__ == "__main__":
     wanted = [word for word in sys.argv[1:] if not word.startswith("--")]
     gathered: list[Slip] = []
-    for file, content, place in sources():
+    for file, content, place in [*sources(), *designs()]:
         if wanted and not any(word in file for word in wanted):
             continue
         start = time.time()

@@ -1,4 +1,5 @@
-"""Slips of a designer: units, decimal points, full-width signs, what no structure can be. Each is stopped or warned of."""
+"""Slips of a designer: units, decimal points, full-width signs, what cannot be. Each is stopped or warned of."""
+# ruff: noqa: E501  (one slip a line reads best)
 
 import time
 
@@ -75,7 +76,7 @@ def test_what_is_unusual_is_warned_of(name):
 
 def test_a_sound_case_is_not_spoken_of():
     assert not [str(fault) for fault in read(CASE).warnings if "usual" in fault.allowed]
-    for name, text, folder in slips.sources():
+    for name, text, folder in [*slips.sources(), *slips.designs()]:
         found = case_of(parse_yaml(text, name), folder / "case.yaml").warnings
         assert not [str(fault) for fault in found if "usual" in fault.allowed], name
 
@@ -135,6 +136,12 @@ def test_every_fifth_slip_of_a_thousand_in_the_templates_is_told():
     for structure in {slip.structure for slip in found}:
         group = [slip for slip in found if slip.structure == structure]
         assert sum(slip.told for slip in group) >= 0.8 * len(group), slips.table(found)
+
+
+def test_slips_in_designs_that_the_ranges_did_not_see_are_told():
+    found = [slip for name, text, folder in slips.designs() for slip in slips.slips(name, text, folder)]
+    assert {slip.outcome for slip in found} <= {"stopped", "warned", "silent"}
+    assert sum(slip.told for slip in found) >= 0.8 * len(found), slips.table(found)
 
 
 @pytest.mark.slow
