@@ -72,8 +72,8 @@ def test_a_flume_cage_of_lader_and_enerhaug():
     sink_drag = headline(slow, "drag")
     # 10 %: the wall leans a little, panels of 32 around, shelter by the angle of each panel
     assert sink_drag.value == pytest.approx(by_hand, rel=0.10)
-    # weighted strips lean by U^2 alone (0.3 N on 14 N/m of rim: 3 cm, front and rear alike, which keeps the volume); the
-    # slack strips between the 16 weights belly in between: 5 % is what such a festoon of 28 cm can take
+    # weighted strips lean by U^2 alone (0.3 N on 14 N/m of rim: 3 cm, front and rear alike, which keeps the volume);
+    # the slack strips between the 16 weights belly in between: 5 % is what such a festoon of 28 cm can take
     assert headline(slow, "volume_left").value > 0.95
     fast = result_of(tank(1.435, 1.44, 1.8e-3, 0.225, sinkers, 0.4))
     drag = headline(fast, "drag")

@@ -293,8 +293,8 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     for level, name, sea in seas:
         values = sea["peak_tension"].values
         if values.size and (best is None or float(values.max()) > best[0]):
-            wave, line, _ = np.unravel_index(int(np.argmax(values)), values.shape)
-            best = (float(values.max()), level, name, int(wave), int(line), sea)
+            at = np.unravel_index(int(np.argmax(values)), values.shape)
+            best = (float(values.max()), level, name, int(at[0]), int(at[1]), sea)
     if best is None:
         return []
     value, level, name, wave, line, sea = best
