@@ -72,14 +72,14 @@ def test_a_flume_cage_of_lader_and_enerhaug():
     sink_drag = headline(slow, "drag")
     # 10 %: the wall leans a little, panels of 32 around, shelter by the angle of each panel
     assert sink_drag.value == pytest.approx(by_hand, rel=0.10)
-    # the rim hangs in festoons between its 16 weights: what the current takes counts from still water
-    still = float(slow.tree["SWL/statics"].to_dataset()["volume_share"].values[0].min())
-    assert headline(slow, "volume_left").value > 0.99 * still
+    # weighted strips lean by U^2 alone (0.3 N on 14 N/m of rim: 3 cm, front and rear alike, which keeps the volume);
+    # the slack strips between the 16 weights belly in between: 5 % is what such a festoon of 28 cm can take
+    assert headline(slow, "volume_left").value > 0.95
     fast = result_of(tank(1.435, 1.44, 1.8e-3, 0.225, sinkers, 0.4))
     drag = headline(fast, "drag")
-    # not in proportion to the square of the speed: less than half of the stiff cage's
-    assert drag.value < 0.6 * stiff_drag(0.225, 1.435, 1.44, 0.4, 1000.0)
-    assert headline(fast, "volume_left").value < 0.8
+    # the wall gives way, the volume falls to some 55 %, and the drag below that of the stiff cage
+    assert drag.value < 0.9 * stiff_drag(0.225, 1.435, 1.44, 0.4, 1000.0)
+    assert headline(fast, "volume_left").value < 0.6
     assert drag.band.low <= drag.value <= drag.band.high
     assert "aarsnes" in drag.band.of
 

@@ -118,7 +118,7 @@ def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progres
             progress("rest in the current", len(speeds), len(speeds))
             statics = collected.groups[f"{root}/statics"]
             collected.checks.extend(rest_checks(name, statics))
-            collected.notices.extend(rest_notices(name, model, statics))
+            collected.notices.extend(rest_notices(name, model, statics, speed))
             close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
             rest = close[0] if close else None
             if rest is not None and speed > 0.0:

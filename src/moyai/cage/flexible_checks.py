@@ -202,8 +202,8 @@ def rest_checks(level: str, statics: xr.Dataset) -> tuple[IdentityCheck, ...]:
     )
 
 
-def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset) -> tuple[Notice, ...]:
-    """Tell what the rest of a cage shows that an engineer has to know."""
+def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset, speed: float) -> tuple[Notice, ...]:
+    """Tell what the rest of a cage shows that an engineer has to know, in the current of the site: no sweep decides."""
     notices = []
     residual = float(statics["residual"].values.max())
     if residual > 1e-3:
@@ -218,28 +218,27 @@ def rest_notices(level: str, model: FlexibleCage, statics: xr.Dataset) -> tuple[
                 remedy="take volume and drag there as those of a net that flutters",
             )
         )
-    speeds, volume = statics["current_speed"].values, statics["volume_share"].values
-    least = float(volume.min())
+    design = statics.isel(current=int(np.argmin(np.abs(statics["current_speed"].values - speed))))
+    least = float(design["volume_share"].values.min())
     if least < 0.5:
-        where = float(speeds[int(np.argmin(volume.min(axis=1)))])
         notices.append(
             Notice(
                 "cage-volume",
-                f"{level}: at {where:.3g} m/s only {100.0 * least:.3g} % of the volume is left",
+                f"{level}: at {speed:.3g} m/s only {100.0 * least:.3g} % of the volume is left",
                 least,
                 0.5,
                 remedy="heavier weights, a sinker tube, or a site with less current",
             )
         )  # fmt: skip
-    if "utilisation" in statics and statics["utilisation"].size and float(statics["utilisation"].max()) > 1.0:
-        line = str(statics["line"].values[int(np.argmax(statics["utilisation"].values.max(axis=0)))])
+    if "utilisation" in design and design["utilisation"].size and float(design["utilisation"].max()) > 1.0:
+        line = str(design["line"].values[int(np.argmax(design["utilisation"].values))])
         notices.append(
             Notice(
                 "cage-line-breaks", f"{level}: the tension of {line!r} exceeds its breaking load",
-                float(statics["utilisation"].max()), 1.0, "warning", "take a stronger rope or a looser grid",
+                float(design["utilisation"].max()), 1.0, "warning", "take a stronger rope or a looser grid",
             )
         )  # fmt: skip
-    place = statics["collar_place"].values[..., 2]
+    place = design["collar_place"].values[..., 2]
     draught = model.design.collar.pipe.diameter
     if isinstance_grid(model) and float(place.min()) < -0.5 * draught:
         notices.append(

@@ -108,11 +108,10 @@ def _volume(states: list[_State], runs: Runs) -> list[Headline]:
     worst = min(states, key=lambda state: float(state.statics["volume_share"].values[state.row].min()))
     value = float(worst.statics["volume_share"].values[worst.row].min())
     least = min((float(run["volume_minimum"].min()) for _, _, run in runs), default=math.nan)
-    detail = f"down to {100.0 * least:.3g} % for moments in the sea" if math.isfinite(least) else ""
+    detail = f"down to {least:.3g} for moments in the sea" if math.isfinite(least) else ""
     return [
         Headline(
             "volume_left", "volume left", value, "1", worst.where, STATICS, worst.band("volume_share"), detail=detail,
-            text=f"{100.0 * value:.3g} %",
         )
     ]  # fmt: skip
 
@@ -294,8 +293,8 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     for level, name, sea in seas:
         values = sea["peak_tension"].values
         if values.size and (best is None or float(values.max()) > best[0]):
-            wave, line, _ = np.unravel_index(int(np.argmax(values)), values.shape)
-            best = (float(values.max()), level, name, int(wave), int(line), sea)
+            at = np.unravel_index(int(np.argmax(values)), values.shape)
+            best = (float(values.max()), level, name, int(at[0]), int(at[1]), sea)
     if best is None:
         return []
     value, level, name, wave, line, sea = best

@@ -35,7 +35,7 @@ def maximum_of(time: ArrayLike, values: ArrayLike, period: float) -> Maximum | N
     """Estimate mean and scatter of the largest value from the maxima of blocks of one record.
 
     Maxima of ``N`` blocks follow Gumbel's law with mean ``m`` and deviation ``s``; the largest of ``N`` then has the
-    mean ``m + s sqrt(6)/pi ln N`` and the same deviation ``s`` (Gumbel 1958). ``None`` for records too short.
+    mean ``m + s sqrt(6)/pi ln N`` and the same deviation ``s`` [eq:extremes-of-blocks]. ``None`` for records too short.
 
     Parameters
     ----------

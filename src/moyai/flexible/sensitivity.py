@@ -35,8 +35,8 @@ class PeakSensitivity:
     step : float
         Time step of the run itself [s].
     damped : float
-        On a finer mesh whose bars are damped near their critical damping [N]; NaN where it was not run. Fronts overshoot
-        on undamped bars by a part that no finer mesh takes away.
+        On a finer mesh whose bars are damped by a part of critical [N]; NaN where it was not run. Fronts on undamped
+        bars overshoot by a part that no finer mesh takes away.
     """
 
     peak: float

@@ -134,7 +134,8 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
         keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped")
         values = [float(summary[key]) for key in keys]
         if summary.attrs.get(f"governing {peak.run}") == peak.line:
-            low, high = band_of(PeakSensitivity(*values[:5], math.nan, values[5]))
+            peak_of, half, mesh, less, more, damped = values
+            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped))
             words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
             band = Band(min(low, peak.value), max(high, peak.value), words)
             viscous = [value for value in values[3:5] if math.isfinite(value)]

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.report.cage_flexible_figures import design_row
 from moyai.report.cage_rigid_reading import Level, key
 from moyai.report.document import Animation, Block, Choice, Option
 from moyai.report.formatting import format_quantity
@@ -97,10 +98,10 @@ def rest_views(level: Level) -> Block | None:
         said = format_quantity(float(value), "m/s") if value > 0.0 else "still water"
         options.append(Option(said, (_still(level, near, position[number][kept], tension[number][keep], value, said),)))
     if keep.size < tension.shape[1]:
-        last = len(speed) - 1
+        last = design_row(level, speed)
         said = f"{format_quantity(float(speed[last]), 'm/s')}, with anchor lines"
         options.append(Option(said, (_still(level, parts, position[last], tension[last], speed[last], said),)))
-    return Choice(f"rest-view-{level.name}", "Current", tuple(options), len(speed) - 1, print_all=False)
+    return Choice(f"rest-view-{level.name}", "Current", tuple(options), design_row(level, speed), print_all=False)
 
 
 def _still(level: Level, parts: Parts, place: Array, pull: Array, speed: float, said: str) -> Animation:
