@@ -19,6 +19,7 @@ from moyai.breakwater.responses import (
     overtopping_share,
     tension_transfer,
 )
+from moyai.breakwater.slow_drift import SlowDrift, combined_extremes, slow_drift
 from moyai.breakwater.variables import labelled
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -58,6 +59,7 @@ def irregular_sea(
     tension_statistics = response_statistics(omega, tension[0], directional)
     waves = response_statistics(omega, np.ones((len(omega), 1)), met)
     duration = sea.duration
+    slow = _slow(model, hydros, settled, directional)
     height = float(waves.significant[0])
     out: dict = {
         "wave_spectrum": ("omega", density),
@@ -83,11 +85,23 @@ def irregular_sea(
             "reflection_coefficient": ((), energy_transmission(omega, reflected, directional)),
             "transmitted_spectrum": ("omega", np.sum(transmitted**2 * directional, axis=1)),
         }
-    load = np.array([line.breaking_load for line in unit.lines])
-    out["maximum_utilisation"] = (
-        "line",
-        np.where(np.isfinite(load), np.asarray(out["most_probable_maximum_tension"][1]) / load, np.nan),
+    factors = tuple(
+        np.asarray(item.most_probable_maximum(duration) / np.where(item.standard_deviation > 0.0, item.standard_deviation, 1.0))
+        for item in (statistics, tension_statistics)
     )
+    extremes = combined_extremes(
+        unit, offset, motions.displacement, tension[0], directional, omega, slow, (factors[0], factors[1]), duration
+    )
+    load = np.array([line.breaking_load for line in unit.lines])
+    out |= {
+        "maximum_tension": ("line", extremes.tension),
+        "maximum_anchor_vertical_tension": ("line", extremes.anchor_vertical),
+        "maximum_anchor_horizontal_tension": ("line", extremes.anchor_horizontal),
+        "least_grounded_length": ("line", extremes.grounded),
+        "largest_offset": ((), extremes.offset),
+        "maximum_utilisation": ("line", np.where(np.isfinite(load), extremes.tension / load, np.nan)),
+        **_slow_variables(slow),
+    }
     share_over, relative = overtopping_share(unit, motions, omega, headings, directional)
     out |= {
         "overtopping_share": ((), share_over),
@@ -128,6 +142,29 @@ def irregular_sea(
     return FrequencyResult(data, (), tuple(notices))
 
 
+def _slow_variables(slow: SlowDrift | None) -> dict:
+    if slow is None:
+        return {}
+    return {
+        "slow_motion_deviation": ("dof", slow.deviation),
+        "slow_sway_deviation_half_damping": ((), slow.half_damping),
+        "slow_sway_deviation_double_damping": ((), slow.double_damping),
+        "slow_sway_period": ((), slow.natural_period),
+        "slow_sway_damping_ratio": ((), slow.damping_ratio),
+    }
+
+
+def _slow(
+    model: FrequencyModel, hydros: list[Hydrodynamics], settled: _Settled, directional: Array
+) -> SlowDrift | None:
+    """Return the slow drift of a sea, ``None`` without drift."""
+    if not (model.with_drift and hydros[0].has_far_field) or settled.status != "converged":
+        return None
+    columns = [_drift_of(model.unit, hydro, settled.motions, column) for column, hydro in enumerate(hydros)]
+    stiffness = model.unit.mooring.stiffness(settled.offset)
+    return slow_drift(model, hydros[0].omega, directional, np.stack(columns, axis=1), stiffness, settled.damping)
+
+
 @dataclass(frozen=True)
 class _Settled:
     """Motions about the offset of their own drift, all headings of a sea together."""
@@ -137,6 +174,7 @@ class _Settled:
     offset: Array
     status: str
     notices: tuple[Notice, ...]
+    damping: LinearDamping
 
 
 def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, directional: Array) -> _Settled:
@@ -153,7 +191,7 @@ def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array,
         mean = mean_offset(unit.mooring, unit.statics.stiffness, model.steady + np.array([force, 0.0, 0.0]))
         offset = mean.position if mean.status == "converged" else np.zeros(3)
         stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
-        motions, notices = _sea_motions(model, hydros, headings, stiffness, directional)
+        motions, notices, damping = _sea_motions(model, hydros, headings, stiffness, directional)
         if not drifting:
             status = str(mean.status)
             break
@@ -161,7 +199,7 @@ def _settle(model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array,
         if abs(force - before) <= 1e-6 * max(abs(force), 1e-12):
             status = str(mean.status)
             break
-    return _Settled(motions, force, offset, status, notices)
+    return _Settled(motions, force, offset, status, notices, damping)
 
 
 def _drift(
@@ -169,16 +207,21 @@ def _drift(
 ) -> float:
     total = 0.0
     for column, hydro in enumerate(hydros):
-        far = far_field(hydro, motions.displacement[:, [column]])
-        square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)[:, 0]
+        square = _drift_of(unit, hydro, motions, column)
         total += float(np.sum(2.0 * weights * directional[:, column] * square))
     return total
 
 
+def _drift_of(unit: FloatingUnit, hydro: Hydrodynamics, motions: Motions, column: int) -> Array:
+    """Return the mean drift over amplitude squared of one heading [N/m2]."""
+    far = far_field(hydro, motions.displacement[:, [column]])
+    return drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)[:, 0]
+
+
 def _sea_motions(
     model: FrequencyModel, hydros: list[Hydrodynamics], headings: Array, stiffness: Array, directional: Array
-) -> tuple[Motions, tuple[Notice, ...]]:
-    """Return the motions in all headings of a sea, quadratic damping linearised for the whole of it.
+) -> tuple[Motions, tuple[Notice, ...], LinearDamping]:
+    """Return the motions in all headings of a sea and the damping, quadratic terms linearised for the whole of it.
 
     The linearisation takes the radiation of the first heading for all; each heading is then solved with its own.
     """
@@ -192,7 +235,7 @@ def _sea_motions(
     each = [solve_motions(item, unit.inertia, stiffness, damping=damping) for item in hydros]
     displacement = np.concatenate([item.displacement for item in each], axis=1)
     notices = tuple(notice for item in each for notice in item.notices)
-    return replace(each[0], heading=headings, displacement=displacement), notices
+    return replace(each[0], heading=headings, displacement=displacement), notices, damping
 
 
 def _joined_headings(hydros: list[Hydrodynamics], headings: Array) -> Hydrodynamics:
