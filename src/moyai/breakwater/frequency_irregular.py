@@ -28,7 +28,13 @@ from moyai.floating.damping import LinearDamping
 from moyai.floating.drift import mean_offset
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.irregular import energy_transmission, integration_weights, linearised_in_sea, response_statistics
+from moyai.floating.irregular import (
+    ResponseStatistics,
+    energy_transmission,
+    integration_weights,
+    linearised_in_sea,
+    response_statistics,
+)
 
 if TYPE_CHECKING:
     pass
@@ -85,12 +91,9 @@ def irregular_sea(
             "reflection_coefficient": ((), energy_transmission(omega, reflected, directional)),
             "transmitted_spectrum": ("omega", np.sum(transmitted**2 * directional, axis=1)),
         }
-    factors = tuple(
-        np.asarray(item.most_probable_maximum(duration) / np.where(item.standard_deviation > 0.0, item.standard_deviation, 1.0))
-        for item in (statistics, tension_statistics)
-    )
+    factors = (_peak_factors(statistics, duration), _peak_factors(tension_statistics, duration))
     extremes = combined_extremes(
-        unit, offset, motions.displacement, tension[0], directional, omega, slow, (factors[0], factors[1]), duration
+        unit, offset, motions.displacement, tension[0], directional, omega, slow, factors, duration
     )
     load = np.array([line.breaking_load for line in unit.lines])
     out |= {
@@ -140,6 +143,12 @@ def irregular_sea(
         )
     progress("irregular sea", 1, 1)
     return FrequencyResult(data, (), tuple(notices))
+
+
+def _peak_factors(statistics: ResponseStatistics, duration: float) -> Array:
+    """Return the most probable largest amplitudes over the standard deviations."""
+    deviation = statistics.standard_deviation
+    return np.asarray(statistics.most_probable_maximum(duration) / np.where(deviation > 0.0, deviation, 1.0))
 
 
 def _slow_variables(slow: SlowDrift | None) -> dict:

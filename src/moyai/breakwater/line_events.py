@@ -24,8 +24,8 @@ from moyai.floating.time import CumminsModel, Simulation
 
 Array = NDArray[np.float64]
 
-RAMP_PERIODS = 6.0  # of the waves, at the start of a window
-FORGOTTEN = math.log(30.0)  # the start of a window dies to a thirtieth before its event
+RAMP_PERIODS = 4.0  # of the waves, at the start of a window
+FORGOTTEN = math.log(20.0)  # the start of a window dies to a twentieth before its event
 MOST_LEAD = 600.0  # [s] from the start of a window to its event
 PERIODS_AROUND = 4.0  # peak periods before and after the event that count
 
@@ -93,7 +93,7 @@ class EventSettings:
         forget = 0.0
         if self.slow_omega > 0.0 and math.isfinite(self.slow_omega):
             forget = FORGOTTEN / (max(self.slow_damping, 0.01) * self.slow_omega)
-        return min(RAMP_PERIODS * self.peak_period + max(forget, 10.0 * self.peak_period), MOST_LEAD)
+        return min(RAMP_PERIODS * self.peak_period + max(forget, 6.0 * self.peak_period), MOST_LEAD)
 
 
 def run_event(

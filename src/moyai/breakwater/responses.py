@@ -76,7 +76,7 @@ def tension_transfer(unit: FloatingUnit, motions: Motions, offset: Array) -> tup
 
 
 def anchor_loads(unit: FloatingUnit, position: Array, tension: Array) -> tuple[Array, Array, Array]:
-    """Return largest vertical and horizontal tension at the anchor of one line of each kind [N], least length on the bed.
+    """Return largest vertical and horizontal tension at the anchor of each kind of line [N], and least grounded length.
 
     The exact lines are solved at the instants of the largest fairlead tensions, where both are largest too.
     """

@@ -253,9 +253,7 @@ def combined_extremes(
             out["vertical"][line] = state.vertical_tension_anchor[at]
             out["horizontal"][line] = state.horizontal_tension[at]
             out["grounded"][line] = state.grounded_length[at]
-    return CombinedExtremes(
-        out["tension"], out["vertical"], out["horizontal"], out["grounded"], abs(mean) + excursion
-    )
+    return CombinedExtremes(out["tension"], out["vertical"], out["horizontal"], out["grounded"], abs(mean) + excursion)
 
 
 def _slopes(unit: FloatingUnit, offset: Array) -> Array:

@@ -262,8 +262,8 @@ def _lines_in_motion(
             best, shown = value, found
     names = ", ".join(line.name for line, there in zip(unit.lines, moved, strict=True) if there)
     told = (
-        f"{unit.name}, {shared.sea.name}: peaks of line {names} pass {SNAP_RATIO:g} times the mean with lines at rest at "
-        f"every instant; they were run in motion over {given.lead:.0f} s up to the largest event of each realisation"
+        f"{unit.name}, {shared.sea.name}: peaks of line {names} pass {SNAP_RATIO:g} times the mean with lines at rest "
+        f"at every instant; they were run in motion over {given.lead:.0f} s up to the largest event of each realisation"
     )
     return members, shown, moved, (Notice("lines-set-in-motion", told, severity="information"),)
 
@@ -283,9 +283,7 @@ def _with_event(model: FrequencyModel, one: _Realisation, run: TimeRun, line: in
     return replace(one, summary=data)
 
 
-def _gathered(
-    unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np.bool_]
-) -> tuple[xr.Dataset, int]:
+def _gathered(unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np.bool_]) -> tuple[xr.Dataset, int]:
     """Return means over the realisations with what each gave, and the number of the one whose record is kept.
 
     The kept record is that whose largest tension of the governing line (without lines: largest sway) is nearest to the
@@ -293,7 +291,7 @@ def _gathered(
     """
     import xarray as xr
 
-    data = xr.concat([one.summary for one in members], dim="realisation")
+    data = xr.concat([one.summary for one in members], dim="member")
     if "maximum_tension" not in data:
         return members[0].summary, 0
     tension = data.maximum_tension.values
@@ -304,22 +302,20 @@ def _gathered(
         share = tension.mean(axis=0) / (loads if np.isfinite(loads).all() else 1.0)
         followed = tension[:, int(np.argmax(share))]
     shown = int(np.argmin(np.abs(followed - followed.mean())))
-    out = data.mean("realisation", skipna=True)
+    out = data.mean("member", skipna=True)
     for name in ("least_grounded_length", "least_rise_time"):
         if name in data:
-            out[name] = data[name].min("realisation", skipna=True)
+            out[name] = data[name].min("member", skipna=True)
     still = lines_at_rest(unit) & ~moved
     return out.assign(
-        maximum_tension_of_realisation=(("realisation", "line"), tension),
-        maximum_excursion_of_realisation=(("realisation", "dof"), excursion),
-        seed_of_realisation=("realisation", np.array([one.seed for one in members], dtype=np.int64)),
+        maximum_tension_of_realisation=(("member", "line"), tension),
+        maximum_excursion_of_realisation=(("member", "dof"), excursion),
+        seed_of_realisation=("member", np.array([one.seed for one in members], dtype=np.int64)),
         lines_in_motion=("line", (~still).astype(np.int8)),
     ), shown
 
 
-def _notices(
-    shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArray[np.bool_]
-) -> tuple[Notice, ...]:
+def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArray[np.bool_]) -> tuple[Notice, ...]:
     """Tell of peaks out of range, of drift that was switched off, of records that are too short for slow drift."""
     unit, sea, out = shared.model.unit, shared.sea, []
     where = f"{unit.name}, {sea.name}"
@@ -336,9 +332,9 @@ def _notices(
         out.append(
             Notice(
                 "slow-drift-off",
-                f"{where}: slow drift is switched off (time.drift: {shared.settings.drift}); the slow sway that is left "
-                f"out has a standard deviation of {slow:.3g} m at a natural period of {period:.3g} s, by the frequency "
-                "domain, and the tensions that go with it are missing",
+                f"{where}: slow drift is switched off (time.drift: {shared.settings.drift}); the slow sway that is "
+                f"left out has a standard deviation of {slow:.3g} m at a natural period of {period:.3g} s, by the "
+                "frequency domain, and the tensions that go with it are missing",
                 value=slow,
                 limit=0.0,
                 remedy="leave settings.time.drift at auto, or give newman",
@@ -349,8 +345,8 @@ def _notices(
         out.append(
             Notice(
                 "few-slow-cycles",
-                f"{where}: the record of {sea.duration:g} s holds {cycles:.0f} natural periods of sway ({period:.3g} s); "
-                "its largest slow excursion scatters widely",
+                f"{where}: the record of {sea.duration:g} s holds {cycles:.0f} natural periods of sway ({period:.3g} "
+                "s); its largest slow excursion scatters widely",
                 value=cycles,
                 limit=LEAST_CYCLES,
                 remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more settings.time.realisations",

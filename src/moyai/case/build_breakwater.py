@@ -132,9 +132,7 @@ def _coefficients(entry: Any, model: schema.BreakwaterCase, folder: Path) -> Coe
     return CoefficientsFile(entry.program, folder / entry.path, options)
 
 
-def line_of(
-    entry: LineEntry, index: int, water: Water, *, in_motion: bool = False
-) -> MooringLine | MooringSpring:
+def line_of(entry: LineEntry, index: int, water: Water, *, in_motion: bool = False) -> MooringLine | MooringSpring:
     """Return one entry of ``lines``; ``in_motion`` sets it in motion from the start whatever it says itself."""
     fairlead = (entry.fairlead.x, entry.fairlead.y, entry.fairlead.above_keel)
     if isinstance(entry, SpringLine):

@@ -243,8 +243,8 @@ class TimeSettings(Block):
     ] = Field(
         default="auto",
         description=(
-            "Realisations of each irregular sea, the first with its 'seed'; numbers are means over them. Default: auto, "
-            "5, or 1 where lines are in motion from the start."
+            "Realisations of each irregular sea, the first with its 'seed'; numbers are means over them. Default: "
+            "auto, 5, or 1 where lines are in motion from the start."
         ),
     )
     memory: Literal["state_space", "convolution"] = Field(
