@@ -10,8 +10,9 @@ import numpy as np
 
 from moyai.breakwater import frequency_irregular, frequency_regular
 from moyai.breakwater.assembly import FloatingUnit, assemble
-from moyai.breakwater.checks import check_problem, check_unit, drift_check, strength_notices
+from moyai.breakwater.checks import check_problem, check_unit, drift_check
 from moyai.breakwater.frequency_model import FrequencyModel, make_model
+from moyai.breakwater.headlines import headlines
 from moyai.breakwater.hydrodynamics import (
     CoefficientsOf,
     UnitHydrodynamics,
@@ -153,7 +154,6 @@ def _frequency_steps(
         collected.groups[f"{root}/frequency/{sea.name}"] = answer.dataset
         collected.checks.extend(answer.checks)
         collected.notices.extend(answer.notices)
-        collected.notices.extend(strength_notices(f"{unit.name}, {sea.name}, frequency domain", answer.dataset))
         if answer.dataset.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {unit.name}/frequency/{sea.name}")
         yield
@@ -194,7 +194,6 @@ def _time_steps(
                     replace(check, name=f"{check.name} ({sea.name}, {one.name})") for check in one.lines.checks
                 )
         collected.notices.extend(answer.notices)
-        collected.notices.extend(strength_notices(f"{unit.name}, {sea.name}, time domain", answer.dataset))
         histories.extend(collected.groups[f"{root}/time/{sea.name}/{one.name}"] for one in answer.runs)
         shapes = moving_shapes(unit, histories)
         if shapes is not None:
@@ -235,6 +234,7 @@ def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
         attributes,
         seeds,
         fulfilled="all identities hold and all iterations converged",
+        headlines=headlines(collected.groups),
         criteria=problem.criteria,
     )
 

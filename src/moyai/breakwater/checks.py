@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +12,6 @@ from moyai.breakwater.model import BreakwaterProblem, RegularSea, SeaState
 from moyai.breakwater.viscous_damping import motions_about_rest
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.mooring.checks import check_line_system
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 SHORT_CREST_ANGLE = math.radians(45.0)
 NEAR_FIELD_TOLERANCE = 0.02  # of the largest drift coefficient; corners limit the near field
@@ -104,24 +100,4 @@ def drift_check(model: FrequencyModel, heading: float, seas: tuple[SeaState, ...
             NEAR_FIELD_TOLERANCE,
             "far-field (Maruo) equals near-field drift of the moving section",
         ),
-    )
-
-
-def strength_notices(where: str, data: xr.Dataset) -> tuple[Notice, ...]:
-    """Tell of lines that break: largest tension over breaking load in a sea state."""
-    if "maximum_utilisation" not in data:
-        return ()
-    share = data["maximum_utilisation"]
-    worst = share.max([dim for dim in share.dims if dim != "line"], skipna=True)
-    return tuple(
-        Notice(
-            "line-breaks",
-            f"{where}: line {name} would bear {100.0 * value:.0f} % of its breaking load",
-            value=float(value),
-            limit=1.0,
-            severity="error",
-            remedy="use a stronger or longer line; the lines of the case cannot hold this",
-        )
-        for name, value in zip(worst["line"].values, worst.values)
-        if value > 1.0
     )

@@ -19,6 +19,7 @@ from moyai.breakwater.responses import (
     overtopping_share,
     tension_transfer,
 )
+from moyai.breakwater.slow_drift import SlowDrift, combined_extremes, slow_drift
 from moyai.breakwater.variables import labelled
 from moyai.breakwater.viscous_damping import (
     band_factors,
@@ -36,7 +37,13 @@ from moyai.floating.damping import LinearDamping
 from moyai.floating.drift import mean_offset
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions
-from moyai.floating.irregular import energy_transmission, integration_weights, linearised_in_sea, response_statistics
+from moyai.floating.irregular import (
+    ResponseStatistics,
+    energy_transmission,
+    integration_weights,
+    linearised_in_sea,
+    response_statistics,
+)
 
 if TYPE_CHECKING:
     pass
@@ -67,6 +74,7 @@ def irregular_sea(
     tension_statistics = response_statistics(omega, tension[0], directional)
     waves = response_statistics(omega, np.ones((len(omega), 1)), met)
     duration = sea.duration
+    slow = _slow(model, hydros, settled, directional)
     height = float(waves.significant[0])
     out: dict = {
         "wave_spectrum": ("omega", density),
@@ -92,10 +100,9 @@ def irregular_sea(
             "reflection_coefficient": ((), energy_transmission(omega, reflected, directional)),
             "transmitted_spectrum": ("omega", np.sum(transmitted**2 * directional, axis=1)),
         }
-    load = np.array([line.breaking_load for line in unit.lines])
-    out["maximum_utilisation"] = (
-        "line",
-        np.where(np.isfinite(load), np.asarray(out["most_probable_maximum_tension"][1]) / load, np.nan),
+    factors = (_peak_factors(statistics, duration), _peak_factors(tension_statistics, duration))
+    extremes = combined_extremes(
+        unit, offset, motions.displacement, tension[0], directional, omega, slow, factors, duration
     )
     out |= _band(model, hydros, headings, directional, settled)
     hydro = model.hydro.unit
@@ -106,6 +113,16 @@ def irregular_sea(
         natural_added_mass(model, hydro),
         settled.stiffness,
     )
+    load = np.array([line.breaking_load for line in unit.lines])
+    out |= {
+        "maximum_tension": ("line", extremes.tension),
+        "maximum_anchor_vertical_tension": ("line", extremes.anchor_vertical),
+        "maximum_anchor_horizontal_tension": ("line", extremes.anchor_horizontal),
+        "least_grounded_length": ("line", extremes.grounded),
+        "largest_offset": ((), extremes.offset),
+        "maximum_utilisation": ("line", np.where(np.isfinite(load), extremes.tension / load, np.nan)),
+        **_slow_variables(slow),
+    }
     share_over, relative = overtopping_share(unit, motions, omega, headings, directional)
     out |= {
         "overtopping_share": ((), share_over),
@@ -145,6 +162,35 @@ def irregular_sea(
         )
     progress("irregular sea", 1, 1)
     return FrequencyResult(data, (), tuple(notices))
+
+
+def _peak_factors(statistics: ResponseStatistics, duration: float) -> Array:
+    """Return the most probable largest amplitudes over the standard deviations."""
+    deviation = statistics.standard_deviation
+    return np.asarray(statistics.most_probable_maximum(duration) / np.where(deviation > 0.0, deviation, 1.0))
+
+
+def _slow_variables(slow: SlowDrift | None) -> dict:
+    if slow is None:
+        return {}
+    return {
+        "slow_motion_deviation": ("dof", slow.deviation),
+        "slow_sway_deviation_half_damping": ((), slow.half_damping),
+        "slow_sway_deviation_double_damping": ((), slow.double_damping),
+        "slow_sway_period": ((), slow.natural_period),
+        "slow_sway_damping_ratio": ((), slow.damping_ratio),
+    }
+
+
+def _slow(
+    model: FrequencyModel, hydros: list[Hydrodynamics], settled: _Settled, directional: Array
+) -> SlowDrift | None:
+    """Return the slow drift of a sea, ``None`` without drift."""
+    if not (model.with_drift and hydros[0].has_far_field) or settled.status != "converged":
+        return None
+    columns = [_drift_of(model.unit, hydro, settled.motions, column) for column, hydro in enumerate(hydros)]
+    stiffness = model.unit.mooring.stiffness(settled.offset)
+    return slow_drift(model, hydros[0].omega, directional, np.stack(columns, axis=1), stiffness, settled.damping)
 
 
 @dataclass(frozen=True)
@@ -218,10 +264,15 @@ def _drift(
 ) -> float:
     total = 0.0
     for column, hydro in enumerate(hydros):
-        far = far_field(hydro, motions.displacement[:, [column]])
-        square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)[:, 0]
+        square = _drift_of(unit, hydro, motions, column)
         total += float(np.sum(2.0 * weights * directional[:, column] * square))
     return total
+
+
+def _drift_of(unit: FloatingUnit, hydro: Hydrodynamics, motions: Motions, column: int) -> Array:
+    """Return the mean drift over amplitude squared of one heading [N/m2]."""
+    far = far_field(hydro, motions.displacement[:, [column]])
+    return drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, unit.water, hydro.length)[:, 0]
 
 
 def _sea_motions(

@@ -27,7 +27,10 @@ from moyai.sea.states import SeaState as SeaState
 
 Mode = Literal["sway", "heave", "roll"]
 MODES: tuple[Mode, ...] = ("sway", "heave", "roll")
-DriftLaw = Literal["ramped", "pulsating", "newman", "none"]
+DriftLaw = Literal["auto", "ramped", "pulsating", "newman", "none"]
+LineMode = Literal["auto", "quasi_static", "dynamic"]
+
+DEFAULT_REALISATIONS = 5  # the mean of so many maxima is known to about half the scatter of one
 
 
 @dataclass(frozen=True)
@@ -83,9 +86,10 @@ class MooringLine:
     drag_width : float
         Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out.
     dynamic : bool
-        Whether the line is in motion in the time domain, with drag, inertia and slack.
+        Whether the line is in motion in the time domain from the start, with drag, inertia and slack.
     bar_types : tuple of BarType
-        What each segment is made of, for a line in motion; its internal damping is chosen later.
+        What each segment is made of, for a line in motion; its internal damping is chosen later. Empty where the
+        segments do not tell enough: the line then stays at rest at every instant.
     clump_bodies : tuple of (float, float)
         Mass [kg] and volume [m3] of each clump, for a line in motion.
     """
@@ -101,6 +105,11 @@ class MooringLine:
     dynamic: bool = False
     bar_types: tuple[BarType, ...] = ()
     clump_bodies: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def can_move(self) -> bool:
+        """Whether enough is known of the line to set it in motion."""
+        return bool(self.bar_types) and len(self.bar_types) == len(self.segments)
 
 
 @dataclass(frozen=True)
@@ -190,6 +199,9 @@ class LineDynamics:
         Peak over the tension at rest above which a contact counts as a snap.
     sensitivity : bool
         Whether every run is repeated with twice the bars, half the step and twice the internal damping.
+    mode : {"auto", "quasi_static", "dynamic"}
+        Whether lines that are not in motion from the start are set in motion where their peaks pass the range of lines
+        at rest (``auto``), never, or from the start.
     """
 
     bars: int = 30
@@ -199,6 +211,7 @@ class LineDynamics:
     slack_fraction: float = 0.05
     snap_fraction: float = 3.0
     sensitivity: bool = False
+    mode: LineMode = "auto"
 
 
 @dataclass(frozen=True)
@@ -214,19 +227,24 @@ class TimeSettings:
     time_step : float or None
     analysed_periods : int
         Whole periods at the end that are analysed in regular waves.
-    drift : {"ramped", "pulsating", "newman", "none"}
+    drift : {"auto", "ramped", "pulsating", "newman", "none"}
+        ``auto``: the mean under the ramp in regular waves, slow drift by Newman's approximation in irregular seas.
     memory : {"state_space", "convolution"}
     lines : LineDynamics
         For lines that are in motion.
+    realisations : int or None
+        Realisations of every irregular sea; ``None``: :data:`DEFAULT_REALISATIONS`, or one where lines are in motion
+        from the start.
     """
 
     duration: float | None = None
     ramp: float | None = None
     time_step: float | None = None
     analysed_periods: int = 10
-    drift: DriftLaw = "ramped"
+    drift: DriftLaw = "auto"
     memory: Literal["state_space", "convolution"] = "state_space"
     lines: LineDynamics = field(default_factory=LineDynamics)
+    realisations: int | None = None
 
 
 @dataclass(frozen=True)

@@ -75,17 +75,22 @@ def tension_transfer(unit: FloatingUnit, motions: Motions, offset: Array) -> tup
     return motions.displacement @ slope, pull[0]
 
 
-def anchor_uplift(unit: FloatingUnit, position: Array, tension: Array) -> Array:
-    """Return the largest vertical tension at the anchor of one line of each kind [N].
+def anchor_loads(unit: FloatingUnit, position: Array, tension: Array) -> tuple[Array, Array, Array]:
+    """Return largest vertical and horizontal tension at the anchor of each kind of line [N], and least grounded length.
 
-    The exact lines are solved at the instants of the largest fairlead tensions, where uplift is largest too.
+    The exact lines are solved at the instants of the largest fairlead tensions, where both are largest too.
     """
-    if not unit.lines or not len(position):
-        return np.zeros(len(unit.lines))
+    kinds = len(unit.lines)
+    if not kinds or not len(position):
+        return np.zeros(kinds), np.zeros(kinds), np.zeros(kinds)
     count = min(PEAKS_LOOKED_UP, len(position))
     instants = np.unique(np.argpartition(-tension, count - 1, axis=0)[:count])
-    states = unit.mooring.planar.states(position[instants])
-    return np.array([state.vertical_tension_anchor.max() for state in states.values()])
+    states = unit.mooring.planar.states(position[instants]).values()
+    return (
+        np.array([state.vertical_tension_anchor.max() for state in states]),
+        np.array([state.horizontal_tension.max() for state in states]),
+        np.array([state.grounded_length.min() for state in states]),
+    )
 
 
 def snap_notices(where: str, names: list[str], largest: Array, mean: Array) -> tuple[Notice, ...]:

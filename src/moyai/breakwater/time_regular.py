@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 from moyai.breakwater.assembly import FloatingUnit
 from moyai.breakwater.frequency_model import FrequencyModel, motion_ratio
 from moyai.breakwater.hydrodynamics import wavelengths
-from moyai.breakwater.line_motion import has_dynamic_lines
+from moyai.breakwater.line_events import movable, out_of_range, with_lines_in_motion
 from moyai.breakwater.memory_model import UnitMemory
 from moyai.breakwater.model import MODES, RegularSea, TimeSettings
 from moyai.breakwater.responses import (
-    anchor_uplift,
+    anchor_loads,
     snap_notices,
 )
 from moyai.breakwater.time_lines import lines_at_rest, motion_names, motion_summary
 from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
 from moyai.breakwater.viscous_damping import own_water_motion
+from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -86,13 +87,14 @@ def regular_sea(
         "minimum_tension",
         "mean_tension",
         "maximum_anchor_vertical_tension",
+        "maximum_anchor_horizontal_tension",
+        "least_grounded_length",
+        "lines_in_motion",
         "reflection_coefficient",
         "transmission_coefficient",
         "dissipation",
     )
-    rows: dict[str, list] = {name: [] for name in names}
-    motion = motion_names(settings.lines) if has_dynamic_lines(unit) else ()
-    rows |= {name: [] for name in motion}
+    summaries: list[dict[str, Array]] = []
     runs: list[TimeRun] = []
     notices: list[Notice] = []
     status = "converged"
@@ -100,25 +102,26 @@ def regular_sea(
         progress(f"time domain, {unit.name}, {sea.name}", index, len(periods))
         one = frequency.sel(period=period)
         try:
-            run, found = _one_period(model, memory, sea, float(period), one, settings, progress, current)
+            used, run, found = _one_period(model, memory, sea, float(period), one, settings, progress, current)
         except KeyboardInterrupt:
             status = "interrupted"
             break
         runs.append(run)
         notices.extend(found)
-        summary = _summary(model, run, sea, float(period), settings)
-        for name in names if not motion else (*names, *motion):
-            rows[name].append(summary[name])
+        summaries.append(_summary(used, run, sea, float(period), settings))
         notices.extend(_steadiness(run.simulation, float(period), settings, f"{unit.name}, {sea.name}"))
         if run.simulation.status != "converged":
             status = "interrupted" if run.simulation.status == "interrupted" else "not_converged"
             if status == "interrupted":
                 break
     progress(f"time domain, {unit.name}, {sea.name}", len(periods), len(periods))
-    done = periods[: len(rows["motion_amplitude"])]
+    motion = tuple(name for name in motion_names(settings.lines) if any(name in item for item in summaries))
+    blank = np.full(len(unit.lines), np.nan)
+    rows = {name: [item.get(name, blank) for item in summaries] for name in dict.fromkeys((*names, *motion))}
+    done = periods[: len(summaries)]
     length = wavelengths(2.0 * math.pi / done, unit) if len(done) else done
     dims = {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"} | dict.fromkeys(
-        ("maximum_tension", "minimum_tension", "mean_tension", "maximum_anchor_vertical_tension", *motion), "line"
+        (*names[3:10], *motion), "line"
     )
     out: dict = {
         name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
@@ -138,15 +141,10 @@ def regular_sea(
     if len(done):
         names_of_lines = [line.name for line in unit.lines]
         where = f"{unit.name}, {sea.name}, time domain"
-        kept = lines_at_rest(unit)
-        notices.extend(
-            snap_notices(
-                where,
-                [name for name, rests in zip(names_of_lines, kept, strict=True) if rests],
-                np.array(rows["maximum_tension"])[:, kept],
-                np.array(rows["mean_tension"])[:, kept],
-            )
-        )
+        # Peaks of lines in motion are none of lines at rest
+        still = np.array(rows["lines_in_motion"]) == 0.0
+        largest_at_rest = np.where(still, np.array(rows["maximum_tension"]), 0.0)
+        notices.extend(snap_notices(where, names_of_lines, largest_at_rest, np.array(rows["mean_tension"])))
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
@@ -161,7 +159,8 @@ def _one_period(
     settings: TimeSettings,
     progress: Progress,
     current: Current | None,
-) -> tuple[TimeRun, tuple[Notice, ...]]:
+) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...]]:
+    """Run one period; lines are set in motion where their peaks pass the range of lines at rest, and told so."""
     unit, omega = model.unit, 2.0 * math.pi / period
     hydro = model.hydro.at(np.array([omega]), sea.heading)
     drift = np.array([float(frequency.mean_drift_force), 0.0, 0.0]) if model.with_drift else np.zeros(3)
@@ -200,17 +199,37 @@ def _one_period(
     name = f"T{period:.4g}".replace(".", "p")
     waves: Forcing = forcing
     if unit.breakwater.damping.viscous:
-        moving = own_water_motion(unit, np.array([omega]), np.array([sea.heading]))
-        waves = MovingWater(forcing, np.array([omega]), np.array([0.5 * sea.height + 0j]), moving, ramp)
+        measures = own_water_motion(unit, np.array([omega]), np.array([sea.heading]))
+        waves = MovingWater(forcing, np.array([omega]), np.array([0.5 * sea.height + 0j]), measures, ramp)
     run = run_with_lines(name, attributes, model, cummins, waves, expected, settings, around, duration, progress)
+    told: tuple[Notice, ...] = ()
+    if _need_motion(model, run, begin, settings):
+        moving = with_lines_in_motion(model)
+        try:
+            run = run_with_lines(
+                name, attributes, moving, cummins, waves, expected, settings, around, duration, progress
+            )
+            model = moving
+        except InputError as error:
+            message = f"{unit.name}, {sea.name}: {error.fault.message}; lines stay at rest at every instant"
+            told = (Notice("lines-stay-at-rest", message, remedy=error.fault.remedy),)
     simulation = run.simulation
-    notices = simulation.notices
+    notices = (*simulation.notices, *told)
     if simulation.status == "diverged":
         notices = (
             *notices,
             Notice("diverged", f"{unit.name}, {sea.name}, T = {period:g} s: {simulation.message}", severity="error"),
         )
-    return run, notices
+    return model, run, notices
+
+
+def _need_motion(model: FrequencyModel, run: TimeRun, begin: float, settings: TimeSettings) -> bool:
+    """Whether a line that may be set in motion passes the range of lines at rest in the analysed window."""
+    tension = run.simulation.tension[run.simulation.time >= begin]
+    able = movable(model.unit) if run.simulation.status == "converged" else np.zeros(0, dtype=bool)
+    if settings.lines.mode != "auto" or not able.any() or not len(tension):
+        return False
+    return bool((out_of_range(model.unit, tension.max(axis=0), tension.mean(axis=0)) & able).any())
 
 
 def _wave_of(unit: FloatingUnit, sea: RegularSea, omega: float) -> WaveComponents:
@@ -246,13 +265,14 @@ def _summary(
         "mean_tension": np.full(kinds, np.nan), "reflection_coefficient": np.array(np.nan),
         "transmission_coefficient": np.array(np.nan), "dissipation": np.array(np.nan),
         "maximum_anchor_vertical_tension": np.full(kinds, np.nan),
+        "maximum_anchor_horizontal_tension": np.full(kinds, np.nan),
+        "least_grounded_length": np.full(kinds, np.nan), "lines_in_motion": np.zeros(kinds),
     }  # fmt: skip
-    if has_dynamic_lines(model.unit):
-        out |= {name: np.full(kinds, np.nan) for name in motion_names(settings.lines)}
     if run.status != "converged" or run.time[-1] < settings.analysed_periods * period:
         return out
     found = _harmonics(run, period, settings)
     window = run.time > run.time[-1] - settings.analysed_periods * period
+    vertical, horizontal, grounded = anchor_loads(model.unit, run.position[window], run.tension[window])
     out |= {
         "motion_amplitude": np.abs(found.first),
         "mean_offset": found.mean,
@@ -260,13 +280,18 @@ def _summary(
         "maximum_tension": whole.peaks[window].max(axis=0),
         "minimum_tension": run.tension[window].min(axis=0),
         "mean_tension": run.tension[window].mean(axis=0),
-        "maximum_anchor_vertical_tension": anchor_uplift(model.unit, run.position[window], run.tension[window]),
+        "maximum_anchor_vertical_tension": vertical,
+        "maximum_anchor_horizontal_tension": horizontal,
+        "least_grounded_length": grounded,
+        "lines_in_motion": np.full(kinds, 0.0 if whole.lines is None else 1.0) * ~lines_at_rest(model.unit),
     }
     if whole.lines is not None:
+        still, lines = lines_at_rest(model.unit), whole.lines
+        level = np.sqrt(np.maximum(lines.anchor[window] ** 2 - lines.uplift[window] ** 2, 0.0)).max(axis=0)
         out |= motion_summary(model.unit, whole, window, float(run.time[window][0]))
-        out["maximum_anchor_vertical_tension"] = np.where(
-            lines_at_rest(model.unit), out["maximum_anchor_vertical_tension"], out["maximum_uplift"]
-        )
+        out["least_grounded_length"] = np.where(still, grounded, out["least_grounded_length"])
+        out["maximum_anchor_vertical_tension"] = np.where(still, vertical, out["maximum_uplift"])
+        out["maximum_anchor_horizontal_tension"] = np.where(still, horizontal, level)
     hydro = model.hydro.at(np.array([2.0 * math.pi / period]), sea.heading)
     if hydro.has_far_field and sea.height > 0.0:
         far = far_field(hydro, found.first[None, None, :] / (0.5 * sea.height))

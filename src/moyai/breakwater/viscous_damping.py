@@ -14,9 +14,11 @@ from moyai.breakwater.model import RegularSea, SeaState
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping, critical_damping
+from moyai.floating.forcing import Forcing, IrregularForcing
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.floating.irregular import linearised_in_sea
 from moyai.floating.modes import natural_modes
+from moyai.floating.moving_water import MovingWater
 from moyai.floating.viscous import edge_damping, water_measure
 from moyai.floating.viscous_section import section_edges
 from moyai.sea.dispersion import wave_number
@@ -58,6 +60,22 @@ def own_water_motion(unit: FloatingUnit, omega: Array, heading: Array) -> Comple
         edges = section_edges(unit.section)
         out = water_measure(edges.corners, edges.plates, omega, number, heading, water.depth)
     return np.concatenate([out, np.zeros((*shape, 1))], axis=-1) if given.roll_quadratic else out
+
+
+def in_moving_water(unit: FloatingUnit, forcing: IrregularForcing, heading: Array) -> Forcing:
+    """Return a forcing with the undisturbed wave that computed viscous damping is taken against [eq:viscous-water].
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+    forcing : IrregularForcing
+    heading : ndarray
+        Of every wave component [rad].
+    """
+    if not unit.breakwater.damping.viscous:
+        return forcing
+    moving = own_water_motion(unit, forcing.omega, heading)
+    return MovingWater(forcing, forcing.omega, forcing.amplitude, moving, forcing.ramp)
 
 
 def water_motion(model: FrequencyModel, omega: Array, headings: Array) -> ComplexArray | None:

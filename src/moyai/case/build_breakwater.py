@@ -101,7 +101,10 @@ def breakwater_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> B
         wind_drag_coefficient=unit.wind_drag_coefficient,
         current_drag_coefficient=unit.current_drag_coefficient,
         gap_damping_lid=unit.gap_damping_lid,
-        lines=tuple(line_of(line, index, water) for index, line in enumerate(model.lines)),
+        lines=tuple(
+            line_of(line, index, water, in_motion=model.settings.time.lines.mode == "dynamic")
+            for index, line in enumerate(model.lines)
+        ),
         coefficients_file=_coefficients(unit.coefficients_file, model, folder),
     )
 
@@ -146,8 +149,8 @@ def _coefficients(entry: Any, model: schema.BreakwaterCase, folder: Path) -> Coe
     return CoefficientsFile(entry.program, folder / entry.path, options)
 
 
-def line_of(entry: LineEntry, index: int, water: Water) -> MooringLine | MooringSpring:
-    """Return one entry of ``lines``."""
+def line_of(entry: LineEntry, index: int, water: Water, *, in_motion: bool = False) -> MooringLine | MooringSpring:
+    """Return one entry of ``lines``; ``in_motion`` sets it in motion from the start whatever it says itself."""
     fairlead = (entry.fairlead.x, entry.fairlead.y, entry.fairlead.above_keel)
     if isinstance(entry, SpringLine):
         anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.z)
@@ -161,15 +164,16 @@ def line_of(entry: LineEntry, index: int, water: Water) -> MooringLine | Mooring
         else:
             segments.append(_segment(part, f"lines[{index}].segments[{number}]", number, entry, water))
     anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
+    moving = entry.dynamic or in_motion
     materials = tuple(
-        bar_type_of(part, f"lines[{index}].segments[{number}]", entry, water)
+        bar_type_of(part, f"lines[{index}].segments[{number}]", entry, water, needed=moving)
         for number, part in enumerate(entry.segments)
         if not isinstance(part, ClumpEntry)
     )
     bodies = tuple((part.clump.mass, part.clump.volume) for part in entry.segments if isinstance(part, ClumpEntry))
     return MooringLine(
         entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction, entry.drag_width,
-        entry.dynamic, tuple(kind for kind in materials if kind is not None), bodies,
+        moving, tuple(kind for kind in materials if kind is not None) if None not in materials else (), bodies,
     )  # fmt: skip
 
 
@@ -177,19 +181,23 @@ def line_of(entry: LineEntry, index: int, water: Water) -> MooringLine | Mooring
 NEEDED_IN_MOTION = ("mass", "diameter", "drag_normal", "drag_tangential", "added_mass_normal")
 
 
-def bar_type_of(part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryLine, water: Water) -> BarType | None:
-    """Return what a segment of a line in motion is made of, without internal damping; ``None`` for a line at rest.
+def bar_type_of(
+    part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryLine, water: Water, *, needed: bool
+) -> BarType | None:
+    """Return what a segment is made of for a line in motion, without internal damping.
+
+    ``None`` where the segment does not tell enough and the line need not be ``needed`` in motion.
 
     Raises
     ------
     InputError
         For a segment that does not tell enough, cannot stretch, or floats more than its mass allows.
     """
-    if not entry.dynamic:
-        return None
     if isinstance(part, CatalogueSegment):
         return BarType.from_properties(line_type(part.catalogue, part.diameter), viscosity=0.0)
     missing = [name for name in NEEDED_IN_MOTION if getattr(part, name) is None]
+    if not needed and (missing or math.isinf(part.axial_stiffness)):
+        return None
     if missing:
         raise InputError(
             f"line {entry.name!r} is in motion and a segment of it lacks {', '.join(missing)}",
@@ -208,6 +216,8 @@ def bar_type_of(part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryL
     if weight is None:
         weight = float(part.submerged_mass or 0.0) * water.gravity
     volume = (mass - weight / water.gravity) / water.density
+    if volume < 0.0 and not needed:
+        return None
     if volume < 0.0:
         raise InputError(
             f"a segment of line {entry.name!r} weighs {weight / water.gravity:.4g} kg/m in water, {mass:.4g} in air",
@@ -255,6 +265,7 @@ def settings_of(model: schema.BreakwaterCase) -> Settings:
             time.drift,
             time.memory,
             LineDynamics(**time.lines.model_dump()),
+            None if isinstance(time.realisations, str) else time.realisations,
         ),
         sensitivity=Sensitivity(
             given.sensitivity.damping_fractions, given.sensitivity.line_slacks, given.sensitivity.line_counts

@@ -78,8 +78,11 @@ def _check_needs(model: BreakwaterCase, findings: Findings) -> None:
 
 def _check_lines_in_motion(model: BreakwaterCase, findings: Findings) -> None:
     """Check what lines in motion need of the rest of the case."""
+    every = model.settings.time.lines.mode == "dynamic"
     moving = [
-        (index, line) for index, line in enumerate(model.lines) if isinstance(line, CatenaryLine) and line.dynamic
+        (index, line)
+        for index, line in enumerate(model.lines)
+        if isinstance(line, CatenaryLine) and (line.dynamic or every)
     ]
     if not moving:
         return

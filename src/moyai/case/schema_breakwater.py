@@ -215,9 +215,20 @@ def _form(value: Any) -> str:
     return "<range>" if isinstance(value, (dict, Range)) else "<list>"
 
 
-class LineDynamics(Block):
-    """How lines in motion are cut, what the bed takes, and what counts as slack and as snap."""
+def _word_or_number(value: Any) -> str:
+    return "<word>" if isinstance(value, str) or value is None else "<number>"
 
+
+class LineDynamics(Block):
+    """When lines are in motion, how they are cut, what the bed takes, and what counts as slack and as snap."""
+
+    mode: Literal["auto", "quasi_static", "dynamic"] = Field(
+        default="auto",
+        description=(
+            "Lines without 'dynamic: true': in motion around the largest events where their peaks pass five times the "
+            "mean (auto), at rest at every instant (quasi_static), in motion from the start (dynamic)."
+        ),
+    )
     bars: Annotated[int, Field(strict=True, ge=4, le=2000)] = Field(
         default=30, description="Straight bars that each line is cut into. Default: 30."
     )
@@ -253,13 +264,27 @@ class TimeSettings(Block):
     analysed_periods: Whole = Field(
         default=10, description="Whole periods at the end that are analysed in regular waves. Default: 10."
     )
-    drift: Literal["ramped", "pulsating", "newman", "none"] = Field(
-        default="ramped", description="Drift force in time: mean under the ramp, F(1 + cos 2wt), Newman, none."
+    drift: Literal["auto", "ramped", "pulsating", "newman", "none"] = Field(
+        default="auto",
+        description=(
+            "Drift force in time: mean under the ramp, F(1 + cos 2wt), slow drift after Newman, none; auto: newman in "
+            "irregular seas, ramped in regular waves."
+        ),
+    )
+    realisations: Annotated[
+        Annotated[Auto, Tag("<word>")] | Annotated[int, Field(strict=True, ge=1, le=100), Tag("<number>")],
+        Discriminator(_word_or_number),
+    ] = Field(
+        default="auto",
+        description=(
+            "Realisations of each irregular sea, the first with its 'seed'; numbers are means over them. Default: "
+            "auto, 5, or 1 where lines are in motion from the start."
+        ),
     )
     memory: Literal["state_space", "convolution"] = Field(
         default="state_space", description="Wave memory by a rational approximation or by convolution."
     )
-    lines: LineDynamics = Field(default_factory=LineDynamics, description="For lines with 'dynamic: true'.")
+    lines: LineDynamics = Field(default_factory=LineDynamics, description="Lines in motion.")
 
 
 class Sensitivity(Block):

@@ -17,8 +17,7 @@ from moyai.report.breakwater_reading import (
     SeaNumbers,
     all_numbers,
     attribute_number,
-    decisive,
-    governing_tension,
+    governing_entry,
     water_levels,
 )
 from moyai.report.breakwater_summary import summary_blocks
@@ -64,7 +63,7 @@ def compose(result: Result) -> Document:
     root = Group("", result.tree)
     levels = water_levels(result)
     numbers = all_numbers(levels)
-    decides = governing_tension(decisive(numbers))
+    decides = governing_entry(result, numbers)
     default = next((n for n, level in enumerate(levels) if decides is not None and level.name == decides.level), 0)
     measured = root.child("measured")
 
@@ -84,7 +83,7 @@ def compose(result: Result) -> Document:
             "summary",
             "Summary",
             (
-                *summary_blocks(result, levels, numbers, decides),
+                *summary_blocks(result, numbers, decides),
                 *at_each_level(lambda level: [sea_figures.tension_bars(level)]),
             ),
         ),
@@ -243,6 +242,8 @@ def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Call
 
     def severity(entry: tuple[str, str, str]) -> float:
         record = records[entry][2]
+        if record.run.name == "event":  # lines in motion stand before the same record with lines at rest
+            return math.inf
         peak = (
             record.tension[record.at, record.governing_line]
             if record.governing_line >= 0
@@ -277,7 +278,8 @@ def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Call
 
 def _run_words(record: Record) -> str:
     period, attributes = attribute_number(record.run, "period"), record.run.attributes
-    words = f"T = {period:.4g} s" if period > 0.0 else record.run.name.replace("_", " ")
+    named = {"event": "largest event, lines in motion", "realisation": "whole record"}
+    words = f"T = {period:.4g} s" if period > 0.0 else named.get(record.run.name, record.run.name.replace("_", " "))
     if "seed" in attributes and "seed" not in words:
         words += f", seed {attributes['seed']}"
     status = str(attributes.get("status", "converged"))

@@ -135,12 +135,8 @@ class SeaNumbers:
         return f"{self.level}, {self.sea}, {DOMAIN_WORDS.get(self.domain, self.domain)}"
 
 
-_TENSION_NAMES = (
-    "fairlead_tension_maximum",
-    "maximum_tension",
-    "most_probable_maximum_tension",
-)
-_UPLIFT_NAMES = ("maximum_anchor_vertical_tension", "most_probable_maximum_anchor_vertical_tension")
+_TENSION_NAMES = ("maximum_tension", "most_probable_maximum_tension")
+_UPLIFT_NAMES = ("maximum_anchor_vertical_tension",)
 
 
 def sea_numbers(level: Level, sea: Sea, domain: str) -> SeaNumbers | None:
@@ -271,18 +267,16 @@ def all_numbers(levels: tuple[Level, ...]) -> tuple[SeaNumbers, ...]:
     return tuple(found)
 
 
-def decisive(numbers: tuple[SeaNumbers, ...]) -> tuple[SeaNumbers, ...]:
-    """Return the numbers that decide: those of the time domain where a sea was run there, else the linear ones."""
-    in_time = {(entry.level, entry.sea) for entry in numbers if entry.domain == "time" and math.isfinite(entry.tension)}
-    return tuple(entry for entry in numbers if entry.domain == "time" or (entry.level, entry.sea) not in in_time)
+def governing_entry(result: Result, numbers: tuple[SeaNumbers, ...]) -> SeaNumbers | None:
+    """Return the entry that the headline of the line tension (without lines: of the offset) stands for.
 
-
-def governing(numbers: tuple[SeaNumbers, ...], what: str) -> SeaNumbers | None:
-    """Return the entry with the largest ``what`` (name of an attribute), ``None`` where it is nowhere known."""
-    known = [entry for entry in numbers if math.isfinite(getattr(entry, what))]
-    return max(known, key=lambda entry: float(getattr(entry, what))) if known else None
-
-
-def governing_tension(numbers: tuple[SeaNumbers, ...]) -> SeaNumbers | None:
-    """Return the entry with the largest utilisation, or the largest tension where breaking loads are not known."""
-    return governing(numbers, "utilisation") or governing(numbers, "tension")
+    What governs is decided by the structure (:mod:`moyai.breakwater.headlines`), not here.
+    """
+    wanted = [item for name in ("line_tension", "offset") for item in result.headlines if item.name == name]
+    for headline in wanted:
+        domain = "time" if headline.model.startswith("time") else "frequency"
+        for entry in numbers:
+            head = f"{entry.level}, {entry.sea}"
+            if entry.domain == domain and (headline.where == head or headline.where.startswith(f"{head}, ")):
+                return entry
+    return None

@@ -220,7 +220,7 @@ def regular_tension(level: Level, sea: Sea) -> Figure | None:
     axes: tuple[Abscissa, ...] = ()
     tables = []
     for words, group, these, values in _both_domains(level, sea):
-        names = ("fairlead_tension_maximum", "maximum_tension")
+        names = ("maximum_tension",)
         found = next((e for name in names if (e := group.real(name, "period", "line")) is not None), None)
         if found is not None:
             tables.append((words, group, values, found))
@@ -309,7 +309,7 @@ def tension_bars(level: Level) -> Figure | None:
             group = sea.domain(domain)
             lines = lines or group.labels("line")
             found = None
-            for variable in ("fairlead_tension_maximum", "maximum_tension", "most_probable_maximum_tension"):
+            for variable in ("maximum_tension", "most_probable_maximum_tension"):
                 found = group.real(variable, "period", "line")
                 found = np.fmax.reduce(found, axis=0) if found is not None else group.real(variable, "line")
                 if found is not None:

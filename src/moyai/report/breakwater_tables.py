@@ -289,7 +289,7 @@ def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table
         *(_period_column(group, "motion_amplitude", mode, _turn(mode, "m", "rad"), dof=mode) for mode in MODES),
         _period_column(group, "mean_offset", "Mean offset", "m", dof="sway"),
     ]
-    for name in ("fairlead_tension_maximum", "maximum_tension"):
+    for name in ("maximum_tension",):
         found = group.real(name, "period", "line")
         if found is not None:
             columns += [
@@ -382,13 +382,14 @@ def irregular_tensions(level: Level, sea: Sea) -> Table | None:
             Column("Domain", [words for _, words, _ in rows]),
             Column("Mean", values("mean_tension"), "N"),
             Column("Significant, double amplitude", values("significant_tension"), "N"),
-            Column("Most probable maximum", probable, "N"),
-            Column("Maximum of the run", largest, "N"),
+            Column("Most probable maximum, waves alone", probable, "N"),
+            Column("Largest", largest, "N"),
             Column("Breaking load", broken, "N"),
             Column("Utilisation", [100.0 * t / load for t, load in zip(decisive, broken, strict=True)], "%"),
         ],
         always=2,
-        note="Tension of one line at its fairlead.",
+        note="Tension of one line at its fairlead. Largest: mean of the realisations in time; in the frequency domain "
+        "waves and slow drift together.",
     )
 
 

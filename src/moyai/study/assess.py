@@ -16,10 +16,10 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.core.validity import Notice
-from moyai.design.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
 from moyai.design.codes import DesignCode, LineLoad, check_confirmation, check_line, design_code
 from moyai.design.extremes import fit
 from moyai.design.long_term import return_level
+from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
 from moyai.study import schema
 from moyai.study.extremes_over_seeds import extremes, require_axis
 from moyai.study.fatigue_of_lines import fatigue

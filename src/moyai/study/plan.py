@@ -85,6 +85,25 @@ class Study:
         return tuple(len(axis.points) for axis in self.axes)
 
 
+def _one_realisation_a_seed(base: Document, axes: list[Axis]) -> Document:
+    """Return the base case of a breakwater with one realisation a case where the study itself varies seeds.
+
+    The maxima over the seeds are then maxima, not means of several, unless the case asks for realisations itself.
+    """
+    paths = [path for axis in axes for point in axis.points for path, _ in point.assignments]
+    data = base.data
+    if data.get("structure", {}).get("kind") != "breakwater" or not any(
+        path.split(".")[-1] == "seed" for path in paths
+    ):
+        return base
+    settings = dict(data.get("settings") or {})
+    time = dict(settings.get("time") or {})
+    if "realisations" in time:
+        return base
+    changed = {**settings, "time": {**time, "realisations": 1}}
+    return varied(base, Combination(-1, (), (("settings", changed),)))
+
+
 def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Study:
     """Read a study file and check every case that it describes.
 
@@ -151,6 +170,7 @@ def load_study(path: str | os.PathLike[str], progress: Progress = silent) -> Stu
     if count > LARGEST:
         message = f"the study has {count} cases"
         raise CaseError([document.fault(("study", "variations"), message, allowed=f"at most {LARGEST}")])
+    base = _one_realisation_a_seed(base, axes)
     cases = combinations(axes)
     wanted = [Wanted(item.variable, item.reduce, item.over, item.exponent or 0.0) for item in block.responses]
     for number, item in enumerate(block.responses):

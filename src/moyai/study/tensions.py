@@ -18,7 +18,7 @@ from moyai.study.responses import picked, split_response
 if TYPE_CHECKING:
     import xarray as xr
 
-_MAXIMA = ("maximum_tension", "most_probable_maximum_tension", "fairlead_tension_maximum")
+_MAXIMA = ("maximum_tension", "most_probable_maximum_tension")
 _UPLIFTS = ("maximum_anchor_vertical_tension", "anchor_vertical_tension")
 
 

@@ -9,6 +9,7 @@ from moyai.core.errors import InputError
 from moyai.tables.reader import Record, read_table
 
 _CODES, _CURVES, _ANCHORS = "design_codes.csv", "endurance_curves.csv", "anchor_friction.csv"
+_FACTORS = "anchor_factors.csv"
 
 
 @dataclass(frozen=True)
@@ -89,6 +90,17 @@ class HoldingData:
     kind: str
     name: str
     bed: str
+    value: float
+    confirmed: bool
+    source: str
+
+
+@dataclass(frozen=True)
+class AnchorFactor:
+    """Safety factor on the pull of an anchor in one direction."""
+
+    kind: str
+    direction: str
     value: float
     confirmed: bool
     source: str
@@ -179,3 +191,27 @@ def holding_data(kind: str, name: str, bed: str) -> HoldingData:
             return HoldingData(kind, name, bed, float(record["value"]), record["confirmed"] == "yes", record["source"])
     pairs = ", ".join(f"{record['name']} on {record['bed']}" for record in rows)
     raise InputError(f"no {kind} '{name}' on '{bed}' in the table", path="anchor", allowed=pairs)
+
+
+def anchor_factor(kind: str, direction: str) -> AnchorFactor:
+    """Return the safety factor on the pull of an anchor.
+
+    Parameters
+    ----------
+    kind : str
+        ``drag_anchor`` or ``gravity_anchor``.
+    direction : str
+        ``horizontal`` or ``vertical``.
+
+    Raises
+    ------
+    InputError
+        When the table has no such pair.
+    """
+    rows = read_table(_FACTORS)
+    for record in rows:
+        if (record["kind"], record["direction"]) == (kind, direction):
+            value = float(record["value"])
+            return AnchorFactor(kind, direction, value, record["confirmed"] == "yes", record["source"])
+    pairs = ", ".join(f"{record['kind']} {record['direction']}" for record in rows)
+    raise InputError(f"no factor for '{kind}' {direction}", path="anchor", allowed=pairs)

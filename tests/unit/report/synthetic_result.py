@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from moyai.breakwater.headlines import headlines
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
 
@@ -203,7 +204,7 @@ def regular(height: float, depth: float, in_time: bool, breaking: float) -> xr.D
         "mooring_stiffness": variable(names, stiffness, "N/m", "mooring stiffness"),
     }
     if in_time:
-        data["fairlead_tension_maximum"] = variable(("period", "line"), tension, "N", "largest tension")
+        data["maximum_tension"] = variable(("period", "line"), tension, "N", "largest tension")
     else:
         data["maximum_tension"] = variable(("period", "line"), tension, "N", "largest tension")
         data["maximum_anchor_vertical_tension"] = variable(("period", "line"), tension * 0.0, "N", "uplift")
@@ -368,4 +369,7 @@ def build(
         IdentityCheck("Haskind relation", 2.2e-8, 1e-6, "X_j = −2ρg C_g r_j"),
         IdentityCheck("symmetry of added mass", 4.0e-10, 1e-8, "a_ij = a_ji"),
     )
-    return Result(tree, "converged", "", checks, notices(), make_provenance(title=title, seed=1))
+    found = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+    numbers = headlines(found)
+    provenance = make_provenance(title=title, seed=1)
+    return Result(tree, "converged", "", checks, notices(), provenance, headlines=numbers)

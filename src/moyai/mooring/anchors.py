@@ -132,3 +132,21 @@ def sinker_needed(horizontal: float, uplift: float, friction: float, safety_fact
     if not friction > 0.0:
         raise InputError(f"friction {friction:g}", path="friction", allowed="above 0")
     return safety_factor * (abs(horizontal) / friction + max(uplift, 0.0))
+
+
+def gravity_anchor_weight(
+    horizontal: float, uplift: float, friction: float, horizontal_factor: float, vertical_factor: float
+) -> float:
+    """Return the submerged weight of a sinker with a factor for each direction [eq:checks-sinker-weight], [N].
+
+    Parameters
+    ----------
+    horizontal, uplift : float
+        Parts of the pull at the anchor [N]; a pull downwards does not count.
+    friction : float
+        Coefficient on the bed.
+    horizontal_factor, vertical_factor : float
+    """
+    if not friction > 0.0:
+        raise InputError(f"friction {friction:g}", path="friction", allowed="above 0")
+    return horizontal_factor * abs(horizontal) / friction + vertical_factor * max(uplift, 0.0)
