@@ -254,7 +254,11 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
         return Verdict("not judged", "the computation did not converge inside its range", judgements)
     open_ones = [item for item in found if item.outcome == "not judged"]
     if open_ones:
-        return Verdict("not judged", "; ".join(map(said, open_ones)), judgements)
+        reasons: dict[str, list[str]] = {}
+        for item in open_ones:
+            reasons.setdefault(item.reason, []).append(item.criterion.words)
+        message = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
+        return Verdict("not judged", message, judgements)
     asked = len({(item.criterion.name, item.criterion.sea) for item in found})
     return Verdict("holds", "the criterion holds" if asked == 1 else f"all {asked} criteria hold", judgements)
 
