@@ -342,7 +342,7 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
             details.insert(0, f"{governing} sets it")
         if bound == "at most":
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
-        if key == "speed_limit" and math.isfinite(ratio := float(table["speed_limit_ratio"])) and not said:
+        if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
         band = _limit_band(table) if key == "speed_limit" else None
         yield Headline(
@@ -353,9 +353,13 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         )  # fmt: skip
 
 
+def _number(table: xr.Dataset, name: str) -> float:
+    return float(table[name]) if name in table else math.nan
+
+
 def _limit_band(table: xr.Dataset) -> Band | None:
     """Return the band of the largest current over the drag coefficient."""
-    low, high = float(table["speed_limit_low"]), float(table["speed_limit_high"])
+    low, high = _number(table, "speed_limit_low"), _number(table, "speed_limit_high")
     return Band(low, high, "range of the drag coefficient") if low < high else None
 
 

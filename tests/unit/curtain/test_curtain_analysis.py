@@ -17,6 +17,7 @@ from moyai.curtain.analysis_limits import fastest_water, sea_loads
 from moyai.curtain.assembly import assemble
 from moyai.curtain.limits import utilisation
 from moyai.curtain.sea_loads import drag_curve
+from moyai.curtain.steady_load import QUANTITIES
 from moyai.curtain.variables import VARIABLES
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "curtain"
@@ -148,6 +149,8 @@ def test_layout_page_names_what_is_written(small):
     page = page[page.index("## Curtain") :]
     _, result = small
     spoken = {"most_probable_maximum_low", "most_probable_maximum_high"}
+    # the page says "..._low and ..._high of each"
+    spoken |= {f"steady_{name}_{end}" for name, _, _ in QUANTITIES for end in ("low", "high")}
     for node in result.tree.subtree:
         dataset = node.to_dataset(inherit=False)
         for name in (*dataset.data_vars, *dataset.dims):
