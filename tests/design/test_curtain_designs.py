@@ -215,7 +215,7 @@ def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     assert cable.value == pytest.approx(float(late.tree["/SWL/waves/daily"]["maximum_tension"].max()), rel=0.35)
 
 
-@pytest.mark.slow  # five runs of a whole span through time, about half a minute
+@pytest.mark.slow  # five runs of a whole span through time
 def test_the_whole_span_governs_where_it_is_run(designs, tmp_path: Path) -> None:
     """A free toe in 0.5 m/s: the span gives a fraction of the plate, below the bound, and the page shows it."""
     _, bound = designs("strong current")
