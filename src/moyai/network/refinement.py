@@ -27,7 +27,7 @@ from moyai.network.assembly import Assembly
 
 #: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The
 #: explicit scheme does some ten million a second; a step of the implicit schemes costs about thirty times as much.
-WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 2e9, 30.0
+WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 1e9, 30.0
 #: Part of the critical damping of one bar that calms fronts on the mesh, and bars of the line that they then need.
 DAMPING, DAMPED_BARS = 0.3, 32
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
