@@ -92,7 +92,9 @@ def _one_realisation_a_seed(base: Document, axes: list[Axis]) -> Document:
     """
     paths = [path for axis in axes for point in axis.points for path, _ in point.assignments]
     data = base.data
-    if data.get("structure", {}).get("kind") != "breakwater" or not any(path.split(".")[-1] == "seed" for path in paths):
+    if data.get("structure", {}).get("kind") != "breakwater" or not any(
+        path.split(".")[-1] == "seed" for path in paths
+    ):
         return base
     settings = dict(data.get("settings") or {})
     time = dict(settings.get("time") or {})
