@@ -294,13 +294,13 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
             )
     if not rows:
         return []
-    irregular, value, where, data, row, other = max(rows, key=lambda item: item[:2])
+    irregular, value, where, data, at, other = max(rows, key=lambda item: item[:2])
     detail = "energy-weighted" if irregular else "largest over the periods"
     if math.isfinite(other):
         detail += f"; {other:.3g} with the motions of the time domain"
     return [
         Headline("transmission", "Wave transmission K_T", value, "1", where,
-                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, row), detail=detail)
+                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail)
     ]  # fmt: skip
 
 

@@ -317,7 +317,8 @@ def _gathered(unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np
 
 def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArray[np.bool_]) -> tuple[Notice, ...]:
     """Tell of peaks out of range, of drift that was switched off, of records that are too short for slow drift."""
-    unit, sea, out = shared.model.unit, shared.sea, []
+    unit, sea = shared.model.unit, shared.sea
+    out: list[Notice] = []
     where = f"{unit.name}, {sea.name}"
     if "maximum_tension" in data and len(unit.lines):
         kept = lines_at_rest(unit) & ~moved
