@@ -1,8 +1,8 @@
 """Ordinary floating breakwaters from handbook sizes, built as a user builds them, all settings left at their defaults.
 
-Sizes: McCartney (1985, Journal of Waterway, Port, Coastal and Ocean Engineering 111(2)) gives concrete box breakwaters of
-3.7 to 6.4 m beam and 0.9 to 1.7 m draught for significant heights up to about 1 m and periods under 4 s; PIANC (1994)
-the same range and large pontoons of 10 to 20 m; the remaining sizes are ordinary ones.
+Sizes: McCartney (1985, Journal of Waterway, Port, Coastal and Ocean Engineering 111(2)) gives concrete box breakwaters
+of 3.7 to 6.4 m beam and 0.9 to 1.7 m draught for significant heights up to about 1 m and periods under 4 s; PIANC
+(1994) the same range and large pontoons of 10 to 20 m; the remaining sizes are ordinary ones.
 """
 
 from __future__ import annotations

@@ -60,8 +60,8 @@ def test_rest_and_frequency_domain_follow_hand_calculation(design, tmp_path):
     load = design.steady_load + float(sea.mean_drift_force)
     offset = optimize.brentq(lambda x: restoring(x) - load, 0.0, 0.98 * (math.sqrt(design.line**2 - drop**2) - reach))
     assert float(sea.mean_offset[0]) == pytest.approx(offset, rel=0.1)
-    # Slow drift by hand: one degree of freedom on the stiffness of these catenaries, driven by Pinkster's force spectrum
-    # with one drift for all waves. Drift rises with frequency and the chains lift off one by one: within a factor 1.6
+    # Slow drift by hand: one degree of freedom on the stiffness of these catenaries, driven by Pinkster's force
+    # spectrum with one drift for all waves. Drift rises with frequency and the chains lift off: within a factor 1.6
     stiffness = (restoring(offset + 0.01) - restoring(offset - 0.01)) / 0.02
     natural, zeta = 2.0 * math.pi / float(sea.slow_sway_period), float(sea.slow_sway_damping_ratio)
     omega, spectrum = jonswap(design.height, design.period)

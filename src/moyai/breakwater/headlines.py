@@ -212,7 +212,9 @@ def _anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks
     weight = gravity_anchor_weight(
         hardest.horizontal, hardest.vertical, friction.value, level_factor.value, up_factor.value
     )
-    bed = f"{hardest.grounded:.3g} m of line left on the bed" if hardest.grounded > 0.0 else "no line left on the bed"
+    # The node at the anchor of a line in motion always touches: length counts only where nothing lifts
+    lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
+    bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
     fit = "" if hardest.vertical <= 0.0 else ": not for a drag anchor"
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
@@ -292,13 +294,13 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
             )
     if not rows:
         return []
-    irregular, value, where, data, at_row, other = max(rows, key=lambda item: item[:2])
+    irregular, value, where, data, at, other = max(rows, key=lambda item: item[:2])
     detail = "energy-weighted" if irregular else "largest over the periods"
     if math.isfinite(other):
         detail += f"; {other:.3g} with the motions of the time domain"
     return [
         Headline("transmission", "Wave transmission K_T", value, "1", where,
-                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at_row), detail=detail)
+                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail)
     ]  # fmt: skip
 
 

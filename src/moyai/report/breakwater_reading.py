@@ -231,6 +231,8 @@ def _largest_offset(sea: Sea, group: Group, domain: str) -> float:
         extreme = max((largest_magnitude(record) for record in found if record is not None), default=0.0)
         if extreme > 0.0:
             return extreme
+    if domain == "frequency" and math.isfinite(group.value("largest_offset")):
+        return group.value("largest_offset")
     offset = group.real("mean_offset", "period", dof="sway")
     amplitude = group.real("motion_amplitude", "period", dof="sway")
     if offset is not None and amplitude is not None and np.isfinite(offset + amplitude).any():

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker, sinker_needed
 from moyai.design.codes import LineLoad, check_confirmation, check_line, design_code
 from moyai.design.fatigue import EnduranceCurve
+from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker, sinker_needed
 from moyai.tables.design_codes import (
     CodeRule,
     available_codes,
