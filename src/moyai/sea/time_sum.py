@@ -15,6 +15,9 @@ ComplexArray = NDArray[np.complex128]
 #: Shortest time axis for which looking for a uniform step pays.
 _SHORTEST = 8
 
+#: Cost of a point of a Fourier transform, per factor of two of its length, over that of a component at one time.
+_FOURIER_COST = 3.0
+
 
 def uniform_step(time: Array) -> float | None:
     """Return the step of a uniform, increasing time axis [s], or None."""
@@ -32,12 +35,17 @@ def uniform_step(time: Array) -> float | None:
 def _through_fourier(omega: Array, rows: ComplexArray, start: float, steps: int, period: int, step: float) -> Array:
     """Sum components at whole multiples of ``step`` on ``period`` points a repeat period, repeated as needed."""
     number = np.rint(omega / step).astype(np.int64)
-    shifted = np.conj(rows * np.exp(-1j * omega * start)) * (0.5 * period)
-    half = np.zeros((rows.shape[0], period // 2 + 1), dtype=np.complex128)
-    for row in range(rows.shape[0]):
-        np.add.at(half[row], number, shifted[row])
-    whole = np.fft.irfft(half, n=period, axis=-1)
-    return whole[:, np.arange(steps) % period]
+    turn = np.exp(-1j * omega * start)
+    wanted = np.arange(steps) % period
+    out = np.zeros((rows.shape[0], steps))
+    half = np.zeros(period // 2 + 1, dtype=np.complex128)
+    for row, amplitudes in enumerate(rows):
+        if not amplitudes.any():
+            continue
+        half[:] = 0.0
+        np.add.at(half, number, np.conj(amplitudes * turn) * (0.5 * period))
+        out[row] = np.fft.irfft(half, n=period)[wanted]
+    return out
 
 
 def sum_over_time(omega: Array, amplitudes: ComplexArray, time: Array, frequency_step: float | None) -> Array:
@@ -69,7 +77,8 @@ def sum_over_time(omega: Array, amplitudes: ComplexArray, time: Array, frequency
         # the mismatch of the grids must stay below rounding over the whole record
         if abs(exact - round(exact)) <= 1e-12 * exact and np.max(omega) < math.pi / step * (1.0 - 1e-9):
             period = round(exact)
-    if step is not None and frequency_step is not None and 0 < period <= 16 * max(flat.size, 1024):
+    transform = _FOURIER_COST * period * math.log2(max(period, 2))
+    if step is not None and frequency_step is not None and 0 < period and transform < max(omega.size * flat.size, 1e6):
         out = _through_fourier(omega, rows, float(flat[0]), flat.size, period, frequency_step)
     else:
         out = np.empty((rows.shape[0], flat.size))
