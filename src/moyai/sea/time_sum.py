@@ -78,7 +78,7 @@ def sum_over_time(omega: Array, amplitudes: ComplexArray, time: Array, frequency
         if abs(exact - round(exact)) <= 1e-12 * exact and np.max(omega) < math.pi / step * (1.0 - 1e-9):
             period = round(exact)
     transform = _FOURIER_COST * period * math.log2(max(period, 2))
-    if step is not None and frequency_step is not None and 0 < period and transform < max(omega.size * flat.size, 1e6):
+    if step is not None and frequency_step is not None and period > 0 and transform < max(omega.size * flat.size, 1e6):
         out = _through_fourier(omega, rows, float(flat[0]), flat.size, period, frequency_step)
     else:
         out = np.empty((rows.shape[0], flat.size))
