@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.flexible.flow import Flow
 from moyai.sea.components import WaveComponents
 from moyai.sea.time_sum import sum_over_time
@@ -25,6 +26,7 @@ FEW_COMPONENTS = 8
 MOST_NUMBERS = 4e8
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class TabulatedFlow(Flow):
     """A sea summed beforehand at the places of the nodes at rest, joined linearly between its times.

@@ -16,6 +16,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
 from moyai.flexible.network import BarType
 from moyai.mooring.lines import Clump, Segment
 from moyai.potential.sections import Hull
@@ -33,6 +34,7 @@ LineMode = Literal["auto", "quasi_static", "dynamic"]
 DEFAULT_REALISATIONS = 5  # the mean of so many maxima is known to about half the scatter of one
 
 
+@checks_words
 @dataclass(frozen=True)
 class Damping:
     """Damping beyond wave radiation.
@@ -127,6 +129,7 @@ class MooringSpring:
     pretension: float
 
 
+@checks_words
 @dataclass(frozen=True)
 class CoefficientsFile:
     """Coefficients of a 3-D program in place of the section: program name and path of its file or folder."""
@@ -181,6 +184,7 @@ class Breakwater:
             raise InputError("neither mass nor draught is given", path="structure", remedy="give one of them")
 
 
+@checks_words
 @dataclass(frozen=True)
 class LineDynamics:
     """How lines in motion are cut and what the bed and the material take; ``None``: chosen from the line.
@@ -214,6 +218,7 @@ class LineDynamics:
     mode: LineMode = "auto"
 
 
+@checks_words
 @dataclass(frozen=True)
 class TimeSettings:
     """How the time domain is run; ``None`` means that the program chooses and says why.
@@ -256,6 +261,7 @@ class Sensitivity:
     line_counts: tuple[int, ...] = ()
 
 
+@checks_words
 @dataclass(frozen=True)
 class Settings:
     """Which analyses are run and how."""

@@ -9,6 +9,7 @@ from typing import Literal
 from moyai.cage.collar import Collar, Pipe
 from moyai.cage.grid_mooring import GridMooring
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.flexible.network import Bed
 from moyai.morison.net_law import Net, NetLaw
 from moyai.sea.water import Water
@@ -28,6 +29,7 @@ def _not_negative(value: float, path: str, unit: str) -> None:
         raise InputError(f"{path} is {value:g} {unit}", path=path, allowed=f"0 or more {unit}")
 
 
+@checks_words
 @dataclass(frozen=True)
 class CageNet:
     """The net of a cage.
@@ -139,6 +141,7 @@ class Sinkers:
             _not_negative(getattr(self, key), f"sinkers.{key}", "")
 
 
+@checks_words
 @dataclass(frozen=True)
 class CageDesign:
     """One cage.
@@ -217,6 +220,7 @@ class CageMesh:
         _positive(self.rope_length, "mesh.rope_length", "m")
 
 
+@checks_words
 @dataclass(frozen=True)
 class FixedCollar:
     """A collar that is held: cages in a towing tank or flume."""

@@ -9,12 +9,14 @@ from moyai.cage.flexible_model import FlexibleCage
 from moyai.cage.rigid_model import RegularWaves
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 
 
+@checks_words
 @dataclass(frozen=True)
 class FlexibleSettings:
     """How a flexible cage is computed.

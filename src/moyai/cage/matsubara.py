@@ -15,6 +15,7 @@ from moyai.cage.rigid_model import LinePlan
 from moyai.cage.rigid_parts import Floats, RigidCage
 from moyai.cage.rigid_setup import resolve
 from moyai.cage.rigid_shapes import box_floats, box_patches, box_rods
+from moyai.core.options import checks_words
 from moyai.morison.net_law import Net, net_law
 from moyai.sea.water import Water
 
@@ -57,6 +58,7 @@ def model_cage(*, patches: int = 3, weighed_with_floats: bool = False, drag: boo
     )
 
 
+@checks_words
 def taut_lines(
     cage: RigidCage,
     *,

@@ -9,6 +9,7 @@ from typing import ClassVar, Literal
 from moyai.cage.rigid_parts import RigidCage
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 
@@ -17,6 +18,7 @@ Equations = Literal["sound", "literal"]
 Setting = Literal["pull_down", "pretension", "slack", "length"]
 
 
+@checks_words
 @dataclass(frozen=True)
 class LinePlan:
     """A line before its length is known.
@@ -74,6 +76,7 @@ class RegularWaves:
 CageSea = RegularWaves | IrregularSea
 
 
+@checks_words
 @dataclass(frozen=True)
 class Settings:
     """How a rigid cage is computed.
@@ -117,6 +120,7 @@ class Settings:
             )
 
 
+@checks_words
 @dataclass(frozen=True)
 class RigidCageProblem:
     """The whole problem as the case file states it.

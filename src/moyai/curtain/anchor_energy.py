@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.curtain.squared_velocity import surface_speed
 from moyai.sea.water import Water
@@ -118,6 +119,7 @@ def product_needed(tension: ArrayLike, float_speed: ArrayLike, pretension: Array
     return rise * (rise + 2.0 * np.asarray(pretension)) / np.asarray(float_speed) ** 2
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class Calibration:
     """M m_B K from observed tensions, by one rule.
@@ -173,6 +175,7 @@ def _root(rule: FittingRule, observed: Array, speed: Array) -> float:
     return float(np.sum(observed * speed) / np.sum(speed**2))
 
 
+@checks_words
 def calibrate(
     observed: ArrayLike,
     float_speed: ArrayLike,
@@ -230,6 +233,7 @@ def calibrate(
     return Calibration(rule, root**2, 2.0 * root * error, bounds, root * speed, amplitude)
 
 
+@checks_words
 def calibration_bounds(
     observed: ArrayLike,
     float_speed: ArrayLike,

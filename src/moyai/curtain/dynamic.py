@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.curtain.dynamic_assembly import build_span
 from moyai.curtain.dynamic_model import CurtainNetwork, CurtainSpan, Mesh
@@ -27,6 +28,7 @@ MOST_ROWS = 20000
 _SLACK_SHARE, _SNAP_FACTOR = 0.01, 2.0
 
 
+@checks_words
 @dataclass(frozen=True)
 class DynamicSettings:
     """How the dynamic analysis of a case is run.
@@ -153,6 +155,7 @@ class DynamicRun:
         return find_snaps(self.history.time[rows], pull, slack_level=level, threshold=max(limit, level), peaks=peaks)
 
 
+@checks_words
 def run_span(
     span: CurtainSpan,
     mesh: Mesh,

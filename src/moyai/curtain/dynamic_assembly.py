@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.curtain.dynamic_model import CurtainNetwork, CurtainSpan, Mesh
 from moyai.curtain.dynamic_section import SectionMesh, section_mesh
 from moyai.curtain.impact_kernels import taut_shape
@@ -30,6 +31,7 @@ _TIGHT = 1e-9
 TRACE = 1e-4
 
 
+@checks_words
 def build_span(
     span: CurtainSpan,
     mesh: Mesh,

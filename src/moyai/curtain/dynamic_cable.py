@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.curtain.impact import Impact, moved_mass, peak_by_energy
 from moyai.curtain.impact_kernels import taut_shape
 from moyai.flexible.mass_blocks import MassBlocks
@@ -37,6 +38,7 @@ class CablePeak:
     energy_drift: float
 
 
+@checks_words
 def dynamic_cable(
     impact: Impact,
     *,

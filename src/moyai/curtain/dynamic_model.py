@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.curtain.dynamic_section import SectionMesh
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
@@ -49,6 +50,7 @@ class AnchoredSupport:
     mass: float
 
 
+@checks_words
 @dataclass(frozen=True)
 class CurtainSpan:
     """One span of a curtain for dynamics.

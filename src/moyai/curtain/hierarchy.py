@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.curtain.assembly import LevelCurtain
 from moyai.curtain.model import Analysis, Settings
 from moyai.curtain.variables import labelled
@@ -33,6 +34,7 @@ SPAN = "whole span through time"
 STRAIGHT = 0.9
 
 
+@checks_words
 @dataclass(frozen=True)
 class ModelRole:
     """What one model counts for.

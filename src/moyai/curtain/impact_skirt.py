@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.curtain.added_mass import LARGEST_SAGITTA, ArcMass, arc_skirt_mass
 from moyai.curtain.closed_forms import arc_half_angle
@@ -130,6 +131,7 @@ def curved_impact(impact: Impact, skirt: Skirt, *, finite_depth: bool = False) -
     return peak_by_energy(impact, float(_arc_mass(impact, skirt, finite_depth).at(skirt.sagitta)[0]))
 
 
+@checks_words
 def skirt_impact(
     impact: Impact, skirt: Skirt, variant: Variant = "energy_mid", *, finite_depth: bool = False
 ) -> SkirtPeak:

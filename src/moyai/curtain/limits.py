@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.limit_search import Limit, search
@@ -218,6 +219,7 @@ class WaveLoading(Protocol):
         """Return the loads that a significant height [m] adds at a surface speed [m/s]."""
 
 
+@checks_words
 @dataclass(frozen=True)
 class WaveLoad:
     """Wave part of the anchor load.

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.drag import DragLaw
@@ -105,6 +106,7 @@ class Strengths:
     least_depth: float = 0.0
 
 
+@checks_words
 @dataclass(frozen=True)
 class Curtain:
     """One span of a hanging curtain between two supports, its neighbours alike.
@@ -165,6 +167,7 @@ class Curtain:
     toe_range: tuple[float, float] = (0.9, 1.1)
 
 
+@checks_words
 @dataclass(frozen=True)
 class ImpactSettings:
     """How the impact is computed.
@@ -197,6 +200,7 @@ class ImpactSettings:
     time_step: float | None = None
 
 
+@checks_words
 @dataclass(frozen=True)
 class WaveSettings:
     """How slack and taut cycles are computed.
@@ -229,6 +233,7 @@ class WaveSettings:
     realisations: int = 5
 
 
+@checks_words
 @dataclass(frozen=True)
 class AnchorLoadSettings:
     """Anchor loads in waves by the energy model.
@@ -297,6 +302,7 @@ class LimitSettings:
         return self.period if self.period is not None else self.period_factor * math.sqrt(height)
 
 
+@checks_words
 @dataclass(frozen=True)
 class Settings:
     """Which analyses are run and how."""

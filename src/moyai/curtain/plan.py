@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.curtain.drag import DragLaw
 from moyai.curtain.section import LoadLaw, Skirt, solve_section
 from moyai.sea.current import CurrentProfile
@@ -86,6 +87,7 @@ def cosine_squared_load(line_load: float, flow_angle: float) -> PlanLoad:
     return PlanLoad(line_load, flow_angle, np.zeros(1), np.ones(1))
 
 
+@checks_words
 def section_load(
     skirt: Skirt,
     current: CurrentProfile,

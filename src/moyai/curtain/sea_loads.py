@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.curtain.anchor_energy import EnergyModel
 from moyai.curtain.assembly import LevelCurtain
 from moyai.curtain.cycle_table import CycleTable
@@ -162,6 +163,7 @@ class ImpactLoad:
         )
 
 
+@checks_words
 @dataclass(frozen=True)
 class SeaLoads:
     """What a significant height in a current adds to the steady loads, by all models that the case has data for.

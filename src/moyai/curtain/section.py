@@ -16,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.curtain.drag import DragLaw, sample_pressure
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
@@ -349,6 +350,7 @@ class _Problem:
         return path, miss, hold
 
 
+@checks_words
 def solve_section(
     skirt: Skirt,
     current: CurrentProfile,

@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.options import checks_words
 from moyai.curtain.impact import Impact
 from moyai.curtain.impact_waves import Contact, SlackTautMotion, slack_sag, slack_taut_motion
 
@@ -34,6 +35,7 @@ _LEFT_OUT, _BLOCK, _BLOCKS = 100, 100, 6
 _STEADY = 3.0
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class SettledCycles:
     """A motion in regular waves and the part of it that counts.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
@@ -93,6 +94,7 @@ def depth_mean_factor(wave_number: ArrayLike, depth: ArrayLike, water: Water) ->
     return np.asarray(fall * (1.0 + np.exp(-k * (2.0 * water.depth - d))) / (k * d * -np.expm1(-2.0 * k * water.depth)))
 
 
+@checks_words
 def flow_over_skirt(
     sea: WaveComponents,
     water: Water,

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 
 Array = NDArray[np.float64]
@@ -223,6 +224,7 @@ def _pareto(excess: Array) -> tuple[float, float]:
     return shape, shape * mean / found
 
 
+@checks_words
 def fit_snaps(
     peaks: ArrayLike,
     hours: float,

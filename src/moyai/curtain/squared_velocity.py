@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea import dispersion
 from moyai.sea.breaking import breaking_limit
@@ -26,6 +27,7 @@ _SOURCE = "Tabata et al., field observation of mooring forces of a new-type silt
 _RULES: dict[str, int] = {"paper": 2, "normal": 1, "none": 0}
 
 
+@checks_words
 def effective_height(
     significant_height: ArrayLike, angle: ArrayLike, rule: DirectionRule, height_ratio: float
 ) -> Array:
@@ -191,6 +193,7 @@ def fit_proportional(squared: ArrayLike, tension: ArrayLike) -> ProportionalFit:
     return ProportionalFit(factor, error, 1.0 - left / spread if spread > 0.0 else math.nan)
 
 
+@checks_words
 def check_direction_rule(rule: DirectionRule, measure: Literal["squared_velocity", "energy"]) -> tuple[Notice, ...]:
     """Tell where a direction rule contradicts the paper's finding that tension goes with cos^2.
 

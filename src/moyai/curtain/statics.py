@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.curtain.drag import DragLaw, under_toe_flow
 from moyai.curtain.plan import PlanShape, section_load, solve_plan
 from moyai.curtain.section import LoadLaw, SectionShape, Skirt, solve_section
@@ -44,6 +45,7 @@ class FloatLine:
             )
 
 
+@checks_words
 @dataclass(frozen=True)
 class HangingCurtain:
     """One span of a curtain between two anchored supports, its neighbours alike.

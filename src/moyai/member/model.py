@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
 from moyai.morison.circulation import CirculationLaw
 from moyai.morison.coefficients import CoefficientRule
 from moyai.morison.forces import DragForm
@@ -22,6 +23,7 @@ Analysis = Literal["sweep", "forces", "surface"]
 WaveTheory = Literal["linear", "stokes", "stream_function"]
 
 
+@checks_words
 @dataclass(frozen=True)
 class RegularWaves:
     """Regular waves: every height with every period.
@@ -76,6 +78,7 @@ class Motion:
         return (-1j * omega * place).real, (-(omega**2) * place).real
 
 
+@checks_words
 @dataclass(frozen=True)
 class Settings:
     """How the analyses are run.
@@ -104,6 +107,7 @@ class Settings:
     periods: int | None = None
 
 
+@checks_words
 @dataclass(frozen=True)
 class MemberProblem:
     """The whole problem as the case file states it.

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
 from moyai.core.progress import Progress
 from moyai.coupled.assembly import BodyAssembly, RodPart, VolumePart
 from moyai.coupled.bodies import BodyHistory, BodyState
@@ -35,6 +36,7 @@ Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 
+@checks_words
 @dataclass(frozen=True)
 class BodyPlan:
     """A box, an upright cylinder (their axes start at the middle), or an assembly of rods and volumes in its axes.

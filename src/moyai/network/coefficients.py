@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.wave_loads import WaveLoads
 from moyai.sea.water import Water
@@ -31,6 +32,7 @@ DEPTH_APART = 0.02
 SMALL_BODY = 0.2
 
 
+@checks_words
 @dataclass(frozen=True)
 class BodyCoefficients:
     """Where the loads of the waves on a body are.

@@ -10,6 +10,7 @@ from typing import Literal
 
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BOX, BarType
 from moyai.network.bodies import BodyPlan
@@ -50,6 +51,7 @@ class Attached:
     contact_area: float = 0.0
 
 
+@checks_words
 @dataclass(frozen=True)
 class PointPlan:
     """A named point.
@@ -98,6 +100,7 @@ class RowPlan:
     attached: Attached
 
 
+@checks_words
 @dataclass(frozen=True)
 class LinePlan:
     """A line between two points: parts from start to end, with bodies between (one shorter) and along it.
@@ -132,6 +135,7 @@ class LinePlan:
         return sum(part.length for part in self.parts)
 
 
+@checks_words
 @dataclass(frozen=True)
 class NetPlan:
     """A net between four corners.
@@ -171,6 +175,7 @@ class NetPlan:
     floats: bool = False
 
 
+@checks_words
 @dataclass(frozen=True)
 class SheetPlan:
     """A sheet between four corners, as :class:`NetPlan`; warp runs from row to row, weft along the rows.
@@ -208,6 +213,7 @@ class BedPlan:
     friction: float = 0.0
 
 
+@checks_words
 @dataclass(frozen=True, eq=False)
 class MotionPlan:
     """A prescribed motion: its table, made for any duration, its typical period [s] and its last time [s]."""
@@ -244,6 +250,7 @@ class MotionPlan:
         return self.table
 
 
+@checks_words
 @dataclass(frozen=True)
 class Settings:
     """How the analyses are run; ``None`` means chosen by the program. See docs/case_file.md for each."""
