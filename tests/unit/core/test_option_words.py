@@ -29,7 +29,7 @@ def calls_with_words() -> Iterator[tuple[str, Callable[..., Any], str]]:
             for name, call in sorted(vars(module).items()):
                 if name.startswith("_") or name in RECORDS or getattr(call, "__module__", "") != module.__name__:
                     continue
-                if inspect.isfunction(call) or dataclasses.is_dataclass(call):
+                if inspect.isfunction(call) or (inspect.isclass(call) and dataclasses.is_dataclass(call)):
                     notes = inspect.get_annotations(inspect.unwrap(call) if inspect.isfunction(call) else call)
                     for argument in sorted(_rules(notes, module.__name__)):
                         if argument not in OUTCOMES:
