@@ -124,26 +124,31 @@ def test_first_page_in_all_defaults(design, tmp_path):
 
 
 def test_slow_drift_of_both_domains_is_one(tmp_path):
-    """The two models share the drift of the waves and nothing else: spectrum against a record in time.
+    """The two models share the drift of the waves and nothing else: spectrum against records in time.
 
     A soft mooring (slack chain, 40 s natural period) of the wide pontoon in a low sea, whose slow sway of some
     centimetres meets no stiffening of the lines. The standard deviation of a narrow-banded motion from n cycles has a
-    standard error of 1/(2 sqrt(2 pi zeta n)): under four per cent for three hours, some 270 cycles at eleven per cent
+    standard error of 1/(2 sqrt(2 pi zeta n)): about three per cent for four hours, some 350 cycles at eleven per cent
     of critical. Allowed are three of these.
     """
     design = Design("soft", 15.0, 4.0, 2.5, 50.0, 15.0, 0.3, 4.5, 60, 63.0, 67.0, count=3, wind=0.0, current=0.0)
     settings = "settings: {time: {realisations: 1, lines: {mode: quasi_static}}}"
-    result = result_of(design, tmp_path, duration=10800.0, settings=settings)
-    level = result.tree["SWL"]
-    record, sea = level["time/storm/realisation"].to_dataset(), level["frequency/storm"].to_dataset()
-    keep = record.time.values >= float(record.attrs["analysis_start"])
-    sway, step = record.position.values[keep, 0], float(record.attrs["time_step"])
-    power = np.abs(np.fft.rfft(sway - sway.mean())) ** 2
-    omega = 2.0 * math.pi * np.fft.rfftfreq(sway.size, step)
-    slow = math.sqrt(2.0 * power[(omega > 0.0) & (omega < 0.5 * 2.0 * math.pi / design.period)].sum()) / sway.size
-    expected, period = float(sea.slow_motion_deviation[0]), float(sea.slow_sway_period)
-    assert period > 8.0 * design.period
-    error = 0.5 / math.sqrt(2.0 * math.pi * float(sea.slow_sway_damping_ratio) * sway.size * step / period)
-    assert error < 0.04
-    assert slow == pytest.approx(expected, rel=3.0 * error), (slow, expected, error)
-    assert sway.mean() == pytest.approx(float(sea.mean_offset[0]), rel=0.05)
+    case = design.write(tmp_path, duration=3600.0, settings=settings)
+    text, variances, lasted = case.read_text(encoding="utf-8"), [], 0.0
+    for seed in range(1, 5):
+        case.write_text(text.replace("seed: 1", f"seed: {seed}"), encoding="utf-8")
+        level = run(build(load_case(case))).tree["SWL"]
+        record, sea = level["time/storm/realisation"].to_dataset(), level["frequency/storm"].to_dataset()
+        keep = record.time.values >= float(record.attrs["analysis_start"])
+        sway, step = record.position.values[keep, 0], float(record.attrs["time_step"])
+        power = np.abs(np.fft.rfft(sway - sway.mean())) ** 2
+        omega = 2.0 * math.pi * np.fft.rfftfreq(sway.size, step)
+        slow = (omega > 0.0) & (omega < 0.5 * 2.0 * math.pi / design.period)
+        variances.append(2.0 * power[slow].sum() / sway.size**2)
+        lasted += sway.size * step
+        assert sway.mean() == pytest.approx(float(sea.mean_offset[0]), rel=0.05)
+    found, expected = math.sqrt(np.mean(variances)), float(sea.slow_motion_deviation[0])
+    cycles = lasted / float(sea.slow_sway_period)
+    error = 0.5 / math.sqrt(2.0 * math.pi * float(sea.slow_sway_damping_ratio) * cycles)
+    assert cycles > 300.0 and error < 0.035
+    assert found == pytest.approx(expected, rel=3.0 * error), (found, expected, error)
