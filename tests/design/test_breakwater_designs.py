@@ -79,9 +79,10 @@ def test_rest_and_frequency_domain_follow_hand_calculation(design, tmp_path):
     motion = force / stiffness**2 / ((1.0 - r**2) ** 2 + (2.0 * zeta * r) ** 2)
     by_hand = math.sqrt(np.sum(motion) * (mu[1] - mu[0]))
     assert 1.0 / 1.6 < float(sea.slow_motion_deviation[0]) / by_hand < 1.6
-    # Half and twice the damping: 1/sqrt(c), less where the resonance is broad
+    # Half and twice the damping: 1/sqrt(c) under a white force, which is 2; the spectrum of the drift falls with
+    # frequency, so that part of the sway follows the force without resonance and the ratio stays under 2
     ratio = float(sea.slow_sway_deviation_half_damping) / float(sea.slow_sway_deviation_double_damping)
-    assert 1.2 < ratio < 2.05
+    assert 1.5 < ratio < 2.0
 
 
 def jonswap(height, period):
@@ -123,20 +124,31 @@ def test_first_page_in_all_defaults(design, tmp_path):
 
 
 def test_slow_drift_of_both_domains_is_one(tmp_path):
-    """The two models share the drift of the waves and nothing else: spectrum against realisations in time.
+    """The two models share the drift of the waves and nothing else: spectrum against records in time.
 
-    A soft mooring (chain slack at the bed) of the wide pontoon, half an hour; the standard deviation of a narrow-banded
-    motion from n cycles scatters by 1/sqrt(2 pi zeta n): ten per cent for five records of 40 cycles at ten per cent of
-    critical. The lines stiffen in time: twenty-five per cent in all.
+    A soft mooring (slack chain, 40 s natural period) of the wide pontoon in a low sea, whose slow sway of some
+    centimetres meets no stiffening of the lines. The standard deviation of a narrow-banded motion from n cycles has a
+    standard error of 1/(2 sqrt(2 pi zeta n)): about three per cent for four hours, some 350 cycles at eleven per cent
+    of critical. Allowed are three of these.
     """
-    design = Design("soft", 15.0, 4.0, 2.5, 50.0, 15.0, 0.8, 4.5, 60, 60.2, 67.0, count=3, wind=0.0, current=0.0)
-    result = result_of(design, tmp_path, duration=1800.0, settings="settings: {time: {lines: {mode: quasi_static}}}")
-    level = result.tree["SWL"]
-    record, sea = level["time/storm/realisation"].to_dataset(), level["frequency/storm"].to_dataset()
-    keep = record.time.values >= float(record.attrs["analysis_start"])
-    sway, step = record.position.values[keep, 0], float(record.attrs["time_step"])
-    power = np.abs(np.fft.rfft(sway - sway.mean())) ** 2
-    omega = 2.0 * math.pi * np.fft.rfftfreq(sway.size, step)
-    slow = math.sqrt(2.0 * power[(omega > 0.0) & (omega < 0.5 * 2.0 * math.pi / design.period)].sum()) / sway.size
-    expected = float(sea.slow_motion_deviation[0])
-    assert slow == pytest.approx(expected, rel=0.35), (slow, expected)
+    design = Design("soft", 15.0, 4.0, 2.5, 50.0, 15.0, 0.3, 4.5, 60, 63.0, 67.0, count=3, wind=0.0, current=0.0)
+    settings = "settings: {time: {realisations: 1, lines: {mode: quasi_static}}}"
+    case = design.write(tmp_path, duration=3600.0, settings=settings)
+    text, variances, lasted = case.read_text(encoding="utf-8"), [], 0.0
+    for seed in range(1, 5):
+        case.write_text(text.replace("seed: 1", f"seed: {seed}"), encoding="utf-8")
+        level = run(build(load_case(case))).tree["SWL"]
+        record, sea = level["time/storm/realisation"].to_dataset(), level["frequency/storm"].to_dataset()
+        keep = record.time.values >= float(record.attrs["analysis_start"])
+        sway, step = record.position.values[keep, 0], float(record.attrs["time_step"])
+        power = np.abs(np.fft.rfft(sway - sway.mean())) ** 2
+        omega = 2.0 * math.pi * np.fft.rfftfreq(sway.size, step)
+        slow = (omega > 0.0) & (omega < 0.5 * 2.0 * math.pi / design.period)
+        variances.append(2.0 * power[slow].sum() / sway.size**2)
+        lasted += sway.size * step
+        assert sway.mean() == pytest.approx(float(sea.mean_offset[0]), rel=0.05)
+    found, expected = math.sqrt(np.mean(variances)), float(sea.slow_motion_deviation[0])
+    cycles = lasted / float(sea.slow_sway_period)
+    error = 0.5 / math.sqrt(2.0 * math.pi * float(sea.slow_sway_damping_ratio) * cycles)
+    assert cycles > 300.0 and error < 0.035
+    assert found == pytest.approx(expected, rel=3.0 * error), (found, expected, error)

@@ -125,9 +125,11 @@ def test_section_is_in_equilibrium_as_a_whole() -> None:
             assert found.top_pull == pytest.approx(weight - up, rel=2e-4)
 
 
-def test_fourth_order_of_the_integration() -> None:
+@pytest.mark.parametrize("friction", [0.0, 0.02])
+def test_fourth_order_of_the_integration(friction: float) -> None:
     """Halving the step divides the error of the top by sixteen."""
-    pressure, data = np.full(5, 60.0), np.array([1.5, 3.0, 1e-4, 0.0])
+    # drag, weight in water, flexibility, whether the load is uniform, friction
+    pressure, data = np.full(5, 60.0), np.array([1.5, 3.0, 1e-4, 0.0, friction])
     ends = []
     for count in (10, 20, 40, 80, 1280):
         path = np.empty((count + 1, 4))

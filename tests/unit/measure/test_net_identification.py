@@ -371,7 +371,7 @@ def test_cage_records_that_cannot_be_used(change, words):
     [
         ({"time": np.arange(10) * 0.1}, "10 samples"),
         ({"force": np.zeros(50)}, "50 samples of force"),
-        ({"kind": "tow"}, "unknown kind"),
+        ({"kind": "tow"}, "'tow' is not a known word"),
         ({"speed": -1.0}, "speed is -1"),
         ({"speed": 0.0, "speed_record": None}, "speed of towing is missing"),
         ({"window": (5.0, 2.0)}, "lies outside"),

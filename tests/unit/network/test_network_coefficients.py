@@ -26,7 +26,7 @@ waves: {{kind: regular, name: waves, height: {height}, period: {period}, heading
 structure:
   kind: network
   line_types:
-    thread: {{diameter: 0.1 mm, mass: 1e-5 kg/m, axial_stiffness: 1 N, viscosity: 1e-3 N s, drag_normal: 0,
+    thread: {{diameter: 0.2 mm, mass: 4e-5 kg/m, axial_stiffness: 1 N, viscosity: 1e-3 N s, drag_normal: 0,
              drag_tangential: 0, added_mass_normal: 0}}
   bodies:
     box:
