@@ -184,7 +184,7 @@ def _line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     share = Headline(
         "line_utilisation", "Utilisation of the breaking load", highest.utilisation, "1", highest.where, highest.model,
         band=_seeds(highest.scatter / load),
-        detail=f"breaking load {_kilonewton(load)}, factor {load / highest.tension:.3g}",
+        detail=f"breaking load {_kilonewton(load)}",
     )  # fmt: skip
     return [tension, share]
 
@@ -445,7 +445,9 @@ def _mean_of(scatter: Array, words: Callable[[float], str]) -> str:
 
 
 def _kilonewton(force: float) -> str:
-    return f"{1e-3 * force:.4g} kN" if abs(force) >= 1e3 else f"{force:.3g} N"
+    if abs(force) < 1e3:
+        return f"{force:.3g} N"
+    return f"{1e-3 * force:.0f} kN" if abs(force) >= 1e5 else f"{1e-3 * force:.3g} kN"
 
 
 def _confirmed(value: bool) -> str:

@@ -50,7 +50,7 @@ class Headline:
     name : str
         Stable name, for instance ``line_tension``; criteria and comparisons use it.
     label : str
-        Words for the reader.
+        Words for the reader; the first letter becomes a capital.
     value : float
         In SI units and radians; NaN where only ``text`` says it.
     unit : str
@@ -94,6 +94,9 @@ class Headline:
     sea: str = ""
     mean: float | None = None
     shown: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])
 
     def as_dict(self) -> dict[str, Any]:
         """Return a JSON-ready mapping (numbers that are not finite become text)."""
@@ -297,7 +300,7 @@ def _absent(criterion: Criterion) -> str:
 def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     value = 0.0 if math.isnan(headline.value) and headline.text == NONE else headline.value
     if math.isnan(value):
-        return Judgement(criterion, value, "not judged", headline.text or f"{headline.label.lower()} is not known")
+        return Judgement(criterion, value, "not judged", headline.text or f"{headline.label[:1].lower()}{headline.label[1:]} is not known")
     upward = criterion.sense == "at most"
     if headline.band is not None and headline.band.decides:
         ends = [end for end in (value, headline.band.low, headline.band.high) if not math.isnan(end)]

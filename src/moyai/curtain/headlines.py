@@ -345,6 +345,12 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
         band = _limit_band(table) if key == "speed_limit" else None
+        if limit <= 0.0 and bound == "at least":
+            # a bound that fails proves nothing about the curtain
+            words = f"the bound of an upright plate fails for the {governing} in the current alone"
+            detail = f"{words}; add 'dynamic' to 'analyses' for the value"
+            yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
+            continue
         yield Headline(
             name, label, limit, unit, where=f"{where}: {level}", band=band,
             bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]

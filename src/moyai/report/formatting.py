@@ -17,7 +17,7 @@ _DEGREES = 180.0 / math.pi
 _DISPLAY: dict[str, tuple[tuple[float, str, float], ...]] = {
     "rad": ((0.0, "deg", _DEGREES),),
     "rad/m": ((0.0, "deg/m", _DEGREES),),
-    "N": ((0.0, "N", 1.0), (1e4, "kN", 1e-3), (1e8, "MN", 1e-6)),
+    "N": ((0.0, "N", 1.0), (1e3, "kN", 1e-3), (1e8, "MN", 1e-6)),
     "N/m": ((0.0, "N/m", 1.0), (1e4, "kN/m", 1e-3), (1e8, "MN/m", 1e-6)),
     "N m": ((0.0, "N m", 1.0), (1e4, "kN m", 1e-3), (1e8, "MN m", 1e-6)),
     "N/rad": ((0.0, "N/rad", 1.0), (1e4, "kN/rad", 1e-3), (1e8, "MN/rad", 1e-6)),
