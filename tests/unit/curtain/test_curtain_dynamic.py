@@ -458,6 +458,8 @@ def test_gathered_cloth_goes_on_with_turning_sections(tmp_path: Path) -> None:
     assert result.status == "converged", result.message
     assert not [notice for notice in result.notices if notice.code == "dynamic-turning"]
     taken = next(check for check in result.checks if "viscosity" in check.name)
+    # a third of what the program calls crumpling, in the four periods run here; this motion never settles, and over
+    # eleven to sixteen periods viscosity takes 0.14
     assert 0.0 < taken.value < 0.1
 
 
