@@ -49,7 +49,7 @@ class _State:
 
 
 def _laws_text(laws: xr.Dataset) -> str:
-    return f"net laws valid for this net: {laws.attrs['valid']}"
+    return f"law of the case and those valid for this net: {laws.attrs['valid']}"
 
 
 def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[Headline, ...]:

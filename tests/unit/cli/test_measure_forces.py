@@ -154,7 +154,7 @@ def test_a_member_is_run_and_reported(tmp_path):
     assert found.exit_code == 0, found.output
     record = json.loads(found.stdout)
     assert record["status"] == "converged"
-    assert record["key_figures"][0]["label"] == "largest force on the member"
+    assert record["key_figures"][0]["label"] == "Largest force on the member"
     page = (tmp_path / "out/report.html").read_text(encoding="utf-8")
     for words in (
         "Inertia coefficient over KC",
