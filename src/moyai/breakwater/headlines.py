@@ -8,7 +8,7 @@ same range. What is out of its range never governs: the number is then said to b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,7 @@ AT_REST = "time domain, lines at rest at every instant"
 FREQUENCY = "frequency domain, waves and slow drift"
 FIRST_ORDER = "frequency domain, regular waves"
 STILL = "at rest, no waves run"
+MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
 SINKER = ("concrete", "sand")  # for which the weight of a sinker is shown
 
 
@@ -53,6 +54,8 @@ class LinePeak:
     model: str
     known: bool
     scatter: Array
+    vertical_scatter: Array
+    horizontal_scatter: Array
 
     @property
     def utilisation(self) -> float:
@@ -140,9 +143,12 @@ def _line_peak(
 
     regular = "period" in data.dims
     moving = of("lines_in_motion") == 1.0
-    scatter = np.zeros(0)
-    if "maximum_tension_of_realisation" in data:
-        scatter = np.asarray(data["maximum_tension_of_realisation"].values[:, number], dtype=float)
+
+    def scatter_of(name: str) -> Array:
+        name = f"{name}_of_realisation"
+        return np.asarray(data[name].values[:, number], dtype=float) if name in data else np.zeros(0)
+
+    scatter = scatter_of("maximum_tension")
     model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
     mean = of("mean_tension")
     highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
@@ -151,7 +157,8 @@ def _line_peak(
     return LinePeak(
         level, sea, line, float(data["period"].values[row]) if regular else math.nan, float(table[row]), mean, load,
         of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
-        model, known, scatter,
+        model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
+        scatter_of("maximum_anchor_horizontal_tension"),
     )  # fmt: skip
 
 
@@ -172,7 +179,7 @@ def _line_headlines(peaks: list[LinePeak]) -> list[Headline]:
         ]
     tension = Headline(
         "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
-        band=_seeds(highest.scatter), detail=_mean_of(highest.scatter, _kilonewton),
+        band=_seeds(highest.scatter), detail=_mean_of(highest.scatter),
     )  # fmt: skip
     load = highest.breaking_load
     if not load > 0.0:
@@ -212,13 +219,13 @@ def _anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks
     weight = gravity_anchor_weight(
         hardest.horizontal, hardest.vertical, friction.value, level_factor.value, up_factor.value
     )
-    # The node at the anchor of a line in motion always touches: length counts only where nothing lifts
     lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
     bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
     fit = "" if hardest.vertical <= 0.0 else ": not for a drag anchor"
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
         drag.value * hardest.horizontal, "N", hardest.where, hardest.model,
+        band=_seeds(drag.value * hardest.horizontal_scatter),
         detail=(
             f"{drag.value:g} times the pull of one line ({drag.source}, {_confirmed(drag.confirmed)}); {bed} at the "
             f"peak{fit}; or a concrete sinker of {_kilonewton(weight)} in water (friction {friction.value:g} on "
@@ -226,14 +233,16 @@ def _anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks
         ),
     )  # fmt: skip
     pull = Headline(
-        "anchor_horizontal_load", "Horizontal pull on an anchor", hardest.horizontal, "N", hardest.where, hardest.model
-    )
+        "anchor_horizontal_load", "Horizontal pull on an anchor", hardest.horizontal, "N", hardest.where, hardest.model,
+        band=_seeds(hardest.horizontal_scatter),
+    )  # fmt: skip
     none = lifted.vertical <= 0.0
     least = min(peak.grounded for peak in pulled)
     kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
     said = "; ".join(part for part in (kept if none else "", bare) if part)
     uplift = Headline(
-        "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model, detail=said,
+        "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
+        band=None if none else _seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
         text="none" if none else "",
     )  # fmt: skip
     return [capacity, pull, uplift]
@@ -298,6 +307,11 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
     detail = "energy-weighted" if irregular else "largest over the periods"
     if math.isfinite(other):
         detail += f"; {other:.3g} with the motions of the time domain"
+    highest = max(rows, key=lambda item: item[1])
+    if highest[1] > value:
+        detail += f"; up to {highest[1]:.3g} in regular waves: {highest[2]}"
+    if "overtopping_share" in data and (over := float(data["overtopping_share"])) > MUCH_OVERTOPPING:
+        detail += f"; without the water that up to {100.0 * over:.0f} % of the waves bring over the deck"
     return [
         Headline("transmission", "Wave transmission K_T", value, "1", where,
                  FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail)
@@ -322,7 +336,7 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
             chosen = governing_group(groups, level, sea)
             if chosen is not None:
                 offsets += _offset(*chosen, level, sea, groups.get(f"/{level}/frequency/{sea}"))
-                rolls += _roll(*chosen, level, sea)
+                rolls += _roll(*chosen, level, sea, groups.get(f"/{level}/frequency/{sea}"))
     found = [max(items, key=lambda item: abs(item.value)) for items in (offsets, rolls) if items]
     if not found and (rest := _steady_offset(groups, levels)) is not None:
         found = [rest]
@@ -372,18 +386,25 @@ def _slow_words(frequency: xr.Dataset | None) -> str:
     )
 
 
-def _roll(domain: str, data: xr.Dataset, level: str, sea: str) -> list[Headline]:
+def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
+    band = None
     model = AT_REST if domain == "time" else FREQUENCY
     if "significant_motion" in data:
         value = float(data["significant_motion"].values[2])
         label, period = "Significant roll (double amplitude)", math.nan
+        if frequency is not None and "significant_motion_low" in frequency:
+            # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
+            ratio = value / float(frequency["significant_motion"].values[2])
+            low, high = (ratio * float(frequency[f"significant_motion_{end}"].values[2]) for end in ("low", "high"))
+            if math.isfinite(low + high):
+                band = Band(low, high, str(frequency.attrs.get("damping_band", "damping")))
     elif "motion_amplitude" in data and np.isfinite(data["motion_amplitude"].values[:, 2]).any():
         table = data["motion_amplitude"].values[:, 2]
         row = int(np.nanargmax(table))
         value, label, period = float(table[row]), "Roll amplitude", float(data["period"].values[row])
     else:
         return []
-    return [Headline("roll", label, value, "rad", place(level, sea, period), model)]
+    return [Headline("roll", label, value, "rad", place(level, sea, period), model, band)]
 
 
 def _steady_offset(groups: Mapping[str, xr.Dataset], levels: list[str]) -> Headline | None:
@@ -431,17 +452,31 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
 
 
 def _seeds(scatter: Array) -> Band | None:
-    """Return the band of realisations: they scatter about their mean, which is the number."""
+    """Return the band of realisations: they scatter about their mean, which is the number.
+
+    Criteria are judged at the end of the one-sided 95 % interval of that mean (Student), since few realisations leave
+    it uncertain.
+    """
+    from scipy.special import stdtrit
+
     if scatter.size < 2 or not np.isfinite(scatter).all():
         return None
-    return Band(float(scatter.min()), float(scatter.max()), f"{scatter.size} realisations", decides=False)
+    mean, reach = float(scatter.mean()), float(stdtrit(scatter.size - 1, 0.95)) * _standard_error(scatter)
+    return Band(
+        float(scatter.min()), float(scatter.max()), f"{scatter.size} realisations; criteria at the 95 % end of their mean", decides=False,
+        judged_low=mean - reach, judged_high=mean + reach,
+    )  # fmt: skip
 
 
-def _mean_of(scatter: Array, words: Callable[[float], str]) -> str:
+def _standard_error(scatter: Array) -> float:
+    return float(np.std(scatter, ddof=1)) / math.sqrt(scatter.size)
+
+
+def _mean_of(scatter: Array) -> str:
     if scatter.size < 2:
         return ""
-    error = float(np.std(scatter, ddof=1)) / math.sqrt(scatter.size)
-    return f"mean of the largest of {scatter.size} realisations, its standard error {words(error)}"
+    share = 100.0 * _standard_error(scatter) / float(scatter.mean())
+    return f"mean of the largest of {scatter.size} realisations, its standard error {share:.2g} %"
 
 
 def _kilonewton(force: float) -> str:

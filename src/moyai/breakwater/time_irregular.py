@@ -18,7 +18,7 @@ from moyai.breakwater.memory_model import UnitMemory
 from moyai.breakwater.model import DEFAULT_REALISATIONS, MODES, IrregularSea, TimeSettings
 from moyai.breakwater.responses import SNAP_RATIO, anchor_loads, snap_notices
 from moyai.breakwater.slow_drift import LEAST_CYCLES
-from moyai.breakwater.time_lines import lines_at_rest, motion_summary
+from moyai.breakwater.time_lines import STATISTICS, lines_at_rest, motion_summary
 from moyai.breakwater.time_model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.breakwater.variables import labelled
 from moyai.breakwater.viscous_damping import about_rest_in_sea, in_moving_water, natural_added_mass
@@ -305,10 +305,16 @@ def _gathered(unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np
         followed = tension[:, int(np.argmax(share))]
     shown = int(np.argmin(np.abs(followed - followed.mean())))
     out = data.mean("member", skipna=True)
-    for name in ("least_grounded_length", "least_rise_time"):
+    if "least_grounded_length" in data:
+        out["least_grounded_length"] = data["least_grounded_length"].min("member", skipna=True)
+    # counts and single events of snaps are those of the realisation whose record is kept
+    for name in STATISTICS:
         if name in data:
-            out[name] = data[name].min("member", skipna=True)
+            out[name] = data[name].isel(member=shown)
     still = lines_at_rest(unit) & ~moved
+    for name in ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension"):
+        if name in data:
+            out[f"{name}_of_realisation"] = (("member", "line"), data[name].values)
     return out.assign(
         maximum_tension_of_realisation=(("member", "line"), tension),
         maximum_excursion_of_realisation=(("member", "dof"), excursion),

@@ -113,6 +113,11 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "lines_in_motion": ("1", "whether the largest tension is that of a line in motion"),
     "seed_of_realisation": ("1", "seed of the realisation"),
     "maximum_tension_of_realisation": ("N", "largest tension at the fairlead in each realisation"),
+    "maximum_anchor_vertical_tension_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
+    "maximum_anchor_horizontal_tension_of_realisation": (
+        "N",
+        "largest level pull on the anchor in each realisation",
+    ),
     "maximum_excursion_of_realisation": ("m", "largest excursion from rest in each realisation (roll: rad)"),
     "maximum_motion": ("m", "largest excursion from the mean (roll: rad)"),
     "significant_tension": ("N", "significant double amplitude of the tension"),

@@ -20,6 +20,9 @@ NONE = "none"
 """Text of a headline whose number is zero."""
 
 
+_ENDS = ("low", "high", "judged_low", "judged_high")
+
+
 @dataclass(frozen=True)
 class Band:
     """How far a headline moves over what is uncertain or varies by chance.
@@ -33,12 +36,17 @@ class Band:
     decides : bool
         Whether a criterion is judged at the unfavourable end (an uncertain coefficient) or at the value itself
         (the scatter of seeds about their mean).
+    judged_low, judged_high : float
+        Ends of the interval of the value at which a criterion is judged where the band itself does not decide, for
+        instance the confidence interval of a mean over few seeds; NaN: the value itself.
     """
 
     low: float
     high: float
     of: str
     decides: bool = True
+    judged_low: float = math.nan
+    judged_high: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -103,7 +111,7 @@ class Headline:
         record = asdict(self)
         record["value"] = _writable(self.value)
         if self.band is not None:
-            record["band"] |= {"low": _writable(self.band.low), "high": _writable(self.band.high)}
+            record["band"] |= {name: _writable(getattr(self.band, name)) for name in _ENDS}
         return record
 
     @classmethod
@@ -111,7 +119,7 @@ class Headline:
         """Undo :meth:`as_dict`."""
         band = record.get("band")
         if band is not None:
-            band = Band(**{**band, "low": float(band["low"]), "high": float(band["high"])})
+            band = Band(**{**band, **{name: float(band[name]) for name in _ENDS if name in band}})
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
@@ -300,10 +308,17 @@ def _absent(criterion: Criterion) -> str:
 def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     value = 0.0 if math.isnan(headline.value) and headline.text == NONE else headline.value
     if math.isnan(value):
-        return Judgement(criterion, value, "not judged", headline.text or f"{headline.label[:1].lower()}{headline.label[1:]} is not known")
+        return Judgement(
+            criterion,
+            value,
+            "not judged",
+            headline.text or f"{headline.label[:1].lower()}{headline.label[1:]} is not known",
+        )
     upward = criterion.sense == "at most"
-    if headline.band is not None and headline.band.decides:
-        ends = [end for end in (value, headline.band.low, headline.band.high) if not math.isnan(end)]
+    if headline.band is not None:
+        band = headline.band
+        given = (band.low, band.high) if band.decides else (band.judged_low, band.judged_high)
+        ends = [end for end in (value, *given) if not math.isnan(end)]
         value = max(ends) if upward else min(ends)
     if criterion.mean_weight != 1.0:
         return _judge_parts(criterion, headline, value)

@@ -67,7 +67,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     number, reynolds = (float(found.sea[key].values[found.wave]) for key in ("keulegan_carpenter", "reynolds"))
     items.append(
         Headline(
-            "keulegan_carpenter", "Keulegan-Carpenter number", number, "1", found.where,
+            "keulegan_carpenter", _number_label(found), number, "1", found.where,
             detail="; ".join([*(_range_text(item, number, reynolds) for item in ranges), f"Re = {reynolds:.2g}"]),
         )
     )  # fmt: skip
@@ -79,6 +79,11 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         )
     )  # fmt: skip
     return tuple(items)
+
+
+def _number_label(found: _Largest) -> str:
+    regular = found.sea.attrs.get("kind") == "regular"
+    return "Keulegan-Carpenter number" + ("" if regular else " of the significant velocity")
 
 
 def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Notice, ...]:

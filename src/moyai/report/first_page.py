@@ -120,7 +120,7 @@ def criteria_table(result: Result) -> Table | None:
 
 def criteria_note(items: Iterable[Judgement]) -> str:
     """Return what the reader has to know of the criteria: how they are judged, and that some were assumed."""
-    text = "Judged at the unfavourable end of the band of an uncertain coefficient."
+    text = "Judged at the unfavourable end of the band of an uncertain coefficient or of the 95 % interval of a mean."
     if any(item.criterion.assumed for item in items):
         text += " A default of moyai is no requirement of yours: give your own under 'criteria', or 'criteria: none'."
     return text

@@ -66,3 +66,12 @@ def test_headlines_and_verdict_survive_the_file(tmp_path: Path) -> None:
     assert math.isnan(again.headlines[1].value) and again.headlines[1].text == "none"
     assert again.verdict.outcome == result.verdict.outcome == "does not hold"
     assert [item.criterion for item in again.verdict.judgements] == [MOST, LEAST]
+
+
+def test_the_mean_of_few_realisations_is_judged_at_the_end_of_its_interval() -> None:
+    scatter = Band(0.3, 0.9, "5 realisations", decides=False, judged_low=0.35, judged_high=0.55)
+    assert judge([transmission(0.45, band=scatter)], [MOST], computed=True).outcome == "does not hold"
+    least = Criterion("least", "transmission", 0.4, "at least", "case file")
+    found = judge([transmission(0.45, band=scatter)], [least], computed=True)
+    assert found.outcome == "does not hold" and found.judgements[0].value == 0.35
+    assert Headline.from_dict(transmission(0.45, band=scatter).as_dict()).band == scatter
