@@ -464,7 +464,7 @@ def _seeds(scatter: Array) -> Band | None:
     mean, reach = float(scatter.mean()), float(stdtrit(scatter.size - 1, 0.95)) * _standard_error(scatter)
     return Band(
         float(scatter.min()), float(scatter.max()), f"{scatter.size} realisations; criteria at the 95 % end of their mean", decides=False,
-        judged_low=mean - reach, judged_high=mean + reach,
+        judged=(mean - reach, mean + reach),
     )  # fmt: skip
 
 

@@ -20,9 +20,6 @@ NONE = "none"
 """Text of a headline whose number is zero."""
 
 
-_ENDS = ("low", "high", "judged_low", "judged_high")
-
-
 @dataclass(frozen=True)
 class Band:
     """How far a headline moves over what is uncertain or varies by chance.
@@ -36,17 +33,16 @@ class Band:
     decides : bool
         Whether a criterion is judged at the unfavourable end (an uncertain coefficient) or at the value itself
         (the scatter of seeds about their mean).
-    judged_low, judged_high : float
-        Ends of the interval of the value at which a criterion is judged where the band itself does not decide, for
-        instance the confidence interval of a mean over few seeds; NaN: the value itself.
+    judged : (float, float) or None
+        Interval at whose unfavourable end a criterion is judged where the band itself does not decide, for instance the
+        confidence interval of a mean over few seeds; ``None``: at the value itself.
     """
 
     low: float
     high: float
     of: str
     decides: bool = True
-    judged_low: float = math.nan
-    judged_high: float = math.nan
+    judged: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -111,7 +107,7 @@ class Headline:
         record = asdict(self)
         record["value"] = _writable(self.value)
         if self.band is not None:
-            record["band"] |= {name: _writable(getattr(self.band, name)) for name in _ENDS}
+            record["band"] |= {"low": _writable(self.band.low), "high": _writable(self.band.high)}
         return record
 
     @classmethod
@@ -119,7 +115,9 @@ class Headline:
         """Undo :meth:`as_dict`."""
         band = record.get("band")
         if band is not None:
-            band = Band(**{**band, **{name: float(band[name]) for name in _ENDS if name in band}})
+            judged = band.get("judged")
+            ends = {"low": float(band["low"]), "high": float(band["high"])}
+            band = Band(**{**band, **ends, "judged": None if judged is None else (float(judged[0]), float(judged[1]))})
         return cls(**{**record, "value": float(record["value"]), "band": band})
 
 
@@ -317,7 +315,7 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     upward = criterion.sense == "at most"
     if headline.band is not None:
         band = headline.band
-        given = (band.low, band.high) if band.decides else (band.judged_low, band.judged_high)
+        given = (band.low, band.high) if band.decides else (band.judged or ())
         ends = [end for end in (value, *given) if not math.isnan(end)]
         value = max(ends) if upward else min(ends)
     if criterion.mean_weight != 1.0:

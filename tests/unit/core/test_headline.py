@@ -69,7 +69,7 @@ def test_headlines_and_verdict_survive_the_file(tmp_path: Path) -> None:
 
 
 def test_the_mean_of_few_realisations_is_judged_at_the_end_of_its_interval() -> None:
-    scatter = Band(0.3, 0.9, "5 realisations", decides=False, judged_low=0.35, judged_high=0.55)
+    scatter = Band(0.3, 0.9, "5 realisations", decides=False, judged=(0.35, 0.55))
     assert judge([transmission(0.45, band=scatter)], [MOST], computed=True).outcome == "does not hold"
     least = Criterion("least", "transmission", 0.4, "at least", "case file")
     found = judge([transmission(0.45, band=scatter)], [least], computed=True)
