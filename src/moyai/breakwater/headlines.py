@@ -462,10 +462,9 @@ def _seeds(scatter: Array) -> Band | None:
     if scatter.size < 2 or not np.isfinite(scatter).all():
         return None
     mean, reach = float(scatter.mean()), float(stdtrit(scatter.size - 1, 0.95)) * _standard_error(scatter)
-    return Band(
-        float(scatter.min()), float(scatter.max()), f"{scatter.size} realisations; criteria at the 95 % end of their mean", decides=False,
-        judged=(mean - reach, mean + reach),
-    )  # fmt: skip
+    of = f"{scatter.size} realisations; criteria at the 95 % end of their mean"
+    ends = (mean - reach, mean + reach)
+    return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
 
 
 def _standard_error(scatter: Array) -> float:
