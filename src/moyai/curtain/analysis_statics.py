@@ -122,6 +122,7 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
         "drowning_speed": unit.drowning_speed,
         "joint_spacing": math.nan if joint is UNJUDGED else joint_spacing(highest, joint, curtain.span),
         "anchor_spacing": spacing.value if spacing.reached else math.inf,
+        **_at_slack_water(unit),
         "flooded_net_weight": sunk.net_weight,
         "flooded_sinks": float(sunk.sinks),
         "air_to_surface": sunk.air_to_surface,
@@ -158,6 +159,24 @@ def _statics(unit: LevelCurtain, cases: tuple[CurtainStatics, ...], significant_
     }
     data["joint_spacing"].attrs["searched"] = curtain.span
     return data
+
+
+def _at_slack_water(unit: LevelCurtain) -> dict[str, float]:
+    """Return toe clearance and float reserve of a free toe that hangs straight down without a current.
+
+    The flared skirt of a curtain in its current stands higher, and the load bears part of its weight: both numbers
+    are on the favourable side there. NaN for a held toe, whose pull without a current the case does not tell.
+    """
+    hanging, depth = unit.hanging, unit.water.depth
+    if hanging.toe != "free":
+        return {"slack_toe_gap": math.nan, "slack_float_reserve_ratio": math.nan}
+    skirt, floats = hanging.skirt, hanging.floats
+    afloat = skirt.length < depth
+    weight = skirt.submerged_weight * min(skirt.length, depth) + (skirt.toe_load if afloat else 0.0)
+    return {
+        "slack_toe_gap": math.nan if math.isinf(depth) else max(depth - skirt.length, 0.0),
+        "slack_float_reserve_ratio": (floats.buoyancy - floats.weight - max(weight, 0.0)) / floats.buoyancy,
+    }
 
 
 def _anchor_spacing(unit: LevelCurtain) -> Limit:

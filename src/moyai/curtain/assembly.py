@@ -79,15 +79,16 @@ class LevelCurtain:
     @cached_property
     def statics(self) -> CurtainStatics:
         """The curtain at rest in the current of the case."""
-        return self.steady.governing.statics
+        return self.site.statics(self.hanging, self.surface_speed)
 
     @cached_property
     def steady(self) -> SteadyLoad:
         """The governing steady load in the current of the case, with its band."""
         surface = self.site.current(self.surface_speed).component(np.zeros(1), self.curtain.normal)
+        hanging = self.hanging
         return steady_load(
-            self.hanging,
-            lambda curtain: self.site.statics(curtain, self.surface_speed),
+            hanging,
+            lambda curtain: self.statics if curtain is hanging else self.site.statics(curtain, self.surface_speed),
             self.water,
             toe_range=self.curtain.toe_range,
             passing_fraction=self.curtain.passing_fraction,

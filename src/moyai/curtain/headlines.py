@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -30,7 +30,7 @@ _USED = (
     ("joint_utilisation", "Joints, load over strength", ("joint",)),
     ("fabric_utilisation", "Sheet, load over strength", ("skirt",)),
 )
-_REMEDY = "add 'dynamic' to 'analyses' for the value"
+_REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
 
@@ -118,12 +118,13 @@ def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
             continue
         steady = load.number("steady_load")
         detail = f"steady {_kilo(steady)}" if math.isfinite(steady) else ""
+        value, band, said = _bounded(load, load.number("governing_load"), load.band, _kilo)
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
         yield Headline(
-            name, label, load.number("governing_load"), "N",
+            name, label, value, "N",
             where=f"{load.component}, {load.source}: {load.level}",
-            model=load.model, band=load.band, bound=load.bound,
-            detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
+            model=load.model, band=band, bound=load.bound,
+            detail="; ".join(part for part in (said, detail, _REMEDY if load.bound == "at most" else "") if part),
         )  # fmt: skip
 
 
@@ -152,12 +153,23 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
         band = load.band
         if band is not None:
             band = Band(band.low / strength, band.high / strength, band.of, band.decides)
+        value, band, said = _bounded(load, load.used, band, "{:.3g}".format)
         yield (
             load.number("utilisation"),
             Headline(
-                name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of
+                name, label, value, "1", where=where, model=load.model, band=band, bound=load.bound,
+                detail="; ".join(part for part in (of, said) if part),
             ),
-        )
+        )  # fmt: skip
+
+
+def _bounded(
+    load: _Load, value: float, band: Band | None, words: Callable[[float], str]
+) -> tuple[float, Band | None, str]:
+    """Return number, band and a remark: the upper end of realisations is the bound, not their mean."""
+    if load.bound != "at most" or band is None:
+        return value, band, ""
+    return max(value, band.high), None, f"highest of {band.of}, their mean {words(value)}"
 
 
 def _band(groups: Groups, load: _Load) -> Band | None:
@@ -295,10 +307,19 @@ def _depths(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         if not found:
             continue
         value, level, statics = min(found, key=lambda item: item[0])
+        band, detail = _statics_band(statics, key), _beside(name, statics, value)
+        slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
+        if slack < value:
+            # a curtain hangs lower and heavier at slack water than in its current
+            detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
+            value, band = slack, None
         yield Headline(
-            name, label, value, unit, where=level, model=STATICS, band=_statics_band(statics, key),
-            detail=_beside(name, statics, value),
+            name, label, value, unit, where=level, model=STATICS, band=band, detail=detail
         )  # fmt: skip
+
+
+def _plain(value: float, unit: str) -> str:
+    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
 
 
 def _beside(name: str, statics: xr.Dataset, value: float) -> str:
@@ -347,8 +368,8 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         band = _limit_band(table) if key == "speed_limit" else None
         if limit <= 0.0 and bound == "at least":
             # a bound that fails proves nothing about the curtain
-            words = f"the bound of an upright plate fails for the {governing} in the current alone"
-            detail = f"{words}; add 'dynamic' to 'analyses' for the value"
+            words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
+            detail = f"{words}; {_REMEDY}"
             yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
             continue
         yield Headline(

@@ -55,6 +55,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "anchor_line_tension": ("N", "tension of the anchor line of an inner support"),
     "float_reserve": ("N/m", "buoyancy left"),
     "float_reserve_ratio": ("1", "buoyancy left over buoyancy"),
+    "slack_float_reserve_ratio": ("1", "buoyancy left over buoyancy at slack water"),
+    "slack_toe_gap": ("m", "clearance of the toe from the bed at slack water"),
     "planning_load": ("N", "load of the span by a planning formula"),
     "planning_drag_coefficient": ("1", "drag coefficient that the formula amounts to"),
     "planning_confirmed": ("1", "whether the formula was read in its source"),

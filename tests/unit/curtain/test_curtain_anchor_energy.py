@@ -125,7 +125,7 @@ def test_interval_holds_the_truth_as_often_as_it_says() -> None:
         (lambda: EnergyModel(0.2, 0.0, 1.0, 2.0, 1.0, 1.0), "no value follows"),
         (lambda: EnergyModel(0.2, math.nan, 1.0, 2.0, 1.0, 1.0), "float_mass"),
         (lambda: effective_height(1.0, 1.7, "paper", 1.8), "90 degrees"),
-        (lambda: effective_height(1.0, 0.0, "cosine", 1.8), "unknown direction rule"),
+        (lambda: effective_height(1.0, 0.0, "cosine", 1.8), "not a known word"),
         (lambda: squared_velocity(1.0, 6.0, 0.0, 30.0, Water(20.0, 1025.0, GRAVITY)), "curtain depth"),
         (lambda: squared_velocity(1.0, 0.0, 0.0, 3.0, Water(20.0, 1025.0, GRAVITY)), "period"),
         (lambda: calibrate([1.0, 2.0], [1.0, 1.0], 0.0, line_factor=1.0), "at least 3"),

@@ -135,7 +135,7 @@ def test_notices_on_thin_and_wrong_fits():
         ({"threshold": 1e9}, "longer sea"),
         ({"peaks": np.ones(50)}, "not all equal"),
         ({"hours": 0.0}, "hours"),
-        ({"law": "normal"}, "weibull, pareto"),
+        ({"law": "normal"}, "'weibull', 'pareto'"),
         ({"confidence": 1.0}, "confidence"),
         ({"resamples": 3}, "resamples"),
         ({"peaks": [1.0, math.nan]}, "number"),
