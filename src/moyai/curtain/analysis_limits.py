@@ -142,7 +142,8 @@ class _Counted:
         if role == "governs":
             return struck, ""
         if role == "bound":
-            return struck, "at least" if struck.value < plain.value else ""
+            # where the sure loads already set the same limit, they are what sets it
+            return (struck, "at least") if struck.value < plain.value else (plain, "")
         return plain, ""
 
 
