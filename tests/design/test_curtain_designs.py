@@ -113,7 +113,13 @@ def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> N
     assert 0.995 * low <= depth.value <= 1.005 * high
     assert depth.band.low < depth.value < depth.band.high
     toe = headline(result, "toe_clearance")
-    assert toe.value == pytest.approx(given["depth"] - depth.value, abs=0.01)
+    # the least clearance is that at slack water, where the skirt hangs straight down
+    assert toe.value == pytest.approx(given["depth"] - given["skirt"], abs=0.01)
+    assert "slack water" in toe.detail
+    reserve = headline(result, "float_reserve")
+    statics = result.tree["SWL/statics"]
+    hung = float(statics["slack_float_reserve_ratio"])
+    assert reserve.value == min(hung, float(statics["float_reserve_ratio"].sel(drag_case="given")))
 
 
 @pytest.mark.parametrize("name", FREE)

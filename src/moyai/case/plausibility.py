@@ -102,7 +102,7 @@ def _matched(path: KeyPath, steps: tuple[str, ...]) -> tuple[str | int, ...] | N
         return None
     captured: list[str | int] = []
     for step, wanted in zip(path, steps):
-        if wanted == "*":
+        if wanted == "*" and step != "count":  # how many values a range has is no value of it
             captured.append(step)
         elif str(step) != wanted:
             return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -118,13 +118,12 @@ def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
             continue
         steady = load.number("steady_load")
         detail = f"steady {_kilo(steady)}" if math.isfinite(steady) else ""
-        value, band, said = _bounded(load, load.number("governing_load"), load.band, _kilo)
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
         yield Headline(
-            name, label, value, "N",
+            name, label, load.number("governing_load"), "N",
             where=f"{load.component}, {load.source}: {load.level}",
-            model=load.model, band=band, bound=load.bound,
-            detail="; ".join(part for part in (said, detail, _REMEDY if load.bound == "at most" else "") if part),
+            model=load.model, band=_bounded(load), bound=load.bound,
+            detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
         )  # fmt: skip
 
 
@@ -150,26 +149,22 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
             )
             yield load.number("utilisation"), headline
             continue
-        band = load.band
+        band = _bounded(load)
         if band is not None:
             band = Band(band.low / strength, band.high / strength, band.of, band.decides)
-        value, band, said = _bounded(load, load.used, band, "{:.3g}".format)
         yield (
             load.number("utilisation"),
             Headline(
-                name, label, value, "1", where=where, model=load.model, band=band, bound=load.bound,
-                detail="; ".join(part for part in (of, said) if part),
+                name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of
             ),
-        )  # fmt: skip
+        )
 
 
-def _bounded(
-    load: _Load, value: float, band: Band | None, words: Callable[[float], str]
-) -> tuple[float, Band | None, str]:
-    """Return number, band and a remark: the upper end of realisations is the bound, not their mean."""
-    if load.bound != "at most" or band is None:
-        return value, band, ""
-    return max(value, band.high), None, f"highest of {band.of}, their mean {words(value)}"
+def _bounded(load: _Load) -> Band | None:
+    """Return the band of a load; that of a bound is judged at its upper end, since a mean bounds nothing."""
+    if load.bound != "at most" or load.band is None:
+        return load.band
+    return replace(load.band, decides=True)
 
 
 def _band(groups: Groups, load: _Load) -> Band | None:

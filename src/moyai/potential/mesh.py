@@ -31,7 +31,7 @@ _LARGEST_TURN = 0.3 * math.pi
 # exp(-_SHADE) is what is left of a wave where its short length no longer matters
 _SHADE = 7.0
 #: Most panels of one problem: dense matrices of some 8000 nodes, 1 GB each; ordinary sections have 20 to 300
-MOST_PANELS = 1000
+MOST_PANELS = 4000
 
 
 @dataclass(frozen=True)
