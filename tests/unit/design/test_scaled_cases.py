@@ -366,7 +366,7 @@ def test_whole_curtain_is_the_same_in_both_sizes(tmp_path):
     compared = 0
     for group in large.tree.subtree:
         for name, variable in group.data_vars.items():
-            # planning formulas know one water only, also among the loads compared; loads are of mixed units and told apart below
+            # planning formulas know one water only, also among the loads compared; loads of mixed units follow below
             if (
                 variable.dtype.kind not in "fc"
                 or name.startswith(("planning", "compared"))
