@@ -14,18 +14,18 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from moyai.cage.collar import Collar, Pipe
-from moyai.cage.flexible_build import build_cage
-from moyai.cage.flexible_model import CageDesign, CageMesh, CageNet, FlexibleCage
-from moyai.cage.flexible_problem import FlexibleSettings
-from moyai.cage.flexible_rest import solve_rest
-from moyai.cage.flexible_time import run_cage
-from moyai.cage.grid_mooring import Buoy, GridMooring
-from moyai.cage.rigid_waves import regular_wave
 from moyai.flexible.network import Bed
 from moyai.morison.net_law import Net, net_law
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.collar import Collar, Pipe
+from moyai.structures.cage.flexible.equilibrium import solve_rest
+from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
+from moyai.structures.cage.flexible.model import CageDesign, CageMesh, CageNet, FlexibleCage
+from moyai.structures.cage.flexible.problem import FlexibleSettings
+from moyai.structures.cage.flexible.time import run_cage
+from moyai.structures.cage.rigid.waves import regular_wave
 from moyai.tables.lines import line_type
 
 WATER = Water(60.0, 1025.0, 9.81)

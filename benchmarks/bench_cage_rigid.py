@@ -13,15 +13,15 @@ import time
 
 import numpy as np
 
-from moyai.cage.matsubara import VISCOSITY, WATER, model_cage, taut_lines
-from moyai.cage.rigid_model import RigidCageProblem, Settings
-from moyai.cage.rigid_pack import pack
-from moyai.cage.rigid_statics import rest_with_lines
-from moyai.cage.rigid_time import march, march_fixed
-from moyai.cage.rigid_waves import regular_wave, waves_of
 from moyai.sea.environment import Environment
 from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea
+from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
+from moyai.structures.cage.rigid.model import RigidCageProblem, Settings
+from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.statics import rest_with_lines
+from moyai.structures.cage.rigid.time import march, march_fixed
+from moyai.structures.cage.rigid.waves import regular_wave, waves_of
 
 PERIOD, HEIGHT, STEP = 1.1, 0.03, 5e-4
 

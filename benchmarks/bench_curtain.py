@@ -13,14 +13,14 @@ import time
 
 import numpy as np
 
-from moyai.curtain.impact import Impact, sweep_peaks
-from moyai.curtain.impact_memory import impact_with_memory
-from moyai.curtain.snap_events import snaps_in_sea, suggested_time_step
-from moyai.curtain.snap_flow import SkirtFlow, flow_over_skirt
 from moyai.potential.thin_plate import Plate, solve_plate_limit
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, sweep_peaks
+from moyai.structures.curtain.impact.memory import impact_with_memory
+from moyai.structures.curtain.snaps.events import snaps_in_sea, suggested_time_step
+from moyai.structures.curtain.snaps.flow import SkirtFlow, flow_over_skirt
 
 COUNT = 10_000
 

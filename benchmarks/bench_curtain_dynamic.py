@@ -12,13 +12,13 @@ from __future__ import annotations
 import json
 import time
 
-from moyai.curtain.dynamic_assembly import build_span
-from moyai.curtain.dynamic_model import CurtainSpan, Mesh
 from moyai.flexible.flow import Flow
 from moyai.flexible.simulate import simulate
 from moyai.sea.current import uniform
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
+from moyai.structures.curtain.dynamic.assembly import build_span
+from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
 
 PERIOD = 5.0
 WATER = Water(10.0, 1025.0, 9.81)

@@ -15,14 +15,14 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
-from moyai.curtain.anchor_energy import EnergyModel
-from moyai.curtain.closed_forms import cable_shape_number
-from moyai.curtain.drag import constant_drag, gap_speed_drag
-from moyai.curtain.limits import Requirements, Site, Strength, WaveLoad, operating_limits
-from moyai.curtain.section import Skirt, solve_section
-from moyai.curtain.statics import FloatLine, HangingCurtain
 from moyai.sea.current import power_law
 from moyai.sea.water import Water
+from moyai.structures.curtain.limits.utilisation import Requirements, Site, Strength, WaveLoad, operating_limits
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel
+from moyai.structures.curtain.statics.closed_forms import cable_shape_number
+from moyai.structures.curtain.statics.drag import constant_drag, gap_speed_drag
+from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain
+from moyai.structures.curtain.statics.section import Skirt, solve_section
 
 WATER = Water(12.0, 1025.0, 9.81)
 SKIRT = Skirt(6.0, 5.0, 200.0, 1e6)

@@ -13,18 +13,18 @@ import time
 
 import numpy as np
 
-from moyai.measure.force_identification import ForceRecord, Setup, identify
-from moyai.member.march import march
-from moyai.member.model import MemberProblem, RegularWaves, Settings
-from moyai.member.waves import waves_of
 from moyai.morison import sections
 from moyai.morison.circulation import CirculationLaw
 from moyai.morison.coefficients import CoefficientRule
 from moyai.morison.members import StraightMember
+from moyai.records.forces.identification import ForceRecord, Setup, identify
 from moyai.sea import spectra
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
+from moyai.structures.member.march import march
+from moyai.structures.member.model import MemberProblem, RegularWaves, Settings
+from moyai.structures.member.waves import waves_of
 
 
 def inertia() -> dict[str, float]:

@@ -79,8 +79,8 @@ def run(folder: Path, form: str) -> None:
     name = {"parquet": "week.parquet", "netcdf": "week.nc", "csv": "week.csv"}[form]
     channels = "\n".join(f"      - {{name: c{i}, column: c{i}, kind: elevation, unit: m}}" for i in range(CHANNELS))
     (folder / f"{form}.yaml").write_text(SURVEY.format(name=name, channels=channels))
-    from moyai.case.build_records import load_survey
-    from moyai.measure.survey_run import run_survey
+    from moyai.records.survey.case.build import load_survey
+    from moyai.records.survey.run import run_survey
 
     survey = load_survey(folder / f"{form}.yaml")
     start = time.perf_counter()

@@ -17,9 +17,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.curtain.anchor_energy import FITTING_RULES, Calibration, EnergyModel, calibrate, error_against_product
-from moyai.curtain.squared_velocity import DirectionRule, effective_height, squared_velocity
 from moyai.sea.water import Water
+from moyai.structures.curtain.seas.anchor_energy import (
+    FITTING_RULES,
+    Calibration,
+    EnergyModel,
+    calibrate,
+    error_against_product,
+)
+from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
 
 Array = NDArray[np.float64]
 

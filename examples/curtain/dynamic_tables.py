@@ -18,11 +18,11 @@ from pathlib import Path
 import numpy as np
 
 import moyai
-from moyai.curtain.dynamic import run_span
-from moyai.curtain.dynamic_cable import dynamic_cable
-from moyai.curtain.dynamic_model import CurtainSpan, Mesh
-from moyai.curtain.impact import Impact, peak_by_energy
 from moyai.sea.water import Water
+from moyai.structures.curtain.dynamic.cable import dynamic_cable
+from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.runs import run_span
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 
 WATER = Water(0.40, 1000.0, 9.81)
 SOFT, STEEL = 75.0, 19500.0

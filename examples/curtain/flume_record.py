@@ -17,13 +17,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.curtain.impact import Impact, edge_impact
-from moyai.curtain.impact_compare import compare_models
-from moyai.curtain.impact_release import slack_phase, snap_in_current
-from moyai.curtain.impact_skirt import Skirt
-from moyai.curtain.record import RecordComparison, compare_record, model_series
-from moyai.measure.snap_record import SnapRecord, read_snap, sampling_loss
 from moyai.sea.water import Water
+from moyai.series.snap_record import SnapRecord, read_snap, sampling_loss
+from moyai.structures.curtain.impact.cable import Impact, edge_impact
+from moyai.structures.curtain.impact.compare import compare_models
+from moyai.structures.curtain.impact.record import RecordComparison, compare_record, model_series
+from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
+from moyai.structures.curtain.impact.skirt import Skirt
 
 Array = NDArray[np.float64]
 

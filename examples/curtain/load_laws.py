@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from moyai.curtain.load_laws import plan_laws, section_laws
+from moyai.structures.curtain.statics.load_laws import plan_laws, section_laws
 
 STRETCH = 20.0  # skirt stiffness over toe weight, and EA over load times length, of the elastic law
 

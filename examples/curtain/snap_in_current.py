@@ -18,9 +18,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.curtain.impact import Impact, edge_impact
-from moyai.curtain.impact_waves import SlackTautMotion, slack_taut_motion
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, edge_impact
+from moyai.structures.curtain.impact.cycles import SlackTautMotion, slack_taut_motion
 
 Array = NDArray[np.float64]
 

@@ -22,8 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.curtain.impact import Impact, closed_form, impact_numbers, peak_by_energy
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, closed_form, impact_numbers, peak_by_energy
 
 Array = NDArray[np.float64]
 

@@ -16,13 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
-from moyai.curtain.impact import Impact
-from moyai.curtain.snap_events import SeaSnaps, compare_steps, snaps_in_sea, suggested_time_step
-from moyai.curtain.snap_flow import SkirtVelocity, flow_over_skirt
-from moyai.curtain.snap_statistics import SnapFit, dispersion, fit_snaps
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact
+from moyai.structures.curtain.snaps.events import SeaSnaps, compare_steps, snaps_in_sea, suggested_time_step
+from moyai.structures.curtain.snaps.flow import SkirtVelocity, flow_over_skirt
+from moyai.structures.curtain.snaps.statistics import SnapFit, dispersion, fit_snaps
 
 WATER = Water(depth=20.0, density=1025.0, gravity=9.81)
 CURTAIN = Impact(span=15.0, length=17.0, draught=5.0, upper_stiffness=2e6, lower_stiffness=2e6, speed=0.3, water=WATER)

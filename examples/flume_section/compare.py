@@ -24,7 +24,7 @@ import numpy as np
 import yaml
 
 import moyai
-from moyai.measure.flume import FlumeLayout, RegularRun, analyse_regular_run, read_flume_record, wavemaker_start
+from moyai.records.survey.flume import FlumeLayout, RegularRun, analyse_regular_run, read_flume_record, wavemaker_start
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from moyai.measure.net_runs import NetRun, Specimen, Tank
-from moyai.measure.net_synthesis import Rig, towed_run, wave_run
 from moyai.morison.net_law import Net
+from moyai.records.nets.runs import NetRun, Specimen, Tank
+from moyai.records.nets.synthesis import Rig, towed_run, wave_run
 from moyai.tables.nets import matsubara_net
 
 HERE = Path(__file__).parent

@@ -9,13 +9,13 @@ import math
 import numpy as np
 from shared_folder import shared_folder
 
-from moyai.measure.comparison import agreement
-from moyai.measure.directional import directional_spectrum, fourier_directions
-from moyai.measure.quality import QualityOptions, check_record
-from moyai.measure.reading import read_record
-from moyai.measure.sensors import Sensor, surface_elevation
-from moyai.measure.sources import ColumnSource, LoggerSource, TimeSource
-from moyai.measure.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.records.comparison.model import agreement
+from moyai.records.reading.quality import QualityOptions, check_record
+from moyai.records.reading.reader import read_record
+from moyai.records.reading.sensors import Sensor, surface_elevation
+from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
+from moyai.records.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.records.survey.directional import directional_spectrum, fourier_directions
 from moyai.sea.water import Water
 
 DBAR = 1.0e4

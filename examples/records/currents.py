@@ -10,10 +10,10 @@ import math
 import numpy as np
 from shared_folder import shared_folder
 
-from moyai.measure.currents import block_means, components, heading_of_bearing, mean_profile, principal_axis
-from moyai.measure.quality import find_gaps
-from moyai.measure.read_arrays import read_netcdf
-from moyai.measure.tides import fit_tide
+from moyai.records.reading.arrays import read_netcdf
+from moyai.records.reading.quality import find_gaps
+from moyai.records.survey.currents import block_means, components, heading_of_bearing, mean_profile, principal_axis
+from moyai.records.survey.tides import fit_tide
 
 
 def station():

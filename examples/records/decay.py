@@ -5,10 +5,10 @@
 
 from shared_folder import shared_folder
 
-from moyai.measure.motions import fit_decay_record
-from moyai.measure.read_text import find_layout
-from moyai.measure.reading import read_record
-from moyai.measure.sources import ColumnSource, LoggerSource, TimeSource
+from moyai.records.reading.reader import read_record
+from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
+from moyai.records.reading.text import find_layout
+from moyai.records.survey.motions import fit_decay_record
 
 
 def analyse():

@@ -8,15 +8,15 @@ import math
 import numpy as np
 from shared_folder import shared_folder
 
-from moyai.measure.detrend import Detrend
-from moyai.measure.harmonics import fit_harmonics
-from moyai.measure.irregular_reflection import separate_irregular
-from moyai.measure.quality import QualityOptions, check_record
-from moyai.measure.reading import read_record
-from moyai.measure.reflection import separate_waves
-from moyai.measure.sources import ColumnSource, LoggerSource, TimeSource
-from moyai.measure.spectra import WelchOptions
-from moyai.measure.waves import WaveOptions, find_waves
+from moyai.records.detrend import Detrend
+from moyai.records.harmonics import fit_harmonics
+from moyai.records.reading.quality import QualityOptions, check_record
+from moyai.records.reading.reader import read_record
+from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
+from moyai.records.spectra import WelchOptions
+from moyai.records.survey.irregular_reflection import separate_irregular
+from moyai.records.survey.reflection import separate_waves
+from moyai.records.waves import WaveOptions, find_waves
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 

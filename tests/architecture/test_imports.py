@@ -1,4 +1,4 @@
-"""Imports run downward only, packages of one level do not know each other, and only `report` draws."""
+"""Imports run downward only, kinds of structure do not know each other, and only `report` draws."""
 
 import ast
 from pathlib import Path
@@ -11,30 +11,27 @@ LEVELS = {
     "core": 0,
     "sea": 1,
     "tables": 1,
+    "series": 2,
     "potential": 2,
     "morison": 2,
     "mooring": 2,
     "flexible": 3,
     "floating": 3,
     "coupled": 4,
-    "breakwater": 5,
-    "curtain": 5,
-    "network": 5,
-    "cage": 5,
-    "member": 5,
-    "measure": 5,
-    "design": 6,
-    "case": 6,
-    "study": 7,
-    "report": 7,
-    "interop": 7,
-    "validation": 8,
-    "cli": 9,
-    "app": 9,
+    "design": 5,
+    "interop": 5,
+    "case": 5,
+    "report": 6,
+    "structures": 7,
+    "records": 8,
+    "study": 9,
+    "validation": 10,
+    "cli": 11,
+    "app": 11,
 }
 PLOTTING = {"matplotlib", "plotly", "typst", "seaborn", "bokeh"}
 # The facade of the package (moyai/__init__.py) hands out the calls of every room
-FACADE = 10
+FACADE = 12
 FILES = sorted(SOURCE.rglob("*.py"))
 
 
@@ -64,6 +61,39 @@ def imported_modules(path):
             name = node.func.attr if isinstance(node.func, ast.Attribute) else node.func.id
             if name in ("import_module", "__import__") and node.args and isinstance(node.args[0], ast.Constant):
                 yield str(node.args[0].value), node.lineno
+
+
+KIND_PARTS = ("structures", "records")
+
+
+def test_kinds_of_structure_do_not_know_each_other():
+    """A kind is one folder; what two kinds share stands below both."""
+    wrong = []
+    for path in FILES:
+        parts = path.relative_to(SOURCE).parts
+        if parts[0] != "structures" or len(parts) < 3:
+            continue
+        for module, line in imported_modules(path):
+            names = module.split(".")
+            if names[:2] == ["moyai", "structures"] and len(names) > 2 and names[2] != parts[1]:
+                wrong.append(f"{path.relative_to(SOURCE)}, line {line}: {module}")
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("role", ["case", "report"])
+def test_only_the_kind_and_its_role_know_case_files_and_drawings(role):
+    """Physics knows no keys and draws nothing: `case` and `report` of a kind are reached through its KIND object."""
+    wrong = []
+    for path in FILES:
+        parts = path.relative_to(SOURCE).parts
+        if parts[0] not in KIND_PARTS or role in parts or path.name == "__init__.py":
+            continue
+        for module, line in imported_modules(path):
+            names = module.split(".")
+            own_role = names[1:2] and names[1] in KIND_PARTS and role in names
+            if own_role or names[:2] == ["moyai", role]:
+                wrong.append(f"{path.relative_to(SOURCE)}, line {line}: {module}")
+    assert not wrong, "\n".join(wrong)
 
 
 def test_every_room_has_a_level():

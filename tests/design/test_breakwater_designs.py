@@ -7,9 +7,9 @@ import pytest
 from breakwater_designs import DENSITY, DESIGNS, GRAVITY, Design, catenary_pretension
 from scipy import optimize
 
-from moyai.breakwater.analysis import run
 from moyai.case.builder import build
 from moyai.case.reader import load_case
+from moyai.structures.breakwater.run import run
 from moyai.tables.lines import line_type
 
 MARKS = [pytest.param(design, id=design.title) for design in DESIGNS]

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from breakwater_designs import DESIGNS
 
-from moyai.breakwater.analysis import run
 from moyai.case.builder import build
 from moyai.case.reader import load_case
+from moyai.structures.breakwater.run import run
 
 STORM = DESIGNS[-1]
 

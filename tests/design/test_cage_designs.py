@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.cage.analysis import run
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
+from moyai.structures.cage.run import run
 
 
 def result_of(text):

@@ -17,7 +17,7 @@ import pytest
 from scipy.optimize import brentq
 
 import moyai
-from moyai.curtain import hierarchy as models
+from moyai.structures.curtain import hierarchy as models
 
 GRAVITY, STEEL, SEA = 9.81, 7850.0, 1025.0
 CASE = """moyai: 1

@@ -9,9 +9,9 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.curtain.analysis import run
-from moyai.report.curtain_reading import water_levels
-from moyai.report.curtain_steady import site_table, steady_tables
+from moyai.structures.curtain.report.reading import water_levels
+from moyai.structures.curtain.report.steady import site_table, steady_tables
+from moyai.structures.curtain.run import run
 
 CASE = """moyai: 1
 title: Flared curtain

@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.curtain.analysis import run
+from moyai.structures.curtain.run import run
 
 DENSITY, GRAVITY, STEEL = 1025.0, 9.81, 7850.0
 CASE = """moyai: 1

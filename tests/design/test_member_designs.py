@@ -14,7 +14,7 @@ import pytest
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml
-from moyai.member.analysis import run
+from moyai.structures.member.run import run
 
 G, RHO = 9.81, 1025.0
 

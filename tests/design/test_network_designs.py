@@ -11,7 +11,7 @@ from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
-from moyai.network.analysis import run
+from moyai.structures.network.run import run
 
 G, RHO = 9.81, 1025.0
 

@@ -11,27 +11,27 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.measure.circulation_law import fit_circulation_law, inertia_reduction
-from moyai.measure.contour_circulation import (
+from moyai.records.streaks.circulation_law import fit_circulation_law, inertia_reduction
+from moyai.records.streaks.contour_circulation import (
     contour_points,
     extrapolate_linear,
     extrapolate_stokes,
     line_integral,
     measure_circulation,
 )
-from moyai.measure.drift_velocity import StreakChain, close_period_cubic, fit_drift_harmonics
-from moyai.measure.streak_detection import detect_streaks
-from moyai.measure.streak_flow import (
+from moyai.records.streaks.detection import detect_streaks
+from moyai.records.streaks.drift_velocity import StreakChain, close_period_cubic, fit_drift_harmonics
+from moyai.records.streaks.flow import (
     OrbitalFlow,
     circle_map,
     rectangle_map,
     stokes_drift_circulation,
     track_particles,
 )
-from moyai.measure.streak_linking import LinkingSettings, link_exposure, link_frames
-from moyai.measure.streak_run import RunSettings, drift_of_chains, streaks_in_world
-from moyai.measure.streak_synthesis import Optics, synthesise
-from moyai.measure.streak_timing import regular_pulses
+from moyai.records.streaks.linking import LinkingSettings, link_exposure, link_frames
+from moyai.records.streaks.run import RunSettings, drift_of_chains, streaks_in_world
+from moyai.records.streaks.synthesis import Optics, synthesise
+from moyai.records.streaks.timing import regular_pulses
 
 BREADTH, FREQUENCY = 0.045, 0.95
 PERIOD = 1.0 / FREQUENCY
@@ -240,7 +240,7 @@ def test_sign_of_a_circulation_against_the_orbits_is_found():
 
 
 def test_pictures_without_the_pattern_of_pulses_are_refused():
-    from moyai.measure.streak_timing import require_time_order
+    from moyai.records.streaks.timing import require_time_order
 
     with pytest.raises(InputError, match="order in time"):
         require_time_order(regular_pulses(PERIOD / 9.6, 0.05, 1.0, 12), 11)

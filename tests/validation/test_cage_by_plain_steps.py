@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.cage.analysis import run
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml
+from moyai.structures.cage.run import run
 
 AROUND, DOWN = 16, 6
 FLUME = """

@@ -164,8 +164,8 @@ class SecondProgram:
 
 
 def test_both_weigh_and_float_alike():
-    from moyai.cage.matsubara import VISCOSITY, WATER, model_cage
-    from moyai.cage.rigid_statics import free_floating
+    from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage
+    from moyai.structures.cage.rigid.statics import free_floating
 
     own, cage = SecondProgram("free", 0.03, 1.0), model_cage()
     rest = free_floating(cage, WATER, VISCOSITY)

@@ -11,7 +11,7 @@ import math
 import numpy as np
 import pytest
 
-from moyai.measure.flume import FlumeLayout, analyse_regular_run, read_flume_record, wavemaker_start
+from moyai.records.survey.flume import FlumeLayout, analyse_regular_run, read_flume_record, wavemaker_start
 from moyai.sea.water import Water
 
 pytestmark = pytest.mark.shared_data
@@ -139,8 +139,8 @@ def test_springs_follow_the_sway(runs):
 
 def test_conditioning_case_of_three_gauges(shared_data):
     """Source's probes at 0, 0.6, 0.9 m in 0.25 m of water at 100 Hz: reflection 0.03, residuals of 4 % of the wave."""
-    from moyai.measure.harmonics import fit_harmonics
-    from moyai.measure.reflection import separate_waves
+    from moyai.records.harmonics import fit_harmonics
+    from moyai.records.survey.reflection import separate_waves
     from moyai.sea.dispersion import wave_number
 
     values = np.loadtxt(shared_data / "flume_reflection" / "wavelabx_wavedata.csv", delimiter=",", skiprows=1)

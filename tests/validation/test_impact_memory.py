@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from scipy.special import ive, jv, sici
 
-from moyai.curtain.impact import Impact, check_impact, peak_by_energy
-from moyai.curtain.impact_compare import compare_models
-from moyai.curtain.impact_memory import impact_with_memory, memory_impact
 from moyai.potential.thin_plate_waves import plate_memory
 from moyai.sea.dispersion import evanescent_wave_numbers, wave_number
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, check_impact, peak_by_energy
+from moyai.structures.curtain.impact.compare import compare_models
+from moyai.structures.curtain.impact.memory import impact_with_memory, memory_impact
 
 DEPTH = 8.0 / 3.0
 PRINTED = {150.0: 1.258, 600.0: 1.059, 1500.0: 1.023, 5000.0: 1.007, 39000.0: 1.001}

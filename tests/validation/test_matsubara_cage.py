@@ -13,16 +13,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.cage.rigid_literal import FAULTS, literal_pack
-from moyai.cage.rigid_pack import pack
-from moyai.cage.rigid_runs import run_wave
-from moyai.cage.rigid_setup import resolve
-from moyai.cage.rigid_statics import free_floating, reserve_buoyancy, rest_with_lines
-from moyai.cage.rigid_time import march
-from moyai.cage.rigid_waves import regular_wave
 from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.morison.net_law import net_law
+from moyai.structures.cage.rigid.literal import FAULTS, literal_pack
+from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.runs import run_wave
+from moyai.structures.cage.rigid.setup import resolve
+from moyai.structures.cage.rigid.statics import free_floating, reserve_buoyancy, rest_with_lines
+from moyai.structures.cage.rigid.time import march
+from moyai.structures.cage.rigid.waves import regular_wave
 
 ROOT = Path(__file__).parents[2]
 GRAM = 9.81e-3  # N in a gram-force

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.breakwater.analysis import run
-from moyai.breakwater.model import BreakwaterProblem, Damping, RegularSea, Sensitivity
 from moyai.case.builder import build
 from moyai.case.reader import load_case
+from moyai.structures.breakwater.model import BreakwaterProblem, Damping, RegularSea, Sensitivity
+from moyai.structures.breakwater.run import run
 
 ROOT = Path(__file__).parents[2]
 DATA = Path(__file__).parent / "data"
@@ -132,7 +132,7 @@ def test_roll_resonance_and_damping():
 
 
 def test_restoring_force_is_strongly_nonlinear():
-    from moyai.breakwater.assembly import assemble
+    from moyai.structures.breakwater.assembly import assemble
 
     unit = assemble(problem(), "SWL", 0.0)
     offsets = np.array([-5, -2, 0, 1, 2, 2.5, 3, 3.15]) * 1e-2

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from moyai.cage.analysis import run
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml
+from moyai.structures.cage.run import run
 
 CASE = """
 moyai: 1

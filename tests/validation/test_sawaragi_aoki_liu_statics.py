@@ -6,8 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from moyai.curtain.closed_forms import arc_tension_ratio, cable_shape_number, cable_tension_ratio, solve_cable
-from moyai.curtain.load_laws import plan_laws, section_laws
+from moyai.structures.curtain.statics.closed_forms import (
+    arc_tension_ratio,
+    cable_shape_number,
+    cable_tension_ratio,
+    solve_cable,
+)
+from moyai.structures.curtain.statics.load_laws import plan_laws, section_laws
 
 ROWS = [
     line.split()

@@ -11,13 +11,20 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from moyai.curtain.closed_forms import solve_cable
-from moyai.curtain.impact import Impact, closed_form, edge_impact, impact_numbers, peak_by_energy, speed_factor
-from moyai.curtain.impact_march import iterate_first_step, march_impact
-from moyai.curtain.impact_release import slack_phase, snap_in_current
-from moyai.curtain.impact_skirt import Skirt, Variant, cable_and_skirt_impact, skirt_impact
-from moyai.measure.snap_record import read_snap
 from moyai.sea.water import Water
+from moyai.series.snap_record import read_snap
+from moyai.structures.curtain.impact.cable import (
+    Impact,
+    closed_form,
+    edge_impact,
+    impact_numbers,
+    peak_by_energy,
+    speed_factor,
+)
+from moyai.structures.curtain.impact.march import iterate_first_step, march_impact
+from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
+from moyai.structures.curtain.impact.skirt import Skirt, Variant, cable_and_skirt_impact, skirt_impact
+from moyai.structures.curtain.statics.closed_forms import solve_cable
 
 FREQUENCY = 6.0511
 

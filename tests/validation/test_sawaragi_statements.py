@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.curtain.impact import closed_form, edge_impact, impact_numbers, peak_by_energy
-from moyai.curtain.impact_waves import slack_taut_motion
 from moyai.design.similarity import Scale, scale_water
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import closed_form, edge_impact, impact_numbers, peak_by_energy
+from moyai.structures.curtain.impact.cycles import slack_taut_motion
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "curtain"
 

@@ -7,9 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from moyai.curtain.anchor_energy import EnergyModel, calibrate, product_needed
-from moyai.curtain.squared_velocity import effective_height, mean_squared_velocity, squared_velocity, surface_speed
 from moyai.sea.water import Water
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel, calibrate, product_needed
+from moyai.structures.curtain.seas.squared_velocity import (
+    effective_height,
+    mean_squared_velocity,
+    squared_velocity,
+    surface_speed,
+)
 
 WATER = Water(20.0, 1025.0, 9.81)
 STIFFNESS = 890e3

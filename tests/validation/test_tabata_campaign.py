@@ -13,17 +13,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.curtain.anchor_energy import EnergyModel, calibrate, calibration_bounds
-from moyai.curtain.impact import Impact
-from moyai.curtain.snap_events import snaps_in_sea
-from moyai.curtain.snap_flow import flow_over_skirt
-from moyai.curtain.squared_velocity import effective_height, fit_proportional, squared_velocity
-from moyai.measure.regressions import correlation, fit_by_direction, fit_cosine, fit_line, fit_power, type_ratio
-from moyai.measure.tension_blocks import analyse_blocks
+from moyai.records.survey.regressions import correlation, fit_by_direction, fit_cosine, fit_line, fit_power, type_ratio
+from moyai.records.survey.tension_blocks import analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.statistics import rayleigh_expected_maximum
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel, calibrate, calibration_bounds
+from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional, squared_velocity
+from moyai.structures.curtain.snaps.events import snaps_in_sea
+from moyai.structures.curtain.snaps.flow import flow_over_skirt
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "curtain" / "campaign.py"
 

@@ -13,10 +13,10 @@ from pathlib import Path
 import imageio.v3 as imageio
 import numpy as np
 
-from moyai.measure.camera_calibration import RayCamera, Refraction
-from moyai.measure.streak_flow import OrbitalFlow, circle_map, rectangle_map
-from moyai.measure.streak_synthesis import Optics, synthesise
-from moyai.measure.streak_timing import regular_pulses
+from moyai.records.streaks.camera_calibration import RayCamera, Refraction
+from moyai.records.streaks.flow import OrbitalFlow, circle_map, rectangle_map
+from moyai.records.streaks.synthesis import Optics, synthesise
+from moyai.records.streaks.timing import regular_pulses
 
 BREADTH = 0.045
 PERIOD = 1.0 / 0.95

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from moyai.case.reader import Case
-from moyai.case.structures import part
+from moyai.core.kinds import structure_kind
 
 
 def build(case: Case) -> Any:
-    """Return the problem of a case, for instance a :class:`moyai.breakwater.model.BreakwaterProblem`.
+    """Return the problem of a case, for instance a :class:`moyai.structures.breakwater.model.BreakwaterProblem`.
 
     Parameters
     ----------
@@ -21,4 +21,4 @@ def build(case: Case) -> Any:
     InputError
         When a file that the case names has changed or become unreadable since it was checked.
     """
-    return part(case.kind, "build")(case.model, case.folder, case_text=case.text, case_hash=case.case_hash)
+    return structure_kind(case.kind).build(case.model, case.folder, case_text=case.text, case_hash=case.case_hash)

@@ -11,9 +11,9 @@ from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
 from moyai.case.plausibility import check_plausibility
 from moyai.case.schema_environment import sea_names
-from moyai.case.structures import part
 from moyai.case.yaml_reader import Document
 from moyai.core.errors import Fault, InputError
+from moyai.core.kinds import structure_kind
 
 
 def check(model: Any, document: Document, folder: Path) -> Findings:
@@ -35,7 +35,7 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
     # Checks that build the problem would stumble over criteria that are at fault
     sound = model if findings.sound("criteria") else model.model_copy(update={"criteria": "none"})
     # What cannot be is reported before anything is built of it: the checks build only what is sound so far
-    part(model.structure.kind, "check")(sound, findings, folder)
+    structure_kind(model.structure.kind).check(sound, findings, folder)
     _leave_to_the_particular(findings, faults, warnings)
     return findings
 

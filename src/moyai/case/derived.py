@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from moyai.case.structures import part
+from moyai.core.kinds import structure_kind
 from moyai.core.units import parse_unit
 
 if TYPE_CHECKING:
@@ -67,5 +67,5 @@ def derived_numbers(case: Case) -> tuple[Number, ...]:
     case : Case
         From :func:`moyai.case.reader.load_case`.
     """
-    numbers: tuple[Number, ...] = part(case.kind, "derived")(case)
+    numbers: tuple[Number, ...] = structure_kind(case.kind).derived(case)
     return numbers

@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import Any
 
 from moyai.case.schema_types import Block
-from moyai.case.structures import STRUCTURES, part
+from moyai.core.kinds import structure_kind, structure_kinds
 
-STRUCTURE_KINDS = tuple(STRUCTURES)
+STRUCTURE_KINDS = structure_kinds()
 """Kinds of structure that a case file can describe."""
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"
@@ -18,7 +18,7 @@ _DRAFT = "http://json-schema.org/draft-07/schema#"
 
 def root_schema(kind: str) -> type[Block]:
     """Return the root schema of a structure's case files."""
-    schema: type[Block] = part(kind, "schema")
+    schema: type[Block] = structure_kind(kind).schema()
     return schema
 
 

@@ -42,7 +42,7 @@ def compare(
     with guard(as_json):
         from moyai.cli.runner import prepare_output
         from moyai.core.results import read_result
-        from moyai.measure.comparison_run import Pairing, compare_result
+        from moyai.records.comparison.run import Pairing, compare_result
         from moyai.report.writer import write_report
 
         started = time.perf_counter()

@@ -78,7 +78,7 @@ def convert(
     with guard(as_json):
         from moyai.interop.moordyn_case import is_deck
         from moyai.interop.moordyn_deck import write_deck
-        from moyai.interop.moordyn_from_case import deck_of_case
+        from moyai.structures.network.case.line_deck import deck_of_case
 
         if not file.is_file():
             raise InputError(f"no such file: {file}", path="FILE")

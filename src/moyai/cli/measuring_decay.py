@@ -28,9 +28,9 @@ def decay(
 ) -> None:
     """Find natural period, linear and quadratic damping of a free decay."""
     with guard(as_json):
-        from moyai.measure.motions import fit_decay_record
-        from moyai.measure.reading import read_record
-        from moyai.measure.sources import ColumnSource, LoggerSource, TimeSource
+        from moyai.records.reading.reader import read_record
+        from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
+        from moyai.records.survey.motions import fit_decay_record
 
         source = LoggerSource(
             "decay",

@@ -10,7 +10,7 @@ import typer
 from moyai.cli.console import FAILED, OK, guard, print_json, rich_console, say
 
 if TYPE_CHECKING:
-    from moyai.measure.force_identification import Identification
+    from moyai.records.forces.identification import Identification
 
 
 def forces(
@@ -28,10 +28,10 @@ def forces(
 ) -> None:
     """Find C_M and C_D from a record of force and velocity, with intervals, and say what cannot be known."""
     with guard(as_json):
-        from moyai.case.build_force_record import load_force_record, record_of, setup_of
         from moyai.cli.runner import prepare_output
-        from moyai.measure.force_identification import identify
-        from moyai.measure.force_identification_result import identification_result
+        from moyai.records.forces.case.build import load_force_record, record_of, setup_of
+        from moyai.records.forces.identification import identify
+        from moyai.records.forces.result import identification_result
 
         document, model = load_force_record(config)
         setup = setup_of(model, document)

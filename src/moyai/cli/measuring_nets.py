@@ -12,7 +12,7 @@ import typer
 from moyai.cli.console import FAILED, OK, guard, print_json, progress_bars, rich_console, say, tell
 
 if TYPE_CHECKING:
-    from moyai.measure.net_campaign import NetFindings
+    from moyai.records.nets.campaign import NetFindings
 
 
 def nets(
@@ -31,10 +31,10 @@ def nets(
     with guard(as_json):
         from dataclasses import replace
 
-        from moyai.case.build_nets import load_nets
         from moyai.cli.runner import prepare_output
-        from moyai.measure.net_campaign import measure_nets
-        from moyai.measure.net_result import nets_result
+        from moyai.records.nets.campaign import measure_nets
+        from moyai.records.nets.case.build import load_nets
+        from moyai.records.nets.result import nets_result
 
         started = time.perf_counter()
         campaign, document, told = load_nets(file)

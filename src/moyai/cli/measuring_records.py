@@ -25,9 +25,9 @@ def records(
 ) -> None:
     """Read records, control their quality, and work out waves, spectra, currents, tensions and reflection."""
     with guard(as_json):
-        from moyai.case.build_records import load_survey
         from moyai.cli.runner import prepare_output
-        from moyai.measure.survey_run import run_survey
+        from moyai.records.survey.case.build import load_survey
+        from moyai.records.survey.run import run_survey
 
         started = time.perf_counter()
         survey = load_survey(file)

@@ -28,10 +28,10 @@ def streaks(
     Every recording that is done is kept in the folder of the results, so that an interrupted batch goes on.
     """
     with guard(as_json):
-        from moyai.case.build_streaks import load_streaks
         from moyai.cli.runner import prepare_output
         from moyai.core.store import DatasetStore
-        from moyai.measure.streak_campaign import measure_campaign
+        from moyai.records.streaks.campaign import measure_campaign
+        from moyai.records.streaks.case.build import load_streaks
 
         started = time.perf_counter()
         campaign, document = load_streaks(file)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
@@ -37,11 +37,9 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
         When the case is impossible.
     """
     from moyai.case.builder import build
-    from moyai.case.structures import part
+    from moyai.core.kinds import structure_kind
 
-    problem = build(case)
-    analyse = part(case.kind, "run")
-    result: Result = analyse(problem, progress, **_extras(case, problem, keep))
+    result = structure_kind(case.kind).run(build(case), progress, keep)
     told = {notice.message for notice in result.notices}
     warnings = [
         Notice("case", fault.message, remedy=fault.remedy, source=fault.path)
@@ -49,48 +47,6 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
         if fault.message not in told
     ]
     return result.with_notices(*warnings) if warnings else result
-
-
-def _extras(case: Case, problem: Any, keep: Path | None) -> dict[str, Any]:
-    """Return what the structure's package may not fetch itself: coefficients out of files."""
-    from moyai.core.store import DatasetStore
-
-    extras: dict[str, Any] = {}
-    if case.kind == "breakwater":
-        extras["store"] = None if keep is None else DatasetStore(keep)
-        if problem.breakwater.coefficients_file is not None:
-            extras["coefficients"] = _planar_coefficients(problem)
-    if case.kind == "network" and any(body.coefficients is not None for body in problem.bodies):
-        extras["coefficients"] = _coefficients_of_bodies(problem)
-    return extras
-
-
-def _coefficients_of_bodies(problem: Any) -> dict[str, Any]:
-    from moyai.interop.read import read_coefficients
-
-    found = {}
-    for body in problem.bodies:
-        given = body.coefficients
-        if given is not None:
-            found[body.name] = read_coefficients(given.program, given.path, given.options)
-    return found
-
-
-def _planar_coefficients(problem: Any) -> Any:
-    from moyai.interop.planar import to_planar
-    from moyai.interop.read import read_coefficients
-
-    given = problem.breakwater.coefficients_file
-    options = dict(given.options)
-    sea, origin = options.pop("sea"), options.pop("origin")
-    dataset = read_coefficients(given.program, given.path, options)
-
-    def of_unit(unit: Any) -> Any:
-        return to_planar(
-            dataset, length=problem.breakwater.length, centre_of_gravity=unit.centre, sea=sea, origin=origin
-        )
-
-    return of_unit
 
 
 def prepare_output(directory: Path) -> Path:

@@ -120,8 +120,8 @@ def _watching(plan: Study, result: Result) -> Study:
     """Return the study watching the response that varies most, where the file names none."""
     from dataclasses import replace
 
-    from moyai.report.study_page import interesting
-    from moyai.report.study_reading import read_study
+    from moyai.study.report.page import interesting
+    from moyai.study.report.reading import read_study
 
     names = interesting(read_study(result))
     return replace(plan, watch=names[0]) if names else plan

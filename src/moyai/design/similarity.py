@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from moyai.core.errors import InputError
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
-from moyai.curtain.section import Skirt
-from moyai.curtain.statics import FloatLine, HangingCurtain
 from moyai.sea.water import Water
 
 
@@ -286,26 +284,3 @@ def check_model(scale: Scale, *, period: float, water_depth: float, reynolds: fl
 def scale_water(water: Water, scale: Scale) -> Water:
     """Return the model's water of a prototype's water."""
     return Water(water.depth / scale.length, water.density / scale.density, water.gravity / scale.gravity)
-
-
-def scale_curtain(curtain: HangingCurtain, scale: Scale) -> HangingCurtain:
-    """Return the model curtain of a prototype curtain: same shape, same strains, forces less by S^3."""
-    skirt, floats = curtain.skirt, curtain.floats
-    return replace(
-        curtain,
-        span=scale.to_model(curtain.span, "m"),
-        length=scale.to_model(curtain.length, "m"),
-        skirt=Skirt(
-            scale.to_model(skirt.length, "m"),
-            scale.to_model(skirt.submerged_weight, "N/m2"),
-            scale.to_model(skirt.toe_load, "N/m"),
-            scale.to_model(skirt.stiffness, "N/m"),
-        ),
-        floats=FloatLine(
-            scale.to_model(floats.buoyancy, "N/m"),
-            scale.to_model(floats.weight, "N/m"),
-            scale.to_model(floats.flooded_buoyancy, "N/m"),
-        ),
-        upper_stiffness=scale.to_model(curtain.upper_stiffness, "N"),
-        lower_stiffness=scale.to_model(curtain.lower_stiffness, "N"),
-    )

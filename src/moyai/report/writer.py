@@ -5,38 +5,13 @@ from __future__ import annotations
 import os
 import re
 import tempfile
-from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 
 from moyai.core.errors import InputError
+from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv
-
-Composer = Callable[[Result], Document]
-
-
-# Who turns the result of a structure into pages; a kind that is absent gets a plain listing of all groups
-COMPOSERS = {
-    "study": "moyai.report.study_page:compose",
-    "breakwater": "moyai.report.breakwater_page:compose",
-    "records": "moyai.report.records_page:compose",
-    "nets": "moyai.report.nets_page:compose",
-    "streaks": "moyai.report.streaks_page:compose",
-    "comparison": "moyai.report.comparison_page:compose",
-    "member": "moyai.report.member_page:compose",
-    "force_record": "moyai.report.force_record_page:compose",
-    "curtain": "moyai.report.curtain_page:compose",
-    "network": "moyai.report.network_page:compose",
-    "cage": "moyai.report.cage_page:compose",
-}
-
-
-def _composer(structure: str) -> Composer:
-    module, name = COMPOSERS.get(structure, "moyai.report.general_page:compose").split(":")
-    composer: Composer = getattr(import_module(module), name)
-    return composer
 
 
 def compose_document(result: Result) -> Document:
@@ -52,7 +27,13 @@ def compose_document(result: Result) -> Document:
     """
     from moyai.report.first_page import with_first_page
 
-    return with_first_page(_composer(str(result.tree.attrs.get("structure", "")))(result), result)
+    kind = kind_of_result(str(result.tree.attrs.get("structure", "")))
+    if kind is not None:
+        return with_first_page(kind.compose(result), result)
+    # A kind that is not known gets a plain listing of all groups
+    from moyai.report.general_page import compose
+
+    return with_first_page(compose(result), result)
 
 
 def write_report(

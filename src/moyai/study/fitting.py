@@ -20,7 +20,7 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result, make_provenance
-from moyai.measure.calibration import Calibration, Parameter, calibrate
+from moyai.records.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
 from moyai.study.axes import Combination, varied
 from moyai.study.paths import resolve, value_of

@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from moyai.case import schema_curtain
-from moyai.case.build_curtain import curtain_of
 from moyai.case.reader import Case
 from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block
 from moyai.core.errors import InputError
 from moyai.sea.water import Water
+from moyai.structures.curtain.case import schema as schema_curtain
+from moyai.structures.curtain.case.build import curtain_of
 from moyai.tables.lines import line_type
 
 Figures = dict[str, tuple[float, str]]

@@ -9,8 +9,12 @@ from functools import cache
 
 import numpy as np
 
-from moyai.breakwater.analysis import run
-from moyai.breakwater.model import (
+from moyai.core.results import Result
+from moyai.core.validation import ValidationCase
+from moyai.mooring.lines import LineType, Segment
+from moyai.potential.shapes import rectangle
+from moyai.sea.water import Water
+from moyai.structures.breakwater.model import (
     Breakwater,
     BreakwaterProblem,
     Damping,
@@ -20,12 +24,8 @@ from moyai.breakwater.model import (
     RegularSea,
     Settings,
 )
-from moyai.breakwater.screening import transmission_macagno, transmission_wiegel
-from moyai.core.results import Result
-from moyai.core.validation import ValidationCase
-from moyai.mooring.lines import LineType, Segment
-from moyai.potential.shapes import rectangle
-from moyai.sea.water import Water
+from moyai.structures.breakwater.run import run
+from moyai.structures.breakwater.screening import transmission_macagno, transmission_wiegel
 
 PAPER = "Nakamura, Ohmori and Ide; number of the specification B.4 (independent prototype)"
 CLOSED_FORM = "closed form evaluated independently, domain notes section C"

@@ -7,15 +7,15 @@ from functools import cache
 
 import numpy as np
 
-from moyai.cage.matsubara import VISCOSITY, WATER, model_cage, taut_lines
-from moyai.cage.rigid_model import RigidCageProblem, Settings
-from moyai.cage.rigid_modes import natural_modes
-from moyai.cage.rigid_pack import pack
-from moyai.cage.rigid_runs import Run, run_wave
-from moyai.cage.rigid_statics import free_floating, rest_with_lines
-from moyai.cage.rigid_waves import regular_wave
 from moyai.core.validation import ValidationCase
 from moyai.sea.environment import Environment
+from moyai.structures.cage.rigid.matsubara import VISCOSITY, WATER, model_cage, taut_lines
+from moyai.structures.cage.rigid.model import RigidCageProblem, Settings
+from moyai.structures.cage.rigid.modes import natural_modes
+from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.runs import Run, run_wave
+from moyai.structures.cage.rigid.statics import free_floating, rest_with_lines
+from moyai.structures.cage.rigid.waves import regular_wave
 
 _PAPER = "Matsubara, Noda and Nishihira, dynamic response of an offshore fish cage"
 _PROTOTYPE = f"independent prototype of the cage of {_PAPER}"
@@ -72,8 +72,8 @@ def _heave_period() -> float:
 
 def _literal() -> float:
     """Return the heave range over H with the volume of the whole cage in the inertia force, fault (ii) in print."""
-    from moyai.cage.rigid_literal import literal_pack
-    from moyai.cage.rigid_time import march
+    from moyai.structures.cage.rigid.literal import literal_pack
+    from moyai.structures.cage.rigid.time import march
 
     cage = model_cage()
     lines = taut_lines(cage)

@@ -7,10 +7,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from moyai.cage.collar import Collar, Pipe
-from moyai.cage.flexible_build import build_cage
-from moyai.cage.flexible_model import CageDesign, CageMesh, CageNet, FixedCollar, FlexibleCage, Sinkers, WakeName
-from moyai.cage.flexible_rest import horizontal_balance, solve_rest
 from moyai.core.validation import ValidationCase
 from moyai.flexible.mesh_groups import group_meshes
 from moyai.flexible.network import Bed
@@ -20,6 +16,18 @@ from moyai.flexible.rings import Ring, RingArrays
 from moyai.morison.net_law import Net, net_law
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.collar import Collar, Pipe
+from moyai.structures.cage.flexible.equilibrium import horizontal_balance, solve_rest
+from moyai.structures.cage.flexible.model import (
+    CageDesign,
+    CageMesh,
+    CageNet,
+    FixedCollar,
+    FlexibleCage,
+    Sinkers,
+    WakeName,
+)
 
 _VISCOSITY = 1.14e-6
 

@@ -7,10 +7,12 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from moyai.core.validation import ValidationCase
-from moyai.curtain.analysis import run
-from moyai.curtain.assembly import LevelCurtain, assemble
-from moyai.curtain.drag import constant_drag
-from moyai.curtain.model import (
+from moyai.sea.current import uniform
+from moyai.sea.environment import Environment
+from moyai.sea.states import RegularSea
+from moyai.sea.water import Water
+from moyai.structures.curtain.assembly import LevelCurtain, assemble
+from moyai.structures.curtain.model import (
     AnchorLines,
     AnchorLoadSettings,
     Curtain,
@@ -19,12 +21,10 @@ from moyai.curtain.model import (
     Settings,
     Strengths,
 )
-from moyai.curtain.section import Skirt
-from moyai.curtain.statics import FloatLine
-from moyai.sea.current import uniform
-from moyai.sea.environment import Environment
-from moyai.sea.states import RegularSea
-from moyai.sea.water import Water
+from moyai.structures.curtain.run import run
+from moyai.structures.curtain.statics.drag import constant_drag
+from moyai.structures.curtain.statics.hanging import FloatLine
+from moyai.structures.curtain.statics.section import Skirt
 
 if TYPE_CHECKING:
     import xarray as xr

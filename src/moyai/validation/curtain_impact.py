@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.validation import ValidationCase
-from moyai.curtain.impact import Impact, edge_impact, peak_by_energy, speed_factor
-from moyai.curtain.impact_kernels import spring, taut_shape
-from moyai.curtain.impact_march import march_impact
-from moyai.curtain.impact_memory import impact_with_memory, memory_impact
-from moyai.curtain.impact_release import slack_phase, snap_in_current
-from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, skirt_impact
-from moyai.curtain.impact_waves import slack_sag
-from moyai.curtain.snap_statistics import fit_snaps
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, edge_impact, peak_by_energy, speed_factor
+from moyai.structures.curtain.impact.cycles import slack_sag
+from moyai.structures.curtain.impact.kernels import spring, taut_shape
+from moyai.structures.curtain.impact.march import march_impact
+from moyai.structures.curtain.impact.memory import impact_with_memory, memory_impact
+from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
+from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, skirt_impact
+from moyai.structures.curtain.snaps.statistics import fit_snaps
 
 _PROTOTYPE = "prototype of other construction for the case of Sawaragi, Aoki and Liu (1991)"
 _SKIRT = Skirt(0.15, 0.135, 5e4)

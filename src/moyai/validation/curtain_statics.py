@@ -7,24 +7,25 @@ import math
 import numpy as np
 
 from moyai.core.validation import ValidationCase
-from moyai.curtain.anchor_energy import EnergyModel, calibrate, product_needed
-from moyai.curtain.closed_forms import (
+from moyai.design.similarity import Scale, scale_water
+from moyai.sea.current import power_law, uniform
+from moyai.sea.water import Water
+from moyai.structures.curtain.scaling import scale_curtain
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel, calibrate, product_needed
+from moyai.structures.curtain.seas.squared_velocity import effective_height, mean_squared_velocity, squared_velocity
+from moyai.structures.curtain.statics.closed_forms import (
     arc_tension_ratio,
     cable_shape_number,
     cable_tension_ratio,
     solve_cable,
     solve_skirt_arc,
 )
-from moyai.curtain.drag import constant_drag
-from moyai.curtain.load_laws import plan_laws, section_laws
-from moyai.curtain.plan import cosine_squared_load, solve_plan
-from moyai.curtain.planning import itopf_load, us_navy_load
-from moyai.curtain.section import Skirt, solve_section
-from moyai.curtain.squared_velocity import effective_height, mean_squared_velocity, squared_velocity
-from moyai.curtain.statics import FloatLine, HangingCurtain, solve_statics
-from moyai.design.similarity import Scale, scale_curtain, scale_water
-from moyai.sea.current import power_law, uniform
-from moyai.sea.water import Water
+from moyai.structures.curtain.statics.drag import constant_drag
+from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain, solve_statics
+from moyai.structures.curtain.statics.load_laws import plan_laws, section_laws
+from moyai.structures.curtain.statics.plan import cosine_squared_load, solve_plan
+from moyai.structures.curtain.statics.planning import itopf_load, us_navy_load
+from moyai.structures.curtain.statics.section import Skirt, solve_section
 
 _PAPER = "Sawaragi, Aoki and Liu (1991), equations (2) to (6), computed independently"
 _PRACTICE = "closed forms of curtain practice, computed independently"

@@ -8,14 +8,14 @@ from functools import partial
 import numpy as np
 
 from moyai.core.validation import ValidationCase
-from moyai.curtain.dynamic import run_span
-from moyai.curtain.dynamic_cable import dynamic_cable
-from moyai.curtain.dynamic_model import CurtainSpan, Mesh
-from moyai.curtain.dynamic_section import section_mesh
-from moyai.curtain.impact import Impact, peak_by_energy
 from moyai.flexible import sheet_kernel
 from moyai.flexible.sheets import Sheets, sheet_grid
 from moyai.sea.water import Water
+from moyai.structures.curtain.dynamic.cable import dynamic_cable
+from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.runs import run_span
+from moyai.structures.curtain.dynamic.section import section_mesh
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 
 _FLUME = Water(0.40, 1000.0, 9.81)
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from moyai.core.validation import ValidationCase
-from moyai.measure.circulation_law import fit_circulation_law, inertia_reduction
-from moyai.measure.contour_circulation import extrapolate_stokes
-from moyai.measure.drift_velocity import StreakChain, fit_drift_harmonics
-from moyai.measure.streak_flow import OrbitalFlow, circle_map, rectangle_map, track_particles
+from moyai.records.streaks.circulation_law import fit_circulation_law, inertia_reduction
+from moyai.records.streaks.contour_circulation import extrapolate_stokes
+from moyai.records.streaks.drift_velocity import StreakChain, fit_drift_harmonics
+from moyai.records.streaks.flow import OrbitalFlow, circle_map, rectangle_map, track_particles
 
 _ARAI = "Arai, low-KC cylinders, C_M and visualised flow"
 _PROTOTYPE = "particle tracking of other construction"

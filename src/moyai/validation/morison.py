@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from moyai.core.validation import ValidationCase
-from moyai.measure.force_identification import ForceRecord, Setup, identify
 from moyai.morison import sections
 from moyai.morison.circulation import STRENGTHS, inertia_reduction, settled_circulation
 from moyai.morison.forces import strip_forces
 from moyai.morison.planar import stokes_wang_drag, stokes_wang_inertia
+from moyai.records.forces.identification import ForceRecord, Setup, identify
 
 _FREQUENCY, _BREADTH = 0.95, 0.045
 _ARAI = "Arai et al., horizontal cylinders in regular waves at low KC"

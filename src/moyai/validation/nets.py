@@ -43,10 +43,10 @@ def _patursson(name: str) -> float:
 
 def _planted(quiet: bool) -> float:
     """C_D from noisy waves at rest, mean of four records, or C_M from quiet waves met under way."""
-    from moyai.measure.net_runs import Specimen, Tank
-    from moyai.measure.net_synthesis import Rig, wave_run
-    from moyai.measure.net_vibration import Vibration
-    from moyai.measure.net_waves import fit_waves, wave_coefficients
+    from moyai.records.nets.runs import Specimen, Tank
+    from moyai.records.nets.synthesis import Rig, wave_run
+    from moyai.records.nets.vibration import Vibration
+    from moyai.records.nets.waves import fit_waves, wave_coefficients
 
     rng = np.random.default_rng(5)
     tank = Tank(1000.0, _NU, 9.81, 0.45, -0.2)

@@ -99,7 +99,7 @@ def run_text(text: str, **files: str) -> Result:
     """Run the text of a case file with the files that it names (``tow`` for tow.csv)."""
     from moyai.case.builder import build
     from moyai.case.reader import load_case
-    from moyai.network.analysis import run
+    from moyai.structures.network.run import run
 
     with tempfile.TemporaryDirectory(prefix="moyai-validation-") as name:
         folder = Path(name)

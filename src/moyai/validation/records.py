@@ -7,16 +7,16 @@ import math
 import numpy as np
 
 from moyai.core.validation import ValidationCase
-from moyai.measure.calibration import Parameter, calibrate
-from moyai.measure.detrend import Detrend, slow_response
-from moyai.measure.directional import fourier_directions
-from moyai.measure.harmonics import fit_harmonics
-from moyai.measure.motions import rigid_motion
-from moyai.measure.reflection import separate_waves
-from moyai.measure.sensors import Sensor
-from moyai.measure.spectra import WelchOptions, cross_spectra, spectrum_of
-from moyai.measure.tides import CONSTITUENTS, fit_tide
-from moyai.measure.waves import WaveOptions, find_waves, fit_weibull
+from moyai.records.calibration import Parameter, calibrate
+from moyai.records.detrend import Detrend, slow_response
+from moyai.records.harmonics import fit_harmonics
+from moyai.records.reading.sensors import Sensor
+from moyai.records.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.records.survey.directional import fourier_directions
+from moyai.records.survey.motions import rigid_motion
+from moyai.records.survey.reflection import separate_waves
+from moyai.records.survey.tides import CONSTITUENTS, fit_tide
+from moyai.records.waves import WaveOptions, find_waves, fit_weibull
 from moyai.sea.water import Water
 
 

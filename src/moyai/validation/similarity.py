@@ -6,11 +6,11 @@ import tempfile
 from pathlib import Path
 
 from moyai.core.validation import ValidationCase
-from moyai.curtain.impact import Impact, peak_by_energy
 from moyai.design.model_needs import model_need
 from moyai.design.similarity import Scale, cauchy_number, scale_quantities, scale_water
 from moyai.mooring.catenary import solve_catenary
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 
 _SEA = Water(12.0, 1025.0, 9.81)
 _SCALE = Scale(26.0, 1.025, 1.0)

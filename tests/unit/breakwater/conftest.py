@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from moyai.breakwater.model import (
+from moyai.mooring.lines import LineType, Segment
+from moyai.potential.shapes import rectangle
+from moyai.sea.water import Water
+from moyai.structures.breakwater.model import (
     Breakwater,
     BreakwaterProblem,
     Damping,
@@ -13,9 +16,6 @@ from moyai.breakwater.model import (
     RegularSea,
     Settings,
 )
-from moyai.mooring.lines import LineType, Segment
-from moyai.potential.shapes import rectangle
-from moyai.sea.water import Water
 
 
 def chains(count: int = 2, length: float = 1.975) -> tuple[MooringLine, ...]:

@@ -8,9 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.breakwater.analysis import run
-from moyai.breakwater.assembly import assemble
-from moyai.breakwater.model import Damping, IrregularSea, MooringSpring, RegularSea, TimeSettings, Wind
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
 from moyai.core.store import DatasetStore
@@ -18,6 +15,9 @@ from moyai.potential.shapes import circle, pi_type, rectangle, trapezoid, twin_p
 from moyai.sea.current import uniform
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.structures.breakwater.assembly import assemble
+from moyai.structures.breakwater.model import Damping, IrregularSea, MooringSpring, RegularSea, TimeSettings, Wind
+from moyai.structures.breakwater.run import run
 
 
 def springs(stiffness: float) -> tuple[MooringSpring, ...]:
@@ -249,7 +249,7 @@ def test_oblique_coefficients_are_kept_and_used_again(pontoon_problem, tmp_path,
     store = DatasetStore(tmp_path)
     first = run(problem, store=store)
     calls = []
-    from moyai.breakwater import hydrodynamics
+    from moyai.structures.breakwater import hydrodynamics
 
     solve = hydrodynamics.solve
     monkeypatch.setattr(hydrodynamics, "solve", lambda *a, **k: calls.append(k.get("heading")) or solve(*a, **k))
@@ -287,7 +287,7 @@ def test_transmission_of_an_irregular_sea_in_time_is_that_of_frequency_with_spri
 @pytest.mark.parametrize("count", [60, 200, 900])
 def test_frequencies_of_a_spectrum_carry_its_energy(count):
     # points crowd at the peak; thinning them must leave no gap there
-    from moyai.breakwater.hydrodynamics import spectrum_band
+    from moyai.structures.breakwater.hydrodynamics import spectrum_band
 
     sea = IrregularSea("storm", jonswap(1.0, 5.0, 7.0))
     omega = spectrum_band(sea, count)
@@ -298,8 +298,8 @@ def test_frequencies_of_a_spectrum_carry_its_energy(count):
 @pytest.mark.parametrize("exponent", [2.0, 30.0, 400.0])
 @pytest.mark.parametrize("heading", [0.0, -0.2, 0.7])
 def test_spreading_keeps_the_energy_however_narrow(exponent, heading):
-    from moyai.breakwater.hydrodynamics import spread_headings
     from moyai.sea.directional import CosineTwoS
+    from moyai.structures.breakwater.hydrodynamics import spread_headings
 
     spreading = CosineTwoS(exponent)
     sea = IrregularSea("spread", jonswap(1.0, 5.0, 3.3), heading=heading, spreading=spreading)
@@ -366,9 +366,9 @@ def test_sections_that_narrow_upwards_have_a_memory(pontoon_problem, hull, draug
 
 def test_drag_of_a_taut_line_is_that_of_a_rod_hinged_at_its_foot(pontoon_problem):
     # velocity across grows evenly from the anchor: the integral of s^3 gives a quarter of the full drag
-    from moyai.breakwater.line_drag import line_drag_rows
-    from moyai.breakwater.model import MooringLine
     from moyai.mooring.lines import LineType, Segment
+    from moyai.structures.breakwater.lines.drag import line_drag_rows
+    from moyai.structures.breakwater.model import MooringLine
 
     rope = LineType("rope", 1e-3, 5e3)
     line = MooringLine("tether", 3, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (Segment(rope, 0.26),), drag_width=0.02)

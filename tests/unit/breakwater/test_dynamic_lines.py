@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 import moyai
-from moyai.breakwater.assembly import assemble
-from moyai.breakwater.line_network import bars_of, line_network
-from moyai.breakwater.line_water import sea_of_lines
-from moyai.breakwater.model import LineDynamics
-from moyai.case.build_breakwater import build_problem
 from moyai.core.errors import CaseError
 from moyai.flexible.motion import Motion
 from moyai.flexible.simulate import simulate
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.structures.breakwater.assembly import assemble
+from moyai.structures.breakwater.case.build import build_problem
+from moyai.structures.breakwater.lines.network import bars_of, line_network
+from moyai.structures.breakwater.lines.water import sea_of_lines
+from moyai.structures.breakwater.model import LineDynamics
 
 CASE = """
 moyai: 1

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.breakwater.analysis import run
-from moyai.breakwater.assembly import assemble
-from moyai.breakwater.hydrodynamics import solve_unit
 from moyai.core.errors import InputError
+from moyai.structures.breakwater.assembly import assemble
+from moyai.structures.breakwater.hydrodynamics import solve_unit
+from moyai.structures.breakwater.run import run
 
 FAR_FIELD = ("reflection_coefficient", "transmission_coefficient", "radiated_wave")
 

@@ -6,15 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.breakwater.analysis import run
-from moyai.breakwater.assembly import assemble
-from moyai.breakwater.model import Damping, MooringSpring, Settings, TimeSettings
-from moyai.breakwater.viscous_damping import unit_drag_rows, viscous_notices
 from moyai.case.builder import build
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import parse_yaml
 from moyai.sea.spectra import jonswap
 from moyai.sea.states import IrregularSea, RegularSea
+from moyai.structures.breakwater.assembly import assemble
+from moyai.structures.breakwater.model import Damping, MooringSpring, Settings, TimeSettings
+from moyai.structures.breakwater.run import run
+from moyai.structures.breakwater.viscous_damping import unit_drag_rows, viscous_notices
 
 CASE = """\
 moyai: 1

@@ -9,18 +9,6 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from moyai.cage.collar import Collar, Pipe
-from moyai.cage.flexible_build import build_cage
-from moyai.cage.flexible_checks import floating_balance
-from moyai.cage.flexible_loads import drag_split
-from moyai.cage.flexible_model import CageDesign, CageMesh, CageNet, FixedCollar, FlexibleCage, Sinkers
-from moyai.cage.flexible_parts import enclosed_volume
-from moyai.cage.flexible_problem import FlexibleSettings
-from moyai.cage.flexible_rest import CageRest, horizontal_balance, ring_shape, solve_rest
-from moyai.cage.flexible_time import run_cage
-from moyai.cage.flexible_wake import flow_factors
-from moyai.cage.grid_mooring import Buoy, GridMooring
-from moyai.cage.rigid_waves import regular_wave
 from moyai.core.errors import InputError
 from moyai.flexible.flow import Flow
 from moyai.flexible.mesh_groups import group_meshes
@@ -30,6 +18,18 @@ from moyai.morison.net_law import Net, net_law
 from moyai.morison.net_wake import wake_factor
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.checks import floating_balance
+from moyai.structures.cage.flexible.collar import Collar, Pipe
+from moyai.structures.cage.flexible.equilibrium import CageRest, horizontal_balance, ring_shape, solve_rest
+from moyai.structures.cage.flexible.grid_mooring import Buoy, GridMooring
+from moyai.structures.cage.flexible.loads import drag_split
+from moyai.structures.cage.flexible.model import CageDesign, CageMesh, CageNet, FixedCollar, FlexibleCage, Sinkers
+from moyai.structures.cage.flexible.parts import enclosed_volume
+from moyai.structures.cage.flexible.problem import FlexibleSettings
+from moyai.structures.cage.flexible.time import run_cage
+from moyai.structures.cage.flexible.wake import flow_factors
+from moyai.structures.cage.rigid.waves import regular_wave
 from moyai.tables.lines import line_type
 
 FRESH = Water(3.0, 1000.0, 9.81)

@@ -6,12 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.cage import rigid_kernel as kernel
-from moyai.cage.rigid_lines import CageLine
-from moyai.cage.rigid_modes import mass_matrix, natural_modes
-from moyai.cage.rigid_pack import pack
-from moyai.cage.rigid_parts import Floats, PointWeight, RigidCage
-from moyai.cage.rigid_shapes import (
+from moyai.morison.net_law import Net, net_law, panel_force
+from moyai.sea.components import WaveComponents
+from moyai.sea.current import uniform
+from moyai.sea.dispersion import wave_number
+from moyai.sea.water import Water
+from moyai.structures.cage.rigid import kernel
+from moyai.structures.cage.rigid.lines import CageLine
+from moyai.structures.cage.rigid.modes import mass_matrix, natural_modes
+from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.parts import Floats, PointWeight, RigidCage
+from moyai.structures.cage.rigid.shapes import (
     box_floats,
     box_patches,
     box_rods,
@@ -19,7 +24,7 @@ from moyai.cage.rigid_shapes import (
     cylinder_rods,
     ring_floats,
 )
-from moyai.cage.rigid_statics import (
+from moyai.structures.cage.rigid.statics import (
     force_at,
     free_floating,
     immersion,
@@ -27,12 +32,7 @@ from moyai.cage.rigid_statics import (
     size_of,
     stiffness_at,
 )
-from moyai.cage.rigid_time import march, march_fixed
-from moyai.morison.net_law import Net, net_law, panel_force
-from moyai.sea.components import WaveComponents
-from moyai.sea.current import uniform
-from moyai.sea.dispersion import wave_number
-from moyai.sea.water import Water
+from moyai.structures.cage.rigid.time import march, march_fixed
 
 NU = 1.14e-6
 SEEDS = (1, 2, 3)

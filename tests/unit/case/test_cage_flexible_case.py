@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.cage.analysis import run
 from moyai.case.builder import build
 from moyai.case.derived import derived_numbers
 from moyai.case.reader import case_of, load_case
@@ -16,8 +15,9 @@ from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError
 from moyai.core.results import read_result
-from moyai.report.cage_page import compose
 from moyai.report.writer import write_report
+from moyai.structures.cage.report.page import compose
+from moyai.structures.cage.run import run
 
 ROOT = Path(__file__).resolve().parents[3]
 BASE = """

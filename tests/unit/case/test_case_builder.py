@@ -9,12 +9,12 @@ from case_files import CASE, changed, faults, read
 from hypothesis import given
 from hypothesis import strategies as st
 
-from moyai.breakwater.model import IrregularSea, MooringLine, MooringSpring, RegularSea
 from moyai.case.builder import build
 from moyai.case.headings import heading_of
 from moyai.case.reader import load_case
 from moyai.case.schema_environment import Current, Wind
 from moyai.core.errors import InputError
+from moyai.structures.breakwater.model import IrregularSea, MooringLine, MooringSpring, RegularSea
 from moyai.tables.lines import line_type
 
 

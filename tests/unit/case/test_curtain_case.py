@@ -13,7 +13,7 @@ from moyai.case.derived import derived_numbers
 from moyai.case.reader import load_case
 from moyai.case.templates import template
 from moyai.core.errors import CaseError
-from moyai.curtain.impact import closed_form
+from moyai.structures.curtain.impact.cable import closed_form
 
 BASE = """moyai: 1
 title: Test curtain
@@ -147,7 +147,7 @@ def test_drowning_current_says_at_which_speed(tmp_path):
         load_case(written(tmp_path, BASE.replace("speed: 0.2 m/s", "speed: 2.5 m/s")))
     (fault,) = [fault for fault in error.value.faults if fault.path == "current.speed"]
     speed = float(fault.allowed.split("less than ")[1].split(" ")[0])
-    from moyai.curtain.assembly import assemble
+    from moyai.structures.curtain.assembly import assemble
 
     for share, drowns in ((0.999, False), (1.001, True)):
         problem = build(load_case(written(tmp_path, BASE)))
@@ -158,7 +158,7 @@ def test_drowning_current_says_at_which_speed(tmp_path):
 def test_a_shorter_curtain_is_pretension_for_the_statics(tmp_path):
     text = BASE.replace("length: 13.5 m", "length: 11.9 m").replace("impact, waves, ", "")
     case = load_case(written(tmp_path, text))
-    from moyai.curtain.analysis import run
+    from moyai.structures.curtain.run import run
 
     result = run(build(case))
     assert result.status == "converged", result.message
@@ -214,8 +214,8 @@ def test_derived_numbers(tmp_path):
     case = load_case(written(tmp_path, BASE.replace("settings:\n", "settings:\n  impact: {time_step: 2 ms}\n")))
     numbers = {number.label: number.value for number in derived_numbers(case)}
     problem = build(case)
-    from moyai.curtain.analysis_impact import impact_of
-    from moyai.curtain.assembly import assemble
+    from moyai.structures.curtain.analyses.impact import impact_of
+    from moyai.structures.curtain.assembly import assemble
 
     unit = assemble(problem, "SWL", 0.0)
     assert numbers["span ratio R = B/l"] == pytest.approx(12.0 / 13.5)

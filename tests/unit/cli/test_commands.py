@@ -7,11 +7,11 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from moyai.case.schema import STRUCTURE_KINDS
-from moyai.case.templates import FURTHER, template
+from moyai.case.templates import template
 from moyai.cli import main as command_line
 from moyai.cli.main import app
 from moyai.core.errors import ConvergenceError
+from moyai.core.kinds import templates
 
 runner = CliRunner()
 
@@ -72,7 +72,7 @@ def test_new_prints_the_template_and_writes_it(tmp_path):
 def test_new_of_an_unknown_kind():
     found = runner.invoke(app, ["new", "breakwatr"])
     assert found.exit_code == 2
-    allowed = ", ".join((*STRUCTURE_KINDS, *FURTHER))
+    allowed = ", ".join(templates())
     assert found.stderr.strip() == (
         f"KIND: there is no structure 'breakwatr'; allowed: {allowed}; did you mean 'breakwater'?"
     )

@@ -12,13 +12,13 @@ from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
-from moyai.curtain.analysis import run
-from moyai.curtain.analysis_limits import fastest_water, sea_loads
-from moyai.curtain.assembly import assemble
-from moyai.curtain.limits import utilisation
-from moyai.curtain.sea_loads import drag_curve
-from moyai.curtain.steady_load import QUANTITIES
-from moyai.curtain.variables import VARIABLES
+from moyai.structures.curtain.analyses.limits import fastest_water, sea_loads
+from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.limits.utilisation import utilisation
+from moyai.structures.curtain.run import run
+from moyai.structures.curtain.seas.loads import drag_curve
+from moyai.structures.curtain.statics.steady_load import QUANTITIES
+from moyai.structures.curtain.variables import VARIABLES
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "curtain"
 SMALL = """moyai: 1
@@ -221,7 +221,7 @@ def test_limit_height_is_where_a_component_is_used_up(small):
     problem, result = small
     unit = assemble(problem, "SWL", 0.0)
     limits = result.tree["SWL/limits"].to_dataset()
-    from moyai.curtain.analysis_impact import solve_impact
+    from moyai.structures.curtain.analyses.impact import solve_impact
 
     answer = solve_impact(unit, problem.settings.impact)
     curve = drag_curve(unit, fastest_water(unit, problem.settings, ()))
@@ -315,11 +315,11 @@ def test_run_without_identities_does_not_claim_that_they_hold(tmp_path):
 
 def test_cycle_table_is_the_oscillator(small):
     """At a height that was run the table is the run itself, and it never falls with the height."""
-    from moyai.curtain.analysis_impact import drag_coefficient, solve_impact
-    from moyai.curtain.limit_loads import _cycles
-    from moyai.curtain.settling import settled_cycles
-    from moyai.curtain.snap_flow import depth_mean_factor
     from moyai.sea.dispersion import wave_number
+    from moyai.structures.curtain.analyses.impact import drag_coefficient, solve_impact
+    from moyai.structures.curtain.impact.settling import settled_cycles
+    from moyai.structures.curtain.limits.loads import _cycles
+    from moyai.structures.curtain.snaps.flow import depth_mean_factor
 
     problem, _ = small
     unit = assemble(problem, "SWL", 0.0)
@@ -434,9 +434,9 @@ def test_skirt_on_the_bed_says_what_is_assumed(tmp_path):
 
 def test_record_of_a_flume_lies_beside_the_models(flume, tmp_path):
     """A made record: its impact is found above the plateau, per cable and summed, each model is held against it."""
-    from moyai.curtain.impact import Impact
-    from moyai.curtain.impact_release import snap_in_current
     from moyai.sea.water import Water
+    from moyai.structures.curtain.impact.cable import Impact
+    from moyai.structures.curtain.impact.release import snap_in_current
 
     impact = Impact(0.70, 0.80, 0.15, 75.0, 75.0, 0.3, Water(0.4, 1000.0, 9.81))
     snap = snap_in_current(impact, drag_coefficient=1.2, current=0.3, position=0.0, speed=0.0, duration=14.0)

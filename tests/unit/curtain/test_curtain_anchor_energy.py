@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.anchor_energy import (
+from moyai.sea.regular import RegularWave
+from moyai.sea.water import Water
+from moyai.structures.curtain.seas.anchor_energy import (
     FITTING_RULES,
     EnergyModel,
     calibrate,
@@ -16,7 +18,7 @@ from moyai.curtain.anchor_energy import (
     error_against_product,
     product_needed,
 )
-from moyai.curtain.squared_velocity import (
+from moyai.structures.curtain.seas.squared_velocity import (
     check_direction_rule,
     check_squared_velocity,
     effective_height,
@@ -25,8 +27,6 @@ from moyai.curtain.squared_velocity import (
     squared_velocity,
     surface_speed,
 )
-from moyai.sea.regular import RegularWave
-from moyai.sea.water import Water
 
 GRAVITY = 9.81
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.closed_forms import (
+from moyai.structures.curtain.statics.closed_forms import (
     arc_half_angle,
     arc_tension_ratio,
     cable_shape_number,
@@ -14,7 +14,7 @@ from moyai.curtain.closed_forms import (
     solve_cable,
     solve_skirt_arc,
 )
-from moyai.curtain.load_laws import check_section_load, plan_laws, section_laws
+from moyai.structures.curtain.statics.load_laws import check_section_load, plan_laws, section_laws
 
 COUNT = 20_000
 

@@ -12,19 +12,19 @@ import pytest
 import moyai
 from moyai.core.errors import CaseError, InputError
 from moyai.core.progress import silent
-from moyai.curtain import analysis_dynamic
-from moyai.curtain.dynamic import DynamicRun, run_span
-from moyai.curtain.dynamic_assembly import build_span
-from moyai.curtain.dynamic_cable import dynamic_cable
-from moyai.curtain.dynamic_checks import run_checks, run_notices
-from moyai.curtain.dynamic_model import AnchoredSupport, CurtainNetwork, CurtainSpan, Mesh
-from moyai.curtain.dynamic_plans import Plan
-from moyai.curtain.dynamic_section import section_mesh
-from moyai.curtain.dynamic_worth import PeakWorth, Worth, span_worth
-from moyai.curtain.impact import Impact, energy_bound, peak_by_energy
 from moyai.flexible.flow import Flow
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
+from moyai.structures.curtain.analyses import dynamic as analysis_dynamic
+from moyai.structures.curtain.dynamic.assembly import build_span
+from moyai.structures.curtain.dynamic.cable import dynamic_cable
+from moyai.structures.curtain.dynamic.checks import run_checks, run_notices
+from moyai.structures.curtain.dynamic.model import AnchoredSupport, CurtainNetwork, CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.peak_uncertainty import PeakWorth, Worth, span_worth
+from moyai.structures.curtain.dynamic.plans import Plan
+from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
+from moyai.structures.curtain.dynamic.section import section_mesh
+from moyai.structures.curtain.impact.cable import Impact, energy_bound, peak_by_energy
 
 FLUME = Water(0.40, 1000.0, 9.81)
 BASE = {
@@ -468,7 +468,7 @@ def test_a_run_that_turning_sections_spoil_is_made_again_with_held_normals(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, way: str
 ) -> None:
     """Which meshes crumple hangs on rounding, so that the spoilt run is made here: it stops, or feeds viscosity."""
-    import moyai.curtain.analysis_dynamic as analysis
+    import moyai.structures.curtain.analyses.dynamic as analysis
 
     kept: list[DynamicRun] = []
 
@@ -617,7 +617,7 @@ def test_moving_spans_are_held_against_the_strengths(tmp_path: Path, analyses: s
 
 def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its last instants are no motion of the curtain; the series stays for the search of the cause."""
-    import moyai.curtain.analysis_dynamic as analysis
+    import moyai.structures.curtain.analyses.dynamic as analysis
 
     def stopping(*given: object, **more: object) -> DynamicRun:
         run = run_span(*given, **more)  # type: ignore[arg-type]

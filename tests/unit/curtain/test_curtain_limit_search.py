@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.curtain.drag import constant_drag
-from moyai.curtain.limit_search import NOT_REACHED, search
-from moyai.curtain.limits import (
+from moyai.sea.current import uniform
+from moyai.sea.water import Water
+from moyai.structures.curtain.limits.search import NOT_REACHED, search
+from moyai.structures.curtain.limits.utilisation import (
     Requirements,
     Site,
     Strength,
@@ -19,10 +20,9 @@ from moyai.curtain.limits import (
     joint_spacing,
     speed_limit,
 )
-from moyai.curtain.section import Skirt
-from moyai.curtain.statics import FloatLine, HangingCurtain
-from moyai.sea.current import uniform
-from moyai.sea.water import Water
+from moyai.structures.curtain.statics.drag import constant_drag
+from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain
+from moyai.structures.curtain.statics.section import Skirt
 
 UNJUDGED = Strength(math.inf, 1.0)
 WATER = Water(12.0, 1025.0, 9.81)

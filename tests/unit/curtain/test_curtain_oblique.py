@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.curtain.drag import constant_drag, under_toe_speed
-from moyai.curtain.section import Skirt, solve_section
-from moyai.curtain.statics import FloatLine, HangingCurtain, solve_statics
 from moyai.sea.current import power_law, table, uniform
 from moyai.sea.water import Water
+from moyai.structures.curtain.statics.drag import constant_drag, under_toe_speed
+from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain, solve_statics
+from moyai.structures.curtain.statics.section import Skirt, solve_section
 
 WATER = Water(9.0, 1025.0, 9.81)
 CURTAIN = HangingCurtain(

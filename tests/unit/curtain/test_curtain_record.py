@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.impact import Impact, peak_by_energy
-from moyai.curtain.impact_compare import check_skirt, compare_models
-from moyai.curtain.impact_release import snap_in_current
-from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, curved_impact
-from moyai.curtain.record import compare_record, model_series, residual_against
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
+from moyai.structures.curtain.impact.compare import check_skirt, compare_models
+from moyai.structures.curtain.impact.record import compare_record, model_series, residual_against
+from moyai.structures.curtain.impact.release import snap_in_current
+from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, curved_impact
 
 
 def flume(stiffness=1500.0, **changed):

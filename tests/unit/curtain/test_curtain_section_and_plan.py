@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.closed_forms import solve_cable, solve_skirt_arc
-from moyai.curtain.drag import (
+from moyai.sea.current import power_law, table, uniform
+from moyai.sea.water import Water
+from moyai.structures.curtain.statics.closed_forms import solve_cable, solve_skirt_arc
+from moyai.structures.curtain.statics.drag import (
     DragLaw,
     check_drag,
     closure_drag,
@@ -18,11 +20,9 @@ from moyai.curtain.drag import (
     sample_pressure,
     under_toe_speed,
 )
-from moyai.curtain.load_laws import section_laws
-from moyai.curtain.plan import PlanLoad, cosine_squared_load, section_load, solve_plan
-from moyai.curtain.section import Skirt, _climb, solve_section
-from moyai.sea.current import power_law, table, uniform
-from moyai.sea.water import Water
+from moyai.structures.curtain.statics.load_laws import section_laws
+from moyai.structures.curtain.statics.plan import PlanLoad, cosine_squared_load, section_load, solve_plan
+from moyai.structures.curtain.statics.section import Skirt, _climb, solve_section
 
 DEEP = Water(math.inf, 1000.0, 9.81)
 DRAG = constant_drag(1.5, (0.8, 1.3), "test")

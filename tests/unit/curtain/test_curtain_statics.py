@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.anchor_energy import EnergyModel
-from moyai.curtain.checks import check_class, check_statics
-from moyai.curtain.closed_forms import solve_cable
-from moyai.curtain.drag import constant_drag
-from moyai.curtain.limits import (
+from moyai.sea.current import power_law, uniform
+from moyai.sea.water import Water
+from moyai.structures.curtain.checks import check_class, check_statics
+from moyai.structures.curtain.limits.utilisation import (
     Requirements,
     Site,
     Strength,
@@ -26,11 +25,18 @@ from moyai.curtain.limits import (
     speed_limit,
     utilisation,
 )
-from moyai.curtain.planning import itopf_load, tow_trial_load, us_navy_load
-from moyai.curtain.section import Skirt
-from moyai.curtain.statics import FloatLine, HangingCurtain, drag_range, solve_statics, submerged_state
-from moyai.sea.current import power_law, uniform
-from moyai.sea.water import Water
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel
+from moyai.structures.curtain.statics.closed_forms import solve_cable
+from moyai.structures.curtain.statics.drag import constant_drag
+from moyai.structures.curtain.statics.hanging import (
+    FloatLine,
+    HangingCurtain,
+    drag_range,
+    solve_statics,
+    submerged_state,
+)
+from moyai.structures.curtain.statics.planning import itopf_load, tow_trial_load, us_navy_load
+from moyai.structures.curtain.statics.section import Skirt
 from moyai.tables.curtain_classes import curtain_class, curtain_classes, mildest_class
 
 WATER = Water(12.0, 1025.0, 9.81)

@@ -8,12 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.curtain.closed_forms import solve_cable
-from moyai.curtain.drag import constant_drag, gap_speed_drag
-from moyai.curtain.limits import Site
-from moyai.curtain.section import Skirt, solve_section
-from moyai.curtain.statics import FloatLine, HangingCurtain
-from moyai.curtain.steady_load import (
+from moyai.sea.current import uniform
+from moyai.sea.water import Water
+from moyai.structures.curtain.limits.utilisation import Site
+from moyai.structures.curtain.statics.closed_forms import solve_cable
+from moyai.structures.curtain.statics.drag import constant_drag, gap_speed_drag
+from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain
+from moyai.structures.curtain.statics.section import Skirt, solve_section
+from moyai.structures.curtain.statics.steady_load import (
     QUANTITIES,
     SteadyState,
     drag_factors,
@@ -21,8 +23,6 @@ from moyai.curtain.steady_load import (
     partial_gap_drag,
     steady_load,
 )
-from moyai.sea.current import uniform
-from moyai.sea.water import Water
 
 WATER = Water(12.0, 1025.0, 9.81)
 

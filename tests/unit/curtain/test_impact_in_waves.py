@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.closed_forms import solve_cable
-from moyai.curtain.impact import Impact, peak_by_energy, speed_factor
-from moyai.curtain.impact_waves import slack_taut_in_flow, slack_taut_motion
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy, speed_factor
+from moyai.structures.curtain.impact.cycles import slack_taut_in_flow, slack_taut_motion
+from moyai.structures.curtain.statics.closed_forms import solve_cable
 
 
 def flume(stiffness=150.0, speed=0.3):

@@ -7,13 +7,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.curtain.closed_forms import solve_cable
-from moyai.curtain.impact import Impact, peak_by_energy
-from moyai.curtain.impact_kernels import spring, taut_shape
-from moyai.curtain.impact_memory import impact_with_memory, memory_impact
-from moyai.curtain.impact_release import slack_phase, snap_in_current
-from moyai.curtain.impact_waves import slack_sag
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
+from moyai.structures.curtain.impact.cycles import slack_sag
+from moyai.structures.curtain.impact.kernels import spring, taut_shape
+from moyai.structures.curtain.impact.memory import impact_with_memory, memory_impact
+from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
+from moyai.structures.curtain.statics.closed_forms import solve_cable
 
 
 def random_span(seed, **changed):

@@ -7,8 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
-from moyai.curtain.added_mass import arc_skirt_mass, flat_skirt_mass
-from moyai.curtain.impact import (
+from moyai.sea.water import Water
+from moyai.structures.curtain.impact.added_mass import arc_skirt_mass, flat_skirt_mass
+from moyai.structures.curtain.impact.cable import (
     Impact,
     check_impact,
     closed_form,
@@ -19,12 +20,11 @@ from moyai.curtain.impact import (
     speed_factor,
     sweep_peaks,
 )
-from moyai.curtain.impact_compare import compare_models
-from moyai.curtain.impact_kernels import spring, taut_shape
-from moyai.curtain.impact_march import march_impact
-from moyai.curtain.impact_skirt import Skirt, cable_and_skirt_impact, skirt_impact
-from moyai.curtain.impact_waves import slack_taut_motion
-from moyai.sea.water import Water
+from moyai.structures.curtain.impact.compare import compare_models
+from moyai.structures.curtain.impact.cycles import slack_taut_motion
+from moyai.structures.curtain.impact.kernels import spring, taut_shape
+from moyai.structures.curtain.impact.march import march_impact
+from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, skirt_impact
 
 
 def random_impact(seed, **changed):

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from moyai.curtain.impact import Impact
-from moyai.curtain.impact_waves import slack_sag, slack_taut_motion
-from moyai.curtain.settling import _repetition, _steady, settled_cycles
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact
+from moyai.structures.curtain.impact.cycles import slack_sag, slack_taut_motion
+from moyai.structures.curtain.impact.settling import _repetition, _steady, settled_cycles
 
 WATER = Water(10.0, 1025.0, 9.81)
 SPAN = Impact(20.0, 22.5, 5.0, 3.4e6, 3.4, 0.5, WATER)
@@ -72,7 +72,7 @@ def test_cycles_start_taut() -> None:
 
 def test_a_chaotic_motion_has_a_distribution(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where repetition is not found the number is the mean of the largest of each hundred periods."""
-    monkeypatch.setattr("moyai.curtain.settling._repetition", lambda *given: None)
+    monkeypatch.setattr("moyai.structures.curtain.impact.settling._repetition", lambda *given: None)
     found = settled(5.0)
     assert found.kind == "chaotic" and found.count == 600 and found.multiple == 0
     blocks = found.peaks.reshape(6, 100).max(axis=1)

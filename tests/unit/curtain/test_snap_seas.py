@@ -7,18 +7,18 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
-from moyai.curtain.impact import Impact, speed_factor
-from moyai.curtain.impact_kernels import spring, taut_shape
-from moyai.curtain.impact_waves import simulate_in_flow, slack_sag, slack_taut_motion
-from moyai.curtain.snap_events import compare_steps, snaps_in_sea, suggested_time_step
-from moyai.curtain.snap_flow import SkirtFlow, depth_mean_factor, flow_over_skirt
-from moyai.curtain.snap_statistics import fit_snaps
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import power_law
 from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, speed_factor
+from moyai.structures.curtain.impact.cycles import simulate_in_flow, slack_sag, slack_taut_motion
+from moyai.structures.curtain.impact.kernels import spring, taut_shape
+from moyai.structures.curtain.snaps.events import compare_steps, snaps_in_sea, suggested_time_step
+from moyai.structures.curtain.snaps.flow import SkirtFlow, depth_mean_factor, flow_over_skirt
+from moyai.structures.curtain.snaps.statistics import fit_snaps
 
 
 def random_sea(seed, water, count=6):

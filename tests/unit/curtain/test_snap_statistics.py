@@ -8,7 +8,7 @@ from scipy import stats
 from scipy.optimize import minimize_scalar
 
 from moyai.core.errors import InputError
-from moyai.curtain.snap_statistics import dispersion, fit_snaps, poisson_rate
+from moyai.structures.curtain.snaps.statistics import dispersion, fit_snaps, poisson_rate
 
 
 def sample(law, shape, count, rng, scale=50.0):

@@ -13,11 +13,11 @@ from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import InputError
 from moyai.core.progress import silent
 from moyai.core.quantities import parse_quantity
-from moyai.curtain.impact import Impact, impact_numbers, peak_by_energy
 from moyai.design.model_needs import model_need
 from moyai.design.model_numbers import Motion, check_numbers, model_numbers
 from moyai.design.similarity import Scale, scale_quantities, scale_water
 from moyai.sea.water import Water
+from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 from moyai.study.scaled_case import scale_case
 from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_motion import motions_of
@@ -326,7 +326,7 @@ def curtain_case(tmp_path, **changes):
 
 def test_makes_of_a_curtain_become_figures(tmp_path):
     """Wire of the catalogue, chain and film: EA with the cube, weights with the square of the scale and the water."""
-    from moyai.case.build_curtain import curtain_of
+    from moyai.structures.curtain.case.build import curtain_of
 
     rng = np.random.default_rng(16)
     path = tmp_path / "film.yaml"

@@ -8,18 +8,12 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.curtain.anchor_energy import EnergyModel
-from moyai.curtain.drag import constant_drag
-from moyai.curtain.section import Skirt
-from moyai.curtain.squared_velocity import squared_velocity
-from moyai.curtain.statics import FloatLine, HangingCurtain, solve_statics
 from moyai.design.similarity import (
     Scale,
     cauchy_number,
     check_model,
     mass_to_add,
     match_stretch,
-    scale_curtain,
     scale_quantities,
     scale_water,
     unkept_numbers,
@@ -29,6 +23,12 @@ from moyai.potential import shapes
 from moyai.sea import dispersion
 from moyai.sea.current import power_law
 from moyai.sea.water import Water
+from moyai.structures.curtain.scaling import scale_curtain
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel
+from moyai.structures.curtain.seas.squared_velocity import squared_velocity
+from moyai.structures.curtain.statics.drag import constant_drag
+from moyai.structures.curtain.statics.hanging import FloatLine, HangingCurtain, solve_statics
+from moyai.structures.curtain.statics.section import Skirt
 
 SEA = Water(12.0, 1025.0, 9.81)
 

@@ -11,7 +11,7 @@ from moyai.core.errors import CaseError, InputError
 from moyai.interop.moordyn_case import case_text, is_deck
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_system import to_system
-from moyai.network.assembly import assemble
+from moyai.structures.network.assembly import assemble
 
 HEAD = """a deck made at random
 --- LINE TYPES ---

@@ -8,11 +8,11 @@ from moyai.case.reader import load_case
 from moyai.core.errors import CaseError, InputError
 from moyai.interop.moordyn_case import case_text
 from moyai.interop.moordyn_deck import write_deck
-from moyai.interop.moordyn_from_case import deck_of_case
 from moyai.interop.moordyn_network import flow_of, water_of
 from moyai.interop.moordyn_reader import read_deck
 from moyai.interop.moordyn_waves import wave_components
-from moyai.network.runs import run_plans
+from moyai.structures.network.case.line_deck import deck_of_case
+from moyai.structures.network.runs import run_plans
 
 DECK = """--- LINE TYPES ---
 TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx

@@ -7,12 +7,6 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.member.analysis import run
-from moyai.member.checks import require_in_water
-from moyai.member.march import march
-from moyai.member.model import MemberProblem, Motion, RegularWaves, Settings
-from moyai.member.surface import surface_effect
-from moyai.member.waves import waves_of
 from moyai.morison import sections
 from moyai.morison.circulation import CirculationLaw
 from moyai.morison.coefficients import CoefficientRule
@@ -23,6 +17,12 @@ from moyai.sea.dispersion import wave_number
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
+from moyai.structures.member.checks import require_in_water
+from moyai.structures.member.march import march
+from moyai.structures.member.model import MemberProblem, Motion, RegularWaves, Settings
+from moyai.structures.member.run import run
+from moyai.structures.member.surface import surface_effect
+from moyai.structures.member.waves import waves_of
 
 TANK = Water(0.5, 1000.0, 9.81)
 PERIOD = 1.0 / 0.95

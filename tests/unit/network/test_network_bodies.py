@@ -9,7 +9,7 @@ from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
-from moyai.network.analysis import run
+from moyai.structures.network.run import run
 
 CASE = """moyai: 1
 title: Box on two chains

@@ -13,10 +13,10 @@ from moyai.core.errors import CaseError, InputError
 from moyai.coupled.hulls import box_hull, cylinder_hull
 from moyai.coupled.rigid import RigidBody
 from moyai.interop.read import read_coefficients
-from moyai.network.analysis import run
-from moyai.network.bodies import BodyPlan
-from moyai.network.coefficients import hydrostatic_stiffness
 from moyai.sea.water import Water
+from moyai.structures.network.bodies import BodyPlan
+from moyai.structures.network.coefficients import hydrostatic_stiffness
+from moyai.structures.network.run import run
 
 FILE = Path(__file__).parents[2] / "validation/data/wu_box_capytaine.nc"
 CASE = """moyai: 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from moyai.network.noise import NOISE, without_noise
+from moyai.structures.network.noise import NOISE, without_noise
 
 
 def test_only_what_is_far_below_the_size_becomes_zero() -> None:

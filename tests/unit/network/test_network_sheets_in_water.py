@@ -9,7 +9,7 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.network.analysis import run
+from moyai.structures.network.run import run
 
 CASE = """moyai: 1
 title: Flap

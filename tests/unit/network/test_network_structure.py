@@ -12,10 +12,10 @@ from moyai.core.errors import InputError
 from moyai.core.results import read_result
 from moyai.flexible.network import BarType
 from moyai.flexible.statics import solve_equilibrium
-from moyai.network.analysis import run
-from moyai.network.assembly import assemble, mesh_bars
-from moyai.network.resume import last_good_state
-from moyai.network.runs import run_plans
+from moyai.structures.network.assembly import assemble, mesh_bars
+from moyai.structures.network.resume import last_good_state
+from moyai.structures.network.run import run
+from moyai.structures.network.runs import run_plans
 
 SITE = "moyai: 1\ntitle: Test\nsite: {water_depth: 30 m, density: 1025 kg/m3, gravity: 9.81 m/s2}\n"
 ROPE = (
@@ -267,7 +267,7 @@ def test_runs_follow_seas_periods_and_currents(tmp_path):
 
 def test_the_last_good_state_of_a_sound_run_is_its_end(tmp_path):
     problem = problem_of(line_case(analyses="[dynamic]", settings="{duration: 2 s, output_step: 50 ms}"), tmp_path)
-    from moyai.network import dynamics
+    from moyai.structures.network import dynamics
 
     assembly = assemble(problem, 0.0)
     plan = run_plans(problem, problem.environment.water_at(0.0))[0]

@@ -12,7 +12,7 @@ import xarray as xr
 
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.curtain.headlines import curtain_headlines
+from moyai.structures.curtain.headlines import curtain_headlines
 
 DRAG = ["low", "given", "high"]
 COMPONENTS = ["upper cable", "lower cable", "skirt", "joint", "float", "anchor line", "anchor"]

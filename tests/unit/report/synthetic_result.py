@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from moyai.breakwater.headlines import headlines
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.structures.breakwater.headlines import headlines
 
 MODES = ["sway", "heave", "roll"]
 LINES = ["offshore", "shore"]

@@ -16,16 +16,16 @@ import synthetic_curtain
 import xarray as xr
 
 from moyai.core.results import Result
-from moyai.report.curtain_drawing import plan_drawing, section_drawing
-from moyai.report.curtain_figures import utilisation_bars
-from moyai.report.curtain_limits import colour, operating_map
-from moyai.report.curtain_page import compose
-from moyai.report.curtain_reading import components, governing_component, water_levels
-from moyai.report.curtain_snap import snap_animation
 from moyai.report.document import Animation, Document, Drawing, Figure, KeyFigures, Table
 from moyai.report.encoding import figure_csv, table_csv
 from moyai.report.html import render_html
 from moyai.report.writer import compose_document, write_report
+from moyai.structures.curtain.report.drawing import plan_drawing, section_drawing
+from moyai.structures.curtain.report.figures import utilisation_bars
+from moyai.structures.curtain.report.limits import colour, operating_map
+from moyai.structures.curtain.report.page import compose
+from moyai.structures.curtain.report.reading import components, governing_component, water_levels
+from moyai.structures.curtain.report.snap import snap_animation
 
 
 @pytest.fixture(scope="module")

@@ -15,17 +15,17 @@ import pytest
 import xarray as xr
 from synthetic_result import build
 
-from moyai.breakwater.headlines import headlines
 from moyai.core.errors import InputError
 from moyai.core.results import Result, read_result
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.report.breakwater_page import compose
-from moyai.report.breakwater_reading import all_numbers, governing_entry, water_levels
 from moyai.report.document import Abscissa, Animation, Column, Figure, KeyFigures, Mark, Panel, Series, Table
 from moyai.report.encoding import figure_csv, page_json, table_csv
 from moyai.report.figures_static import draw_figure
 from moyai.report.html import render_html
 from moyai.report.writer import compose_document, write_report
+from moyai.structures.breakwater.headlines import headlines
+from moyai.structures.breakwater.report.page import compose
+from moyai.structures.breakwater.report.reading import all_numbers, governing_entry, water_levels
 
 VOID = {"meta", "link", "br", "img", "input", "hr"}
 

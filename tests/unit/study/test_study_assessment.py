@@ -8,13 +8,13 @@ import pytest
 import study_cases
 
 from moyai.design.long_term import YEAR
-from moyai.report import study_drawings
 from moyai.report.html import render_html
-from moyai.report.study_page import compose, interesting
-from moyai.report.study_reading import read_study
 from moyai.study.assess import assess, governing, utilised
 from moyai.study.execute import run_study
 from moyai.study.plan import load_study
+from moyai.study.report import drawings as study_drawings
+from moyai.study.report.page import compose, interesting
+from moyai.study.report.reading import read_study
 
 
 def assessed(tmp_path, variations, assessment):

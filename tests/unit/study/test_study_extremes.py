@@ -9,11 +9,11 @@ import study_cases
 from moyai.core.errors import CaseError
 from moyai.design.long_term import YEAR
 from moyai.report.html import render_html
-from moyai.report.study_page import compose
 from moyai.study.assess import assess
 from moyai.study.execute import run_study
 from moyai.study.plan import load_study
 from moyai.study.query import StudyTable
+from moyai.study.report.page import compose
 
 SEEDS = "- seeds: {path: 'waves[storm].seed', count: 12}"
 HEIGHTS = "- grid: {'waves[storm].significant_height': [0.5 m, 1 m]}\n"

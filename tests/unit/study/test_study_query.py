@@ -14,10 +14,10 @@ from typer.testing import CliRunner
 from moyai.cli.main import app
 from moyai.core.errors import CaseError, InputError
 from moyai.report.html import render_html
-from moyai.report.study_page import compose
 from moyai.study.execute import run_study
 from moyai.study.plan import load_study
 from moyai.study.query import StudyTable, read_study_results
+from moyai.study.report.page import compose
 from moyai.study.zarr_file import write_zarr
 
 VARIATIONS = """

@@ -1,1 +1,0 @@
-"""Floating breakwaters: the model, its analyses and its checks."""

@@ -1,0 +1,26 @@
+"""Commented case files to start from: one for every kind of structure, and for the files of other commands."""
+
+from __future__ import annotations
+
+from moyai.case.faults import did_you_mean
+from moyai.core.errors import InputError
+from moyai.core.kinds import templates
+
+
+def template(name: str) -> str:
+    """Return the commented case file of a kind of structure, or the file of another command.
+
+    Raises
+    ------
+    InputError
+        For an unknown kind.
+    """
+    known = templates()
+    if name not in known:
+        raise InputError(
+            f"there is no structure '{name}'",
+            path="KIND",
+            allowed=", ".join(known),
+            remedy=did_you_mean(name, tuple(known)),
+        )
+    return known[name].template(name)

@@ -1,0 +1,119 @@
+"""The kinds of structures and of records: one object each, found by name.
+
+A kind is one folder. Its ``__init__`` exports one object ``KIND`` that imports its parts when they are asked for;
+case files, reports and the command line reach a structure through that object only. A structure of another package is
+found by the entry-point group ``moyai.structures``: name of the kind = "package.module:KIND".
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from functools import cache
+from importlib import import_module
+from importlib.metadata import entry_points
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from moyai.core.progress import Progress
+    from moyai.core.results import Result
+
+GROUP = "moyai.structures"
+
+_STRUCTURES = ("breakwater", "curtain", "cage", "network", "member")
+_FURTHER = {
+    "records": "moyai.records.survey",
+    "nets": "moyai.records.nets",
+    "streaks": "moyai.records.streaks",
+    "force_record": "moyai.records.forces",
+    "comparison": "moyai.records.comparison",
+    "study": "moyai.study.report",
+}
+
+
+class Kind(ABC):
+    """What produces results of one kind: they carry its name as attribute ``structure``."""
+
+    name: str
+    #: Module that holds the templates
+    package: str
+    #: Commented files to start from: name for ``moyai new`` and file within the package
+    templates: tuple[tuple[str, str], ...] = ()
+
+    @abstractmethod
+    def compose(self, result: Result) -> Any:
+        """Return the report of a result, a :class:`moyai.report.document.Document`."""
+
+    def template(self, name: str) -> str:
+        """Return the text of one of :attr:`templates`."""
+        return (files(self.package) / dict(self.templates)[name]).read_text(encoding="utf-8")
+
+
+class StructureKind(Kind):
+    """A kind of structure: from the keys of its case file to its report.
+
+    Types of :mod:`moyai.case` stand above this module; they are named in the docstrings.
+    """
+
+    @abstractmethod
+    def schema(self) -> Any:
+        """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""
+
+    @abstractmethod
+    def check(self, model: Any, findings: Any, folder: Path) -> None:
+        """Record errors and warnings beyond the schema in a :class:`moyai.case.findings.Findings`."""
+
+    @abstractmethod
+    def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
+        """Return the problem of a case, in SI units and radians, frozen."""
+
+    @abstractmethod
+    def derived(self, case: Any) -> Any:
+        """Return the numbers that ``moyai check`` shows, a tuple of :class:`moyai.case.derived.Number`."""
+
+    @abstractmethod
+    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
+        """Run all analyses of a problem; what took long is kept in the folder ``keep`` for the next run."""
+
+
+@cache
+def _foreign() -> dict[str, Any]:
+    """Return the entry points of structures of other packages by their kind."""
+    return {point.name: point for point in entry_points(group=GROUP)}
+
+
+def structure_kinds() -> tuple[str, ...]:
+    """Return the names of all kinds of structure."""
+    return (*_STRUCTURES, *sorted(set(_foreign()) - set(_STRUCTURES)))
+
+
+@cache
+def structure_kind(name: str) -> StructureKind:
+    """Return a kind of structure.
+
+    Raises
+    ------
+    KeyError
+        When there is no such kind.
+    """
+    kind: StructureKind = (
+        import_module(f"moyai.structures.{name}").KIND if name in _STRUCTURES else _foreign()[name].load()
+    )
+    return kind
+
+
+@cache
+def kind_of_result(name: str) -> Kind | None:
+    """Return the kind whose results carry this name, or None."""
+    if name in _FURTHER:
+        kind: Kind = import_module(_FURTHER[name]).KIND
+        return kind
+    return structure_kind(name) if name in structure_kinds() else None
+
+
+def templates() -> dict[str, Kind]:
+    """Return who has the template of each name, structures first."""
+    kinds: list[Kind] = [structure_kind(name) for name in structure_kinds()]
+    kinds += [import_module(module).KIND for module in _FURTHER.values()]
+    return {name: kind for kind in kinds for name, _ in kind.templates}

@@ -1,1 +1,0 @@
-"""Silt curtains: statics, impact tension, waves, anchor loads."""

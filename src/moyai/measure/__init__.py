@@ -1,1 +1,0 @@
-"""Measured records: reading them, harmonics of periodic motion, incident and reflected waves."""

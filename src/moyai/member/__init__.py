@@ -1,1 +1,0 @@
-"""Submerged members: the model of a case, its analyses and its checks."""

@@ -1,1 +1,0 @@
-"""Networks of lines and nets in free arrangement: at rest, their modes, their motion in waves and current."""

@@ -1,0 +1,23 @@
+"""Records of forces on members: identified coefficients and circulation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from moyai.core.kinds import Kind
+from moyai.core.results import Result
+
+
+class ForceRecordKind(Kind):
+    """The parts of this folder, each imported when it is asked for."""
+
+    name = "force_record"
+    package = __name__
+
+    def compose(self, result: Result) -> Any:
+        from moyai.records.forces.report.page import compose
+
+        return compose(result)
+
+
+KIND = ForceRecordKind()

@@ -1,0 +1,1 @@
+"""Files that describe force records: schema, and the tests that they state."""

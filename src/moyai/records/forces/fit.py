@@ -1,0 +1,368 @@
+"""One fit of force coefficients: the linear map from the force to C_M and C_D, its bootstrap, what can be known.
+
+All methods are linear in the force, so that one matrix gives the coefficients, their covariance, the bootstrap and the
+sensitivity to a phase error [eq:identification-gain].
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.records.forces.record import ForceRecord
+
+Array = NDArray[np.float64]
+Method = Literal["fourier", "least_squares", "force_weighted", "robust"]
+Form = Literal["component", "vector"]
+METHODS: tuple[Method, ...] = ("fourier", "least_squares", "force_weighted", "robust")
+COEFFICIENTS = ("inertia", "drag")
+
+#: Half width of an interval over its coefficient above which the coefficient is called unknown
+UNKNOWN_SHARE = 0.5
+_HUBER = 1.345
+
+
+@checks_words
+@dataclass(frozen=True)
+class Setup:
+    """What the record was taken on and how it is read.
+
+    Parameters
+    ----------
+    density : float
+        Of the water [kg/m3].
+    area : float
+        Of the section [m2].
+    widths : tuple of float
+        Width across the flow for every component [m]: H for x, B for z.
+    period : float or None
+        Of regular waves [s]; ``None`` finds it from the velocity.
+    regular : bool
+        Whether the record is periodic; ``fourier`` needs it.
+    form : {"component", "vector"}
+        Drag u|u| or u|U| with the speed of all components.
+    methods : tuple of str
+    harmonics : tuple of int
+        Harmonics of the force (2, 3, ...) that Morison's equation is not asked to explain: fitted beside it.
+    mean : bool
+        Whether the mean force is fitted beside it too.
+    phase_error : float
+        Standard error of the phase between force and velocity [rad].
+    confidence : float
+        Probability that the intervals cover.
+    bootstrap : int
+        Number of bootstrap samples.
+    seed : int
+    ideal_inertia : tuple of float or None
+        Ideal inertia coefficients: gives the reduction and the circulation that it stands for.
+    """
+
+    density: float
+    area: float
+    widths: tuple[float, ...]
+    period: float | None = None
+    regular: bool = True
+    form: Form = "component"
+    methods: tuple[Method, ...] = METHODS
+    harmonics: tuple[int, ...] = ()
+    mean: bool = True
+    phase_error: float = 0.0
+    confidence: float = 0.95
+    bootstrap: int = 400
+    seed: int = 1
+    ideal_inertia: tuple[float, ...] | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("density", "area"):
+            if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0.0):
+                raise InputError(f"{name} is {getattr(self, name):g}", path=name, allowed="greater than 0")
+        if not self.widths or not all(math.isfinite(width) and width > 0.0 for width in self.widths):
+            raise InputError(f"widths are {self.widths}", path="widths", allowed="greater than 0, one a component")
+        if self.period is not None and not (math.isfinite(self.period) and self.period > 0.0):
+            raise InputError(f"period is {self.period:g} s", path="period", allowed="greater than 0 s")
+        if not self.methods:
+            raise InputError("no method is named", path="methods", allowed=", ".join(METHODS))
+        if not self.regular and "fourier" in self.methods:
+            raise InputError(
+                "the method 'fourier' needs a periodic record",
+                path="methods",
+                remedy="take it out for irregular waves",
+            )
+        if not self.regular and self.harmonics:
+            raise InputError("an irregular record has no harmonics", path="harmonics", remedy="leave them out")
+        if any(order < 2 for order in self.harmonics):
+            raise InputError(f"harmonics are {self.harmonics}", path="harmonics", allowed="2 and above")
+        if not 0.5 <= self.confidence < 1.0:
+            raise InputError(f"confidence is {self.confidence:g}", path="confidence", allowed="0.5 to below 1")
+        if not 50 <= self.bootstrap <= 100_000:
+            raise InputError(f"{self.bootstrap} bootstrap samples", path="bootstrap", allowed="50 to 100000")
+        if not 0.0 <= self.phase_error < 0.5:
+            raise InputError(f"phase_error is {self.phase_error:g} rad", path="phase_error", allowed="0 to 0.5 rad")
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """One coefficient and what is known of it.
+
+    Parameters
+    ----------
+    value : float
+    half_width : float
+        Of the interval by the bootstrap over blocks, at the confidence asked for.
+    phase_half_width : float
+        What the phase error adds, at the same confidence.
+    phase_sensitivity : float
+        Change per radian of phase error.
+    rounding : float
+        Error by the rounding of the record's own numbers.
+    """
+
+    value: float
+    half_width: float
+    phase_half_width: float
+    phase_sensitivity: float
+    rounding: float
+
+    @property
+    def uncertainty(self) -> float:
+        """Half width with every source [-]."""
+        return math.hypot(self.half_width, self.phase_half_width) + self.rounding
+
+    @property
+    def known(self) -> bool:
+        """Whether the coefficient is determined: its uncertainty below half of it."""
+        return math.isfinite(self.uncertainty) and self.uncertainty < UNKNOWN_SHARE * abs(self.value)
+
+    @property
+    def text(self) -> str:
+        """The value with the digits that it has, and its uncertainty; a word where it has none."""
+        if not math.isfinite(self.uncertainty):
+            return "not determined"
+        if not self.known:
+            bound = abs(self.value) + self.uncertainty
+            return f"not determined (size below about {bound:.1g})"
+        # up to the first digit of the uncertainty, nine places at most
+        place = -math.floor(math.log10(max(self.uncertainty, 1e-15 * abs(self.value))))
+        if place > 9:
+            return f"{self.value:.9f} +- {self.uncertainty:.0e}"
+        place = max(place, 0)
+        return f"{self.value:.{place}f} +- {self.uncertainty:.{place}f}"
+
+
+@checks_words
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """One component by one method.
+
+    Parameters
+    ----------
+    method, component : str, int
+    inertia, drag : Coefficient
+    covariance : ndarray, shape (2, 2)
+        Of C_M and C_D, by the bootstrap.
+    correlation : float
+        Between both.
+    condition : float
+        Condition number of the two columns, scaled to unit length.
+    samples : ndarray, shape (bootstrap, 2)
+        Bootstrap samples.
+    force, residual : ndarray, shape (samples,)
+        Morison's force by the fit, with mean and harmonics, and what is left [N/m].
+    explained : float
+        Share of the variance of the force that is explained.
+    drag_share : float
+        Amplitude of the drag over that of the inertia force.
+    """
+
+    method: Method
+    component: int
+    inertia: Coefficient
+    drag: Coefficient
+    covariance: Array
+    correlation: float
+    condition: float
+    samples: Array
+    force: Array
+    residual: Array
+    explained: float
+    drag_share: float
+
+
+def force_columns(record: ForceRecord, rate: Array, setup: Setup, component: int) -> Array:
+    """Return rho A a and rho b u|u| / 2 of a component [eq:identification-columns]."""
+    u = record.velocity[:, component]
+    speed = np.abs(u) if setup.form == "component" else np.linalg.norm(record.velocity, axis=1)
+    return np.column_stack(
+        [setup.density * setup.area * rate[:, component], 0.5 * setup.density * setup.widths[component] * u * speed]
+    )
+
+
+def beside_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
+    """Return what is fitted beside Morison's equation: mean and harmonics."""
+    angle = omega * (record.time - record.time.mean())
+    parts = [np.ones_like(angle)] if mean else []
+    for order in orders:
+        parts += [np.cos(order * angle), np.sin(order * angle)]
+    return np.column_stack(parts) if parts else np.zeros((angle.size, 0))
+
+
+@checks_words
+def fit_component(
+    record: ForceRecord,
+    columns: Array,
+    rate: Array,
+    setup: Setup,
+    component: int,
+    method: Method,
+    omega: float,
+    blocks: list[tuple[int, int]],
+    rng: np.random.Generator,
+) -> Fit:
+    force = record.force[:, component]
+    scale = np.linalg.norm(columns, axis=0)
+    condition = float(np.linalg.cond(columns / scale)) if (scale > 0.0).all() else math.inf
+    beside = beside_columns(record, setup.harmonics, setup.mean, omega)
+    stretch = 1.0
+    if method == "fourier":
+        gain = _fourier_gain(record, columns, omega)
+        rest = force - columns @ (gain @ force)
+        extra, *_ = np.linalg.lstsq(beside, rest, rcond=None)
+        modelled = force - rest + beside @ extra
+    else:
+        weight = np.ones(force.size)
+        whole = _gain(columns, beside, weight)
+        design = np.hstack([columns, beside])
+        modelled = design @ (whole @ force)
+        for _ in range(0 if method == "least_squares" else 60):
+            previous, weight = weight, _weights(method, modelled, force - modelled)
+            whole = _gain(columns, beside, weight)
+            modelled = design @ (whole @ force)
+            if np.abs(weight - previous).max() < 1e-12:
+                break
+        gain = whole[:2]
+        if method == "robust":
+            # Huber's estimate answers a change of the record through the samples that are not cut off
+            stretch = float(weight.mean() / np.mean(weight >= 1.0))
+    found = gain @ force
+    residual = force - modelled
+    samples, covariance = _bootstrap(stretch * gain, residual, found, blocks, setup, rng)
+    coefficients = _coefficients(gain, found, covariance, force, columns, record.step, omega, blocks, setup)
+    spread = np.sqrt(np.diagonal(covariance))
+    both = float(spread[0] * spread[1])
+    parts = [abs(found[k]) * 0.5 * float(np.ptp(columns[:, k])) for k in range(2)]
+    total = float(np.var(force))
+    return Fit(
+        method=method,
+        component=component,
+        inertia=coefficients[0],
+        drag=coefficients[1],
+        covariance=covariance,
+        correlation=float(covariance[0, 1]) / both if both > 0.0 else 0.0,
+        condition=condition,
+        samples=samples,
+        force=modelled,
+        residual=residual,
+        explained=1.0 - float(np.var(residual)) / total if total > 0.0 else math.nan,
+        drag_share=parts[1] / parts[0] if parts[0] > 0.0 else math.inf,
+    )
+
+
+def _gain(columns: Array, beside: Array, weight: Array) -> Array:
+    """Return the matrix that takes the force to all coefficients by weighted least squares; C_M and C_D come first."""
+    design = np.hstack([columns, beside])
+    size = np.linalg.norm(design, axis=0)
+    root = np.sqrt(weight)[:, None]
+    safe = np.where(size > 0.0, size, 1.0)
+    inverse = np.linalg.pinv(root * design / safe, rcond=1e-13)
+    return np.asarray((inverse / safe[:, None]) * root[:, 0])
+
+
+def _fourier_gain(record: ForceRecord, columns: Array, omega: float) -> Array:
+    """Return the same matrix for the first harmonics over whole periods [eq:identification-fourier].
+
+    Both columns are analysed on the samples of the force, so that u|u| brings its own equal-work factor; it is
+    8/(3 pi) of a sine.
+    """
+    orders = range(1, 1 + int(min(6, max(1, 2.0 * math.pi / (omega * record.step) // 2 - 1))))
+    design = beside_columns(record, orders, True, omega)
+    inverse = np.linalg.pinv(design)[1:3]
+    harmonic = inverse @ columns
+    size = np.linalg.norm(harmonic, axis=0)
+    safe = np.where(size > 0.0, size, 1.0)
+    return np.asarray((np.linalg.pinv(harmonic / safe, rcond=1e-13) / safe[:, None]) @ inverse)
+
+
+def _weights(method: Method, modelled: Array, residual: Array) -> Array:
+    """Return weights in [0, 1]: the modelled force squared, or Huber's."""
+    if method == "force_weighted":
+        # the modelled, not the measured force: weights that follow the noise would bias the fit
+        square = modelled**2
+        return np.asarray(square / max(float(square.max()), 1e-300))
+    scale = 1.4826 * float(np.median(np.abs(residual - np.median(residual))))
+    if scale <= 1e-13 * float(np.abs(modelled).max()):
+        return np.ones_like(residual)
+    return np.asarray(np.minimum(1.0, _HUBER * scale / np.maximum(np.abs(residual), 1e-300)))
+
+
+def _bootstrap(
+    gain: Array,
+    residual: Array,
+    found: Array,
+    blocks: list[tuple[int, int]],
+    setup: Setup,
+    rng: np.random.Generator,
+) -> tuple[Array, Array]:
+    """Return bootstrap samples (count, 2) and the covariance [eq:identification-bootstrap].
+
+    What each block of the residual contributes to the coefficients is resampled with random signs: blocks keep the
+    correlation within them, and the places in the record keep their weight.
+    """
+    parts = np.array([gain[:, a:b] @ residual[a:b] for a, b in blocks])
+    count = len(blocks)
+    if count < 2:
+        nothing = np.full((setup.bootstrap, 2), np.nan)
+        return nothing, np.full((2, 2), np.nan)
+    # the parts sum to nothing by construction of the fit; their spread is that of the coefficients
+    parts = (parts - parts.mean(axis=0)) * math.sqrt(count / (count - 1.0))
+    signs = rng.choice(np.array([-1.0, 1.0]), size=(setup.bootstrap, count))
+    samples = found + signs @ parts
+    return samples, np.asarray(parts.T @ parts)
+
+
+def _coefficients(
+    gain: Array,
+    found: Array,
+    covariance: Array,
+    force: Array,
+    columns: Array,
+    step: float,
+    omega: float,
+    blocks: list[tuple[int, int]],
+    setup: Setup,
+) -> list[Coefficient]:
+    from scipy.stats import norm, t
+
+    chance = 0.5 * (1.0 + setup.confidence)
+    quantile = float(t.ppf(chance, max(1, len(blocks) - 1)))
+    normal = float(norm.ppf(chance))
+    # a phase error shifts the force in time: per radian by 1/omega [eq:identification-phase]
+    slope = np.gradient(columns @ found, step) / omega
+    sensitivity = gain @ slope
+    rounding = 4.0 * np.finfo(float).eps * np.sqrt(np.sum(gain**2, axis=1)) * float(np.linalg.norm(force))
+    return [
+        Coefficient(
+            value=float(found[k]),
+            half_width=quantile * math.sqrt(covariance[k, k]) if math.isfinite(covariance[k, k]) else math.inf,
+            phase_half_width=normal * setup.phase_error * abs(float(sensitivity[k])),
+            phase_sensitivity=float(sensitivity[k]),
+            rounding=float(rounding[k]),
+        )
+        for k in range(2)
+    ]

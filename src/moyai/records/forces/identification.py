@@ -1,0 +1,229 @@
+"""Coefficients of Morison's equation from records of force and velocity, with what can be known of them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.records.forces.fit import (
+    METHODS,
+    Coefficient,
+    Fit,
+    Setup,
+    beside_columns,
+    fit_component,
+    force_columns,
+)
+from moyai.records.forces.notices import (
+    collinear_notices,
+    harmonic_notices,
+    implausible_notices,
+    periodicity_notices,
+    unknown_notices,
+)
+from moyai.records.forces.record import ForceRecord, acceleration_of, period_of
+
+Array = NDArray[np.float64]
+
+_SPEED_FACTOR = 8.0 / (3.0 * math.pi)
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """Everything that a record gave.
+
+    Parameters
+    ----------
+    record : ForceRecord
+        The part that was used: whole periods of a regular record.
+    setup : Setup
+    period : float
+        Period, or mean period of an irregular record [s].
+    acceleration : ndarray
+        [m/s2].
+    velocity_amplitude : ndarray, shape (components,)
+        [m/s].
+    keulegan_carpenter : tuple of float
+        u T / b of every component, b its width.
+    fits : tuple of Fit
+    blocks : int
+        Independent blocks behind the intervals.
+    notices : tuple of Notice
+    """
+
+    record: ForceRecord
+    setup: Setup
+    period: float
+    acceleration: Array
+    velocity_amplitude: Array
+    keulegan_carpenter: tuple[float, ...]
+    fits: tuple[Fit, ...]
+    blocks: int
+    notices: tuple[Notice, ...] = field(default=())
+
+    def fit(self, method: str, component: int = 0) -> Fit:
+        """Return one fit."""
+        for entry in self.fits:
+            if entry.method == method and entry.component == component:
+                return entry
+        raise InputError(f"no fit by '{method}' of component {component}", path="method")
+
+
+def equivalent_work(
+    force: complex, velocity: complex, omega: float, *, density: float, area: float, width: float
+) -> tuple[float, float]:
+    """Return C_M and C_D from first harmonics, the drag by equal work [eq:identification-fourier].
+
+    Parameters
+    ----------
+    force, velocity : complex
+        Amplitudes of Re(X e^{-i omega t}) [N/m], [m/s].
+    omega : float
+        [rad/s].
+    density, area, width : float
+        [kg/m3], [m2], [m].
+    """
+    ratio = force / velocity
+    inertia = -ratio.imag / (density * area * omega)
+    return inertia, ratio.real / (0.5 * density * width * _SPEED_FACTOR * abs(velocity))
+
+
+def identify(record: ForceRecord, setup: Setup) -> Identification:
+    """Find C_M and C_D of every component by every method asked for.
+
+    Parameters
+    ----------
+    record : ForceRecord
+    setup : Setup
+
+    Returns
+    -------
+    Identification
+
+    Raises
+    ------
+    InputError
+        When the record is shorter than a period, too coarse or does not repeat itself with its period, or the widths
+        do not match its components.
+    """
+    if len(setup.widths) != record.components:
+        raise InputError(
+            f"{len(setup.widths)} widths for {record.components} components", path="widths", allowed="one a component"
+        )
+    if setup.form == "vector" and record.components < 2:
+        raise InputError("the vector form needs two components", path="form", allowed="component")
+    if setup.period is not None:
+        period = setup.period
+    else:
+        period = period_of(record.time, record.velocity) if setup.regular else _mean_period(record)
+    used = _whole_periods(record, period, setup.regular)
+    omega = 2.0 * math.pi / period
+    per_period = period / used.step
+    rate = used.acceleration
+    orders = int(min(6, max(1, (per_period - 1) // 2)))
+    notices: list[Notice] = periodicity_notices(used, period, orders) if setup.regular else []
+    if rate is None:
+        rate = acceleration_of(used.velocity, used.step, omega if setup.regular else None, orders)
+    blocks = _blocks(used, period, setup.regular)
+    rng = np.random.default_rng(setup.seed)
+    fits: list[Fit] = []
+    for component in range(used.components):
+        columns = force_columns(used, rate, setup, component)
+        for method in setup.methods:
+            fit = fit_component(used, columns, rate, setup, component, method, omega, blocks, rng)
+            fits.append(fit)
+            notices.extend(collinear_notices(fit))
+            if setup.regular and method != "fourier":
+                notices.extend(harmonic_notices(fit, used, omega))
+    notices += unknown_notices(fits) + implausible_notices(fits, setup)
+    speeds = velocity_amplitudes(used, period, orders if setup.regular else None)
+    numbers = tuple(float(speed * period / width) for speed, width in zip(speeds, setup.widths))
+    if len(blocks) < 8:
+        notices.append(
+            Notice(
+                "few-periods",
+                f"the record holds {len(blocks)} independent blocks; intervals from so few are wide and rough",
+                value=len(blocks),
+                limit=8,
+                remedy="use a longer record",
+            )
+        )
+    unique = {notice.message: notice for notice in notices}
+    return Identification(used, setup, period, rate, speeds, numbers, tuple(fits), len(blocks), tuple(unique.values()))
+
+
+def velocity_amplitudes(record: ForceRecord, period: float, orders: int | None) -> Array:
+    """Return the amplitude of every velocity component [m/s], shape (components,).
+
+    Parameters
+    ----------
+    record : ForceRecord
+    period : float
+        [s].
+    orders : int or None
+        Harmonics of a periodic record: half of the way between the extremes of its mean and harmonics, so that noise
+        does not add to it. None: that of the harmonic motion of equal variance.
+    """
+    if orders is None:
+        return np.asarray(math.sqrt(2.0) * record.velocity.std(axis=0))
+    design = beside_columns(record, range(1, orders + 1), True, 2.0 * math.pi / period)
+    fit, *_ = np.linalg.lstsq(design, record.velocity, rcond=None)
+    return np.asarray(0.5 * np.ptp(design @ fit, axis=0))
+
+
+def _mean_period(record: ForceRecord) -> float:
+    """Return the mean zero-up-crossing period of the largest velocity component [s]."""
+    values = record.velocity - record.velocity.mean(axis=0)
+    values = values[:, int(np.argmax(values.std(axis=0)))]
+    ups = np.flatnonzero((values[:-1] < 0.0) & (values[1:] >= 0.0))
+    if ups.size < 2:
+        raise InputError(
+            "the record holds less than one period", path="time", remedy="use a longer record or give the period"
+        )
+    return float((ups[-1] - ups[0]) * record.step / (ups.size - 1))
+
+
+def _whole_periods(record: ForceRecord, period: float, regular: bool) -> ForceRecord:
+    if record.duration < period * (1.0 - 1e-6):
+        raise InputError(
+            f"the record of {record.duration:.4g} s is shorter than one period of {period:.4g} s",
+            path="time",
+            remedy="use a longer record or check the period",
+        )
+    if period / record.step < 12.0:
+        raise InputError(
+            f"{period / record.step:.3g} samples a period are too few for u|u|",
+            path="time",
+            allowed="at least 12",
+            remedy="sample faster",
+        )
+    if not regular:
+        return record
+    count = math.floor(record.duration / period + 1e-6)
+    return record.part(0, min(record.time.size, round(count * period / record.step)))
+
+
+def _blocks(record: ForceRecord, period: float, regular: bool) -> list[tuple[int, int]]:
+    """Return sample ranges that stand for independent pieces: periods, or two mean periods of irregular waves."""
+    length = period if regular else 2.0 * period
+    count = max(1, round(record.duration / length))
+    edges = np.round(np.linspace(0, record.time.size, count + 1)).astype(int)
+    return [(int(a), int(b)) for a, b in itertools.pairwise(edges)]
+
+
+__all__ = [
+    "METHODS",
+    "Coefficient",
+    "Fit",
+    "ForceRecord",
+    "Identification",
+    "Setup",
+    "equivalent_work",
+    "identify",
+]

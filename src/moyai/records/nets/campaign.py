@@ -1,0 +1,414 @@
+"""A campaign of towed nets from its runs to coefficients and laws of the drag."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.records.nets.quality import record_notices
+from moyai.records.nets.regression import JointLaw, PowerLaw, fit_joint_law, fit_power_law
+from moyai.records.nets.runs import NetRun, Specimen, Tank
+from moyai.records.nets.tensions import CageRecord, EndTension, measure_tensions
+from moyai.records.nets.towing import FrameLaw, Tow, TowCoefficients, frame_law, measure_tow, tow_coefficients
+from moyai.records.nets.vibration import Vibration, VibrationSearch, find_vibration
+from moyai.records.nets.waves import WaveCoefficients, WaveFit, fit_waves, wave_coefficients
+
+#: Conditions of waves that are the same: period, height by the velocity, and speed, relative
+_SAME_WAVES = 0.08
+
+
+@checks_words
+@dataclass(frozen=True, eq=False)
+class NetCampaign:
+    """Nets, runs and how they are read.
+
+    Parameters
+    ----------
+    title : str
+    tank : Tank
+    specimens : tuple of Specimen
+    runs : tuple of NetRun
+        Those of the bare frame have no net.
+    cages : tuple of CageRecord
+        Tensions of a moored cage.
+    vibration : Vibration, "auto" or "none"
+        The band to take out; ``auto`` finds it in the still-water runs.
+    search : tuple of float
+        Range to find it in [Hz].
+    solidity : {"geometric", "listed"}
+        What the law of all nets takes.
+    confidence : float
+    calibration : float
+        Relative standard error of the force gauge [-].
+    phase_error : float
+        Standard error of the phase between force and velocity [rad].
+    bootstrap, seed : int
+
+    Raises
+    ------
+    InputError
+        For names that stand twice or are unknown.
+    """
+
+    title: str
+    tank: Tank
+    specimens: tuple[Specimen, ...]
+    runs: tuple[NetRun, ...]
+    cages: tuple[CageRecord, ...] = ()
+    vibration: Vibration | Literal["auto", "none"] = "auto"
+    search: tuple[float, float] = (1.5, 20.0)
+    solidity: Literal["geometric", "listed"] = "geometric"
+    confidence: float = 0.95
+    calibration: float = 0.0
+    phase_error: float = 0.0
+    bootstrap: int = 200
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        names = [run.name for run in self.runs] + [cage.name for cage in self.cages]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError(f"two runs are called '{name}'", path="runs")
+        nets = [specimen.name for specimen in self.specimens]
+        for index, name in enumerate(nets):
+            if name in nets[:index]:
+                raise InputError(f"two nets are called '{name}'", path=f"nets[{index}].name")
+        for index, run in enumerate(self.runs):
+            if run.net and run.net not in nets:
+                raise InputError(
+                    f"run {run.name} towed net '{run.net}', which is not listed",
+                    path=f"runs[{index}].net",
+                    allowed=", ".join(nets),
+                )
+            if run.frame and run.frame not in [other.name for other in self.runs if not other.net]:
+                raise InputError(
+                    f"run {run.name}: '{run.frame}' is no run of the bare frame", path=f"runs[{index}].frame"
+                )
+        if not self.runs and not self.cages:
+            raise InputError("there are no runs", path="runs")
+        if not self.cages and not any(run.net for run in self.runs):
+            raise InputError(
+                "all runs are of the bare frame", path="runs", remedy="name the net of the runs that towed one"
+            )
+        if not 0.5 <= self.confidence < 1.0:
+            raise InputError(f"confidence is {self.confidence:g}", path="confidence", allowed="0.5 to below 1")
+        if not 0.0 <= self.calibration < 0.5:
+            raise InputError(f"calibration error is {self.calibration:g}", path="calibration_error", allowed="0 to 0.5")
+
+    def specimen(self, name: str) -> Specimen:
+        """Return a net by its name."""
+        return next(specimen for specimen in self.specimens if specimen.name == name)
+
+
+@dataclass(frozen=True, eq=False)
+class NetFindings:
+    """Everything that a campaign gave.
+
+    Parameters
+    ----------
+    campaign : NetCampaign
+    search : VibrationSearch or None
+        What the spectrum of the still-water runs showed.
+    vibration : Vibration or None
+        What was taken out.
+    tows : tuple of Tow
+        All still-water runs, frame included.
+    towing : tuple of TowCoefficients
+    waves : tuple of WaveCoefficients
+    fits : tuple of WaveFit
+        In the order of ``waves``.
+    laws : tuple of PowerLaw
+        Of every net with three runs or more.
+    joint : JointLaw or None
+    tensions : tuple of (str, tuple of EndTension)
+        By run.
+    notices : tuple of Notice
+    """
+
+    campaign: NetCampaign
+    search: VibrationSearch | None
+    vibration: Vibration | None
+    tows: tuple[Tow, ...]
+    towing: tuple[TowCoefficients, ...]
+    waves: tuple[WaveCoefficients, ...]
+    fits: tuple[WaveFit, ...]
+    laws: tuple[PowerLaw, ...]
+    joint: JointLaw | None
+    tensions: tuple[tuple[str, tuple[EndTension, ...]], ...]
+    notices: tuple[Notice, ...]
+
+
+def measure_nets(campaign: NetCampaign, progress: Progress = silent) -> NetFindings:
+    """Find the coefficients of every run, the law of every net and that of all together.
+
+    Parameters
+    ----------
+    campaign : NetCampaign
+    progress : Progress
+
+    Raises
+    ------
+    InputError
+        With the name of the run that cannot be used, and why.
+    """
+    still = [run for run in campaign.runs if run.kind == "still_water"]
+    moving = [run for run in campaign.runs if run.kind != "still_water"]
+    notices: list[Notice] = []
+    for run in campaign.runs:
+        notices.extend(record_notices(run))
+    search, vibration = _vibration(campaign, still, notices)
+    total = len(still) + len(moving)
+    tows = []
+    for count, run in enumerate(still):
+        tows.append(measure_tow(run, vibration, campaign.confidence))
+        progress("runs", count + 1.0, float(total))
+    frame = frame_law([tow for tow in tows if not tow.run.net])
+    towing = _towing(campaign, tows, frame, notices)
+    fits, waves = _waves(
+        campaign, moving, vibration, notices, lambda k: progress("runs", float(len(still) + k), float(total))
+    )
+    laws, joint = _laws(campaign, towing, notices)
+    tensions = []
+    for cage in campaign.cages:
+        found, told = measure_tensions(cage)
+        tensions.append((cage.name, found))
+        notices.extend(told)
+    unique = {notice.message: notice for notice in notices}
+    return NetFindings(
+        campaign=campaign,
+        search=search,
+        vibration=vibration,
+        tows=tuple(tows),
+        towing=tuple(towing),
+        waves=tuple(waves),
+        fits=tuple(fits),
+        laws=laws,
+        joint=joint,
+        tensions=tuple(tensions),
+        notices=tuple(unique.values()),
+    )
+
+
+def _vibration(
+    campaign: NetCampaign, still: Sequence[NetRun], notices: list[Notice]
+) -> tuple[VibrationSearch | None, Vibration | None]:
+    given = campaign.vibration
+    if isinstance(given, Vibration):
+        return None, given
+    if given == "none" or not campaign.runs:
+        return None, None
+    if not still:
+        notices.append(
+            Notice(
+                "net-vibration-unknown",
+                "no still-water run shows the vibration of the carriage; none was taken out",
+                severity="warning",
+                remedy="give 'vibration: {band: [2.8 Hz, 3.3 Hz]}', or a still-water run",
+            )
+        )
+        return None, None
+    steady = [measure_tow(run, None, campaign.confidence) for run in still]
+    lowest, highest = campaign.search
+    try:
+        search = find_vibration(
+            [tow.run.step for tow in steady],
+            [tow.clean[tow.run.part(tow.window)] for tow in steady],
+            lowest=lowest,
+            highest=highest,
+        )
+    except InputError as error:
+        notices.append(
+            Notice(
+                "net-vibration-unknown",
+                f"the vibration of the carriage cannot be searched for, none was taken out: {error.fault.message}",
+                severity="warning",
+                remedy="give 'vibration: {band: [2.8 Hz, 3.3 Hz]}', or longer runs sampled faster",
+            )
+        )
+        return None, None
+    if search.found is None:
+        notices.append(
+            Notice(
+                "net-vibration-absent",
+                f"no line stands out of the spectrum of the still-water runs between {lowest:g} and "
+                f"{float(search.frequency[-1]) / 1.1:.3g} Hz; nothing was taken out",
+                severity="information",
+            )
+        )
+    return search, search.found
+
+
+def _towing(
+    campaign: NetCampaign, tows: Sequence[Tow], frame: FrameLaw | None, notices: list[Notice]
+) -> list[TowCoefficients]:
+    out = []
+    carried = [tow for tow in tows if tow.run.net]
+    if carried and frame is None:
+        notices.append(_no_frame("towed through still water"))
+    for tow in carried:
+        found, told = tow_coefficients(
+            tow, campaign.specimen(tow.run.net), campaign.tank, frame, campaign.confidence, campaign.calibration
+        )
+        out.append(found)
+        notices.extend(told)
+    lifts = [abs(item.lift) / item.drag for item in out if math.isfinite(item.lift) and item.drag > 0.0]
+    if lifts and float(np.median(lifts)) > 0.05:
+        notices.append(
+            Notice(
+                "net-lift",
+                f"the median lift is {100.0 * float(np.median(lifts)):.0f} % of the drag, where a net square to the "
+                "flow has none",
+                float(np.median(lifts)),
+                0.05,
+                "warning",
+                "check the angle of the panel and the crosstalk of the gauge",
+            )
+        )
+    return out
+
+
+def _no_frame(where: str) -> Notice:
+    return Notice(
+        "net-no-frame",
+        f"no run of the bare frame {where}: the frame's force is in the coefficients",
+        severity="warning",
+        remedy="record the bare frame in the same conditions",
+    )
+
+
+def _waves(
+    campaign: NetCampaign,
+    moving: Sequence[NetRun],
+    vibration: Vibration | None,
+    notices: list[Notice],
+    done: Callable[[int], None],
+) -> tuple[list[WaveFit], list[WaveCoefficients]]:
+    fits, waves = [], []
+    frames = [run for run in moving if not run.net]
+    tank = campaign.tank
+    for count, run in enumerate(run for run in moving if run.net):
+        specimen = campaign.specimen(run.net)
+
+        def fitted(record: NetRun, specimen: Specimen = specimen) -> WaveFit:
+            return fit_waves(
+                record,
+                tank,
+                specimen.projected_area,
+                specimen.volume,
+                vibration,
+                confidence=campaign.confidence,
+                phase_error=campaign.phase_error,
+                bootstrap=campaign.bootstrap,
+                seed=campaign.seed,
+            )
+
+        whole = fitted(run)
+        bare = _frame_run(run, frames)
+        frame = None if bare is None else fitted(bare)
+        if bare is None:
+            notices.append(_no_frame(f"in the waves of run {run.name}"))
+        elif frame is not None:
+            gap = abs(frame.found.velocity_amplitude[0] / whole.found.velocity_amplitude[0] - 1.0)
+            if gap > _SAME_WAVES and not run.frame:
+                notices.append(
+                    Notice(
+                        "net-frame-waves",
+                        f"run {run.name}: the waves of the frame's run {bare.name} differ in velocity by "
+                        f"{100.0 * gap:.0f} %; its coefficients were used",
+                        float(gap),
+                        _SAME_WAVES,
+                        "information",
+                    )
+                )
+        found, told = wave_coefficients(whole, frame, specimen, tank, campaign.confidence, campaign.calibration)
+        fits.append(whole)
+        waves.append(found)
+        notices.extend(told)
+        done(count + 1)
+    return fits, waves
+
+
+def _frame_run(run: NetRun, frames: Sequence[NetRun]) -> NetRun | None:
+    """Return the frame's run in the same waves: the one named, or the nearest in period and speed."""
+    if run.frame:
+        return next(frame for frame in frames if frame.name == run.frame)
+
+    def gap(frame: NetRun) -> float:
+        apart = 0.0
+        if run.period is not None and frame.period is not None:
+            apart += abs(frame.period / run.period - 1.0)
+        if run.kind == "towing_waves":
+            apart += abs(frame.speed / run.speed - 1.0) if run.speed > 0.0 else 0.0
+        # of frames in waves of one period, that in waves of like height
+        signals = [item.velocity if item.velocity is not None else item.elevation for item in (run, frame)]
+        if signals[0] is not None and signals[1] is not None and (run.velocity is None) == (frame.velocity is None):
+            apart += 0.1 * abs(float(signals[1].std()) / max(float(signals[0].std()), 1e-300) - 1.0)
+        return apart
+
+    near = [
+        frame
+        for frame in frames
+        if frame.kind == run.kind and frame.following == run.following and frame.regular == run.regular
+    ]
+    return min(near, key=gap) if near and gap(min(near, key=gap)) < 0.15 else None
+
+
+def _laws(
+    campaign: NetCampaign, towing: Sequence[TowCoefficients], notices: list[Notice]
+) -> tuple[tuple[PowerLaw, ...], JointLaw | None]:
+    laws = []
+    good = [item for item in towing if item.drag > 0.0]
+    for specimen in campaign.specimens:
+        own = [item for item in good if item.net == specimen.name]
+        if len(own) < 3:
+            continue
+        try:
+            laws.append(
+                fit_power_law(
+                    specimen.name,
+                    [item.reynolds for item in own],
+                    [item.drag for item in own],
+                    [item.drag_error for item in own],
+                    campaign.confidence,
+                )
+            )
+        except InputError as error:
+            notices.append(Notice("net-law", error.fault.message, remedy=error.fault.remedy, severity="information"))
+    if not good:
+        return (), None
+    nets = [campaign.specimen(item.net).net for item in good]
+    try:
+        joint = fit_joint_law(
+            [item.net for item in good],
+            [item.reynolds for item in good],
+            [item.drag for item in good],
+            [item.drag_error for item in good],
+            [net.solidity if campaign.solidity == "geometric" else net.listed for net in nets],
+            [net.twine_diameter for net in nets],
+            confidence=campaign.confidence,
+        )
+    except InputError as error:
+        text = f"no law of solidity and diameter: {error.fault.message}"
+        notices.append(Notice("net-joint-law", text, severity="information", remedy=error.fault.remedy))
+        return tuple(laws), None
+    if joint.left_out_error >= joint.pooled_error:
+        notices.append(
+            Notice(
+                "net-joint-law",
+                "A and B as functions of solidity and diameter predict a net left out no better than one power law for "
+                f"all ({joint.left_out_error:.3f} against {joint.pooled_error:.3f} in ln C_D)",
+                joint.left_out_error,
+                joint.pooled_error,
+                "information",
+                "use the one power law, or tow more nets",
+            )
+        )
+    return tuple(laws), joint

@@ -1,0 +1,1 @@
+"""Files that describe net tests: schema, and the campaign that they state."""

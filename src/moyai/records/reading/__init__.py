@@ -1,0 +1,1 @@
+"""Reading of measured files: sources, text, arrays, clocks, sensors, quality."""

@@ -1,0 +1,408 @@
+"""From the files of a logger to records in SI, by the chunk: units, missing values, instants, the clock's error.
+
+Memory stays bounded by the length of a chunk, so that weeks at 10 Hz pass through.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.units import Unit, parse_unit
+from moyai.core.validity import Notice
+from moyai.records.reading import arrays as read_arrays
+from moyai.records.reading.record import FloatArray, Record, concatenate, instant_text
+from moyai.records.reading.sources import SECONDS_PER, ColumnSource, LoggerSource
+from moyai.records.reading.text import RawChunk, line_of_row, read_text, stated_unit
+
+CHUNK_ROWS = 131_072
+"""Rows read at a time: 10 MB for ten channels."""
+
+_DATENUM_1970 = 719529.0
+
+
+def si_symbol(unit: Unit) -> str:
+    """Return the SI symbol of a unit's dimension: ``N`` for tf, ``m/s`` for kn, ``rad`` for deg."""
+    found = unit.dimension
+    for symbol in ("m", "s", "kg", "N", "Pa", "rad", "m/s", "m/s2", "rad/s", "N/m", "N m", "m2", "m3", "kg/m3", "Hz"):
+        candidate = parse_unit(symbol)
+        if candidate.dimension == found and (symbol != "Hz" or unit.symbol == "Hz"):
+            return symbol
+    upper, lower = [], []
+    exponents = {"m": found.length, "kg": found.mass, "s": found.time, "rad": found.angle}
+    for symbol, exponent in exponents.items():
+        text = symbol + (str(abs(exponent)) if abs(exponent) > 1 else "")
+        if exponent > 0:
+            upper.append(text)
+        elif exponent < 0:
+            lower.append(text)
+    text = " ".join(upper) or ("1" if lower else "")
+    return text + ("/" + (lower[0] if len(lower) == 1 else f"({' '.join(lower)})") if lower else "")
+
+
+def read_record(source: LoggerSource, *, start: float = -math.inf, end: float = math.inf) -> Record:
+    """Read a logger whole; see :func:`read_chunks` for long ones.
+
+    Parameters
+    ----------
+    source : LoggerSource
+    start, end : float
+        Part to keep [s].
+
+    Returns
+    -------
+    Record
+
+    Raises
+    ------
+    InputError
+        With file, row and column of what is wrong.
+    """
+    return concatenate(chunk.between(start, end) for chunk in read_chunks(source))
+
+
+def read_chunks(source: LoggerSource, rows: int = CHUNK_ROWS) -> Iterator[Record]:
+    """Yield the record of a logger in chunks of at most ``rows`` rows, in SI and on the corrected clock.
+
+    Parameters
+    ----------
+    source : LoggerSource
+    rows : int
+        Rows of a chunk.
+
+    Yields
+    ------
+    Record
+
+    Raises
+    ------
+    InputError
+        With file, row and column of what is wrong: no number, time that does not increase, unknown unit, a column
+        without any value.
+    """
+    names = tuple(column.name for column in source.columns)
+    clock = _Clock(source)
+    holds_value = np.zeros(len(names), dtype=bool)
+    seen = 0
+    for path in source.files:
+        if not path.is_file():
+            raise InputError(f"no such file: {path}", path="files")
+        units = [_unit_of(path, source, column) for column in source.columns]
+        clock.open(path)
+        for raw in _raw(path, source, rows):
+            values = np.column_stack(
+                [_values(raw.columns[column.column], column, unit[0]) for column, unit in zip(source.columns, units)]
+            )
+            time, kept, notices = clock.instants(raw)
+            holds_value |= np.isfinite(values).any(axis=0)
+            seen += len(raw)
+            values = values if kept is None else values[kept]
+            if time.size:
+                symbols = tuple(unit[1] for unit in units)
+                yield Record(time, values, names, symbols, clock.dated, path.name, notices=notices)
+    if seen and not holds_value.all():
+        column = source.columns[int(np.argmin(holds_value))]
+        raise InputError(
+            f"{_file_names(source)}, column '{column.column}' holds no value at all in {seen} rows",
+            path=f"channels.{column.name}",
+            remedy="check the column, and the signs of 'missing'",
+        )
+
+
+def _file_names(source: LoggerSource) -> str:
+    first = source.files[0].name
+    return first if len(source.files) == 1 else f"{first} and {len(source.files) - 1} more"
+
+
+def _raw(path: Path, source: LoggerSource, rows: int) -> Iterator[RawChunk]:
+    form = source.format_of(path)
+    wanted = [column.column for column in source.columns]
+    stamps = list(source.time.columns)
+    if form == "csv":
+        if source.time.form == "number":
+            yield from read_text(path, source, [*wanted, *stamps], [], rows)
+        else:
+            yield from read_text(path, source, wanted, stamps, rows)
+        return
+    for column in (*wanted, *stamps):
+        if not isinstance(column, str):
+            raise InputError(f"{path.name}: columns of {form} files have names", path="column", remedy="write the name")
+    names = list(dict.fromkeys(str(column) for column in (*wanted, *stamps)))
+    readers = {"mat": read_arrays.read_mat, "netcdf": read_arrays.read_netcdf, "parquet": read_arrays.read_parquet}
+    yield from readers[form](path, names, rows)
+
+
+def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Unit, str]:
+    """Return the unit of a column and its SI symbol; what the file states and the configuration says must agree."""
+    form = source.format_of(path)
+    stated = ""
+    if form == "csv":
+        stated = stated_unit(path, source, column.column)
+    elif form == "netcdf":
+        stated = read_arrays.netcdf_unit(path, str(column.column))
+    elif form == "parquet":
+        stated = read_arrays.parquet_unit(path, str(column.column))
+    place = f"{path.name}, column '{column.column}'"
+    own = _parsed(_spelled(stated)) if stated else None
+    if column.unit:
+        try:
+            unit = parse_unit(column.unit) if column.unit != "1" else parse_unit("%") ** 0
+        except InputError as error:
+            raise InputError(f"{place}: {error.fault.message}", path="unit", remedy=error.fault.remedy) from None
+        if own is not None and (own.factor, own.pi_power, own.dimension) != (
+            unit.factor,
+            unit.pi_power,
+            unit.dimension,
+        ):
+            raise InputError(
+                f"{place} states the unit [{stated}] and the configuration says '{column.unit}'",
+                path="unit",
+                remedy="leave 'unit' out, or rename the column if its heading is wrong",
+            )
+        return unit, si_symbol(unit)
+    if own is None:
+        if form == "mat":  # which states no units: is the variable there at all?
+            read_arrays.check_mat(path, str(column.column))
+        told = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
+        raise InputError(f"{place} {told}", path=f"channels.{column.name}.unit", remedy="give 'unit'")
+    return own, si_symbol(own)
+
+
+def _spelled(unit: str) -> str:
+    """Return ``m s-1`` of CF files and ``degrees`` in our spelling."""
+    words = {"degree": "deg", "degrees": "deg", "meter": "m", "metre": "m", "meters": "m", "seconds": "s", "Nm": "N m"}
+    return words.get(unit.strip(), unit.strip())
+
+
+def _parsed(unit: str) -> Unit | None:
+    try:
+        return parse_unit("%") ** 0 if unit in ("1", "-") else parse_unit(unit)
+    except InputError:
+        return None
+
+
+def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit) -> FloatArray:
+    values = np.asarray(raw, dtype=np.float64)
+    for sign in column.missing:
+        values = np.where(np.isclose(values, sign, rtol=1e-6, atol=1e-9), np.nan, values)
+    values = np.where(np.isfinite(values), values, np.nan)
+    factor = unit.to_si(Fraction(1))
+    if column.scale == 1.0 and column.offset == 0.0:
+        return values if factor == 1.0 else values * factor
+    return (values * column.scale + column.offset) * factor
+
+
+class _Clock:
+    """Turns the stamps of chunk after chunk into instants, and remembers where the last one was."""
+
+    def __init__(self, source: LoggerSource) -> None:
+        self.source = source
+        self.time = source.time
+        self.dated = source.time.dated
+        self.last = -math.inf
+        self.count = 0
+        self.anchor = math.nan
+        self.anchor_count = 0
+        self.reference = source.clock.reference
+        self.path = source.files[0]
+        self.file_has_epoch = False
+
+    def open(self, path: Path) -> None:
+        """Begin a file."""
+        self.path = path
+        form = self.source.format_of(path)
+        if not self.time.columns or self.time.form != "number" or form in ("csv", "mat"):
+            return
+        column = str(self.time.columns[0])
+        if form == "netcdf":
+            self.file_has_epoch = " since " in read_arrays.netcdf_unit(path, column)
+        elif form == "parquet":
+            self.file_has_epoch, zone = read_arrays.parquet_stamps(path, column)
+            if zone and self.time.utc_offset != 0.0:
+                raise InputError(
+                    f"{path.name}, column '{column}' knows its time zone ({zone})",
+                    path="time.utc_offset",
+                    remedy="leave 'utc_offset' out: it would count twice",
+                )
+        self.dated = self.dated or self.file_has_epoch
+
+    def instants(self, raw: RawChunk) -> tuple[FloatArray, NDArray[np.bool_] | None, tuple[Notice, ...]]:
+        """Return the instants of a chunk, the rows that are kept (None: all) and notices."""
+        source, rows = self.time, len(raw)
+        if source.columns:
+            stamps = self._stamps(raw)
+            bad = ~np.isfinite(stamps)
+            if bad.any():
+                row = int(np.argmax(bad))
+                raise InputError(f"{self._place(raw, row)}: there is no time", path="time")
+            time = self._spread(stamps) if source.rate > 0.0 else stamps
+        else:
+            start = source.start if math.isfinite(source.start) else 0.0
+            time = start + (self.count + np.arange(rows)) / source.rate
+        self.count += rows
+        time, kept, notices = self._in_order(time, raw)
+        return self._corrected(time), kept, notices
+
+    def _stamps(self, raw: RawChunk) -> FloatArray:
+        source = self.time
+        columns = [raw.columns[column] for column in source.columns]
+        if source.form == "number":
+            seconds = np.asarray(columns[0], dtype=np.float64)
+            if self.file_has_epoch:
+                return seconds - source.utc_offset
+            if source.unit == "datenum":
+                return (seconds - _DATENUM_1970) * 86400.0 - source.utc_offset
+            start = source.start if math.isfinite(source.start) else 0.0
+            return start + seconds * SECONDS_PER[source.unit]
+        return self._dates(columns, raw) - source.utc_offset
+
+    def _dates(self, columns: list[NDArray[Any]], raw: RawChunk) -> FloatArray:
+        import pandas as pd
+
+        text = pd.Series(columns[0], dtype="object").astype(str)
+        for further in columns[1:]:
+            text = text + " " + pd.Series(further, dtype="object").astype(str)
+        form = "ISO8601" if self.time.form == "iso" else self.time.form
+        zoned = self.time.form == "iso" or "%z" in self.time.form
+        own_zone = re.search(r":[\d.,]+\s*(Z|[+-]\d\d:?(\d\d)?)\s*$", text.iloc[0]) if zoned and len(text) else None
+        if self.time.utc_offset != 0.0 and own_zone is not None:
+            raise InputError(
+                f"{self._place(raw, 0)}: '{text.iloc[0][:40]}' states its own offset from UTC ({own_zone[1]})",
+                path="time.utc_offset",
+                remedy="leave 'utc_offset' out: it would count twice",
+            )
+        try:
+            found = pd.to_datetime(text, format=form, utc=True)
+        except (ValueError, TypeError):
+            each = pd.to_datetime(text, format=form, utc=True, errors="coerce")
+            row = int(np.argmax(each.isna().to_numpy())) if each.isna().any() else 0
+            raise InputError(
+                f"{self._place(raw, row)}: '{text.iloc[row][:40]}' does not fit the time format '{self.time.form}'",
+                path="time.format",
+                remedy="for instance '%Y/%m/%d %H:%M:%S.%f' or iso",
+            ) from None
+        return np.asarray(found.dt.tz_localize(None).to_numpy("datetime64[ns]").astype(np.int64) * 1e-9)
+
+    def _spread(self, stamps: FloatArray) -> FloatArray:
+        """Count samples at the rate from the first stamp on, anew after every gap; equation [eq:records-spread]."""
+        rate = self.time.rate
+        steps = np.diff(stamps)
+        positive = steps[steps > 0.0]
+        resolution = float(np.min(positive)) if positive.size else 1.0
+        slack = max(resolution, 1.0 / rate) * 1.5
+        time = np.empty_like(stamps)
+        if math.isnan(self.anchor):
+            self.anchor, self.anchor_count = float(stamps[0]), 0
+        begin = 0
+        while begin < stamps.size:
+            counted = self.anchor + (self.anchor_count + np.arange(stamps.size - begin)) / rate
+            off = np.abs(stamps[begin:] - counted) > slack
+            stop = begin + int(np.argmax(off)) if off.any() else stamps.size
+            time[begin:stop] = counted[: stop - begin]
+            self.anchor_count += stop - begin
+            if stop < stamps.size:
+                # A backward stamp stays as it is: the order of time is judged later
+                self.anchor, self.anchor_count = float(stamps[stop]), 0
+                if stop == begin:
+                    time[stop] = stamps[stop]
+                    self.anchor_count, stop = 1, stop + 1
+            begin = stop
+        return time
+
+    def _in_order(
+        self, time: FloatArray, raw: RawChunk
+    ) -> tuple[FloatArray, NDArray[np.bool_] | None, tuple[Notice, ...]]:
+        before = np.concatenate([[self.last], time[:-1]])
+        if not (time <= before).any():
+            self.last = float(time[-1])
+            return time, None, ()
+        highest = np.maximum.accumulate(before)
+        late = time <= highest
+        row = int(np.argmax(late))
+        told = (
+            f"{self._place(raw, row)}: the time {instant_text(time[row], self.dated)} does not come after "
+            f"{instant_text(highest[row], self.dated)}"
+        )
+        if self.time.order == "strict":
+            remedy = "sort or cut the file, or say 'order: drop' to leave such rows out"
+            if time[row] == highest[row] and not self.time.rate > 0.0:
+                remedy = "give 'rate' where the logger writes whole seconds, or " + remedy
+            raise InputError(told, path="time", remedy=remedy)
+        kept = ~late
+        if kept.any():
+            self.last = float(time[kept][-1])
+        count = int(late.sum())
+        notice = Notice("time-order", f"{count} rows left out: {told}", float(count), 0.0, remedy="check the logger")
+        return time[kept], kept, (notice,)
+
+    def _corrected(self, time: FloatArray) -> FloatArray:
+        """Return the instants of a true clock [eq:records-clock]."""
+        clock = self.source.clock
+        if (clock.offset == 0.0 and clock.drift == 0.0) or not time.size:
+            return time
+        if math.isnan(self.reference):
+            self.reference = float(time[0])
+        return time + clock.offset + clock.drift * (time - self.reference)
+
+    def _place(self, raw: RawChunk, row: int) -> str:
+        if self.source.format_of(self.path) == "csv":
+            return f"{self.path.name} line {line_of_row(self.path, self.source, raw.first + row)}"
+        return f"{self.path.name} row {raw.first + row + 1}"
+
+
+@dataclass(frozen=True)
+class Block:
+    """Number of a block of time and the record in it."""
+
+    index: int
+    record: Record
+
+
+def blocks(chunks: Iterator[Record], origin: float, length: float) -> Iterator[Block]:
+    """Cut a stream of chunks into blocks ``origin + i length`` [s]; blocks without a sample are left out.
+
+    Parameters
+    ----------
+    chunks : iterator of Record
+    origin, length : float
+        Start of block 0 and the length of a block [s].
+    """
+    waiting: list[Record] = []
+    current: int | None = None
+    for chunk in chunks:
+        # A sample that stands on the border by rounding belongs to the later block
+        numbers = np.floor((chunk.time - origin) / length + 1e-9).astype(np.int64)
+        borders = np.flatnonzero(np.diff(numbers)) + 1
+        for first, last in zip([0, *borders.tolist()], [*borders.tolist(), len(chunk)]):
+            index = int(numbers[first])
+            if current is not None and index != current and waiting:
+                yield Block(current, concatenate(waiting))
+                waiting = []
+            current = index
+            waiting.append(chunk.rows(slice(first, last)))
+    if waiting and current is not None:
+        yield Block(current, concatenate(waiting))
+
+
+def aligned(streams: list[Iterator[Block]]) -> Iterator[tuple[int, list[Record | None]]]:
+    """Yield the blocks of several loggers side by side; ``None`` where a logger has no sample in a block."""
+    heads: list[Block | None] = [next(stream, None) for stream in streams]
+    while any(head is not None for head in heads):
+        index = min(head.index for head in heads if head is not None)
+        row: list[Record | None] = []
+        for place, head in enumerate(heads):
+            if head is not None and head.index == index:
+                row.append(head.record)
+                heads[place] = next(streams[place], None)
+            else:
+                row.append(None)
+        yield index, row

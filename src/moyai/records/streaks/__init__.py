@@ -1,0 +1,23 @@
+"""Streak images: camera, streaks, drift velocity, circulation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from moyai.core.kinds import Kind
+from moyai.core.results import Result
+
+
+class StreaksKind(Kind):
+    """The parts of this folder, each imported when it is asked for."""
+
+    name = "streaks"
+    package = __name__
+
+    def compose(self, result: Result) -> Any:
+        from moyai.records.streaks.report.page import compose
+
+        return compose(result)
+
+
+KIND = StreaksKind()

@@ -1,0 +1,1 @@
+"""Files that describe streak images: schema, and the campaign that they state."""

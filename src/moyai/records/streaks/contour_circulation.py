@@ -1,0 +1,327 @@
+"""Circulation of scattered drift velocities along contours similar to the section, and its limit at the section."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.records.streaks.drift_interpolation import (
+    Interpolation,
+    interpolation_matrix,
+    outliers,
+    remainder_smoothing,
+    trend,
+)
+
+FloatArray = NDArray[np.float64]
+
+Extrapolation = Literal["stokes", "linear"]
+
+
+@dataclass(frozen=True, eq=False)
+class Circulation:
+    """Circulation around a section, about +y (clockwise with x to the right, z up).
+
+    Parameters
+    ----------
+    size_ratio : ndarray
+        Sizes Bc/B of the contours.
+    value, deviation : ndarray
+        Circulation of each contour [m2/s] and its standard error from resampling the particles; NaN where the contour
+        leaves the cloud of particles.
+    limit, limit_interval : float, (float, float)
+        Circulation G without the Stokes drift, and its confidence interval [m2/s].
+    stokes_term : float
+        The c of G + c (B/Bc)^4 [m2/s].
+    linear, linear_interval : float, (float, float)
+        Straight line through all contours at Bc/B = 1, as the paper does [m2/s].
+    confidence : float
+        Level of the intervals.
+    samples : ndarray, shape (samples, contours)
+        Circulation of the resampled clouds [m2/s].
+    outlier : ndarray of bool, shape (particles,)
+        Particles left out because they lie off their neighbours.
+    notices : tuple of Notice
+    """
+
+    size_ratio: FloatArray
+    value: FloatArray
+    deviation: FloatArray
+    limit: float
+    limit_interval: tuple[float, float]
+    stokes_term: float
+    linear: float
+    linear_interval: tuple[float, float]
+    confidence: float
+    samples: FloatArray
+    outlier: NDArray[np.bool_]
+    notices: tuple[Notice, ...] = field(default_factory=tuple)
+
+
+def contour_points(outline: FloatArray, size_ratio: float, count: int = 96) -> FloatArray:
+    """Return points along a contour similar to the section, evenly spaced, the first one repeated at the end.
+
+    Parameters
+    ----------
+    outline : ndarray, shape (n, 2)
+        Closed outline about the centre of the section [m].
+    size_ratio : float
+        Bc/B.
+    count : int
+        Number of intervals.
+    """
+    closed = np.asarray(outline, dtype=float)
+    if not np.allclose(closed[0], closed[-1]):
+        closed = np.vstack([closed, closed[:1]])
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))])
+    # Corners stay points of the contour, so that no length is cut off
+    along = np.union1d(np.linspace(0.0, length[-1], count + 1), length if len(closed) <= 12 else length[[0, -1]])
+    return size_ratio * np.column_stack([np.interp(along, length, closed[:, axis]) for axis in (0, 1)])
+
+
+def line_integral(points: FloatArray, velocity: FloatArray) -> float:
+    """Return the circulation about +y by the trapezoidal rule [eq:streaks-circulation].
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        Closed contour in either sense [m].
+    velocity : ndarray, shape (n, 2)
+        Velocity at the points [m/s].
+    """
+    step = np.diff(points, axis=0)
+    total = float((0.5 * (velocity[1:] + velocity[:-1]) * step).sum())
+    x, z = points[:, 0], points[:, 1]
+    doubled_area = float((x[:-1] * z[1:] - x[1:] * z[:-1]).sum())
+    # A contour of positive area runs from x to z, which is negative about +y
+    return -math.copysign(total, total * doubled_area)
+
+
+def extrapolate_stokes(
+    size_ratio: ArrayLike, circulation: ArrayLike, *, least: float = 1.5, weights: ArrayLike | None = None
+) -> tuple[float, float]:
+    """Fit G + c (B/Bc)^4 to contours of Bc/B >= ``least`` [eq:streaks-extrapolation].
+
+    Parameters
+    ----------
+    size_ratio, circulation : array_like
+        Bc/B and circulation [m2/s]; unknown ones (NaN) are left out.
+    least : float
+        Smallest contour that takes part.
+    weights : array_like, optional
+        Inverse variances.
+
+    Returns
+    -------
+    tuple of float
+        G and c [m2/s].
+
+    Raises
+    ------
+    InputError
+        When fewer than two contours are left.
+    """
+    ratio, value, weight = _usable(size_ratio, circulation, weights, least)
+    if ratio.size < 2:
+        raise InputError(
+            f"{ratio.size} contour(s) of Bc/B >= {least:g} with a circulation are left: the fit needs two",
+            path="contours",
+            remedy="ask for larger contours, or give pictures of a larger field",
+        )
+    basis = np.column_stack([np.ones_like(ratio), ratio**-4.0])
+    root = np.sqrt(weight)[:, None]
+    solution = np.linalg.lstsq(basis * root, value * root[:, 0], rcond=None)[0]
+    return float(solution[0]), float(solution[1])
+
+
+def extrapolate_linear(size_ratio: ArrayLike, circulation: ArrayLike, *, weights: ArrayLike | None = None) -> float:
+    """Return a straight line through all contours at Bc/B = 1, the way of the paper [m2/s].
+
+    Raises
+    ------
+    InputError
+        When fewer than two contours have a circulation.
+    """
+    ratio, value, weight = _usable(size_ratio, circulation, weights, 0.0)
+    if ratio.size < 2:
+        raise InputError(f"{ratio.size} contour(s) have a circulation: a line needs two", path="contours")
+    root = np.sqrt(weight)
+    slope, base = np.polyfit(ratio - 1.0, value, 1, w=root)
+    return float(base) if math.isfinite(slope) else math.nan
+
+
+def _usable(
+    size_ratio: ArrayLike, circulation: ArrayLike, weights: ArrayLike | None, least: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    ratio, value = np.asarray(size_ratio, dtype=float), np.asarray(circulation, dtype=float)
+    weight = np.ones_like(ratio) if weights is None else np.asarray(weights, dtype=float)
+    kept = np.isfinite(value) & np.isfinite(weight) & (ratio >= least - 1e-12)
+    return ratio[kept], value[kept], weight[kept]
+
+
+@checks_words
+def measure_circulation(
+    position: ArrayLike,
+    drift: ArrayLike,
+    outline: ArrayLike,
+    size_ratio: ArrayLike,
+    *,
+    deviation: ArrayLike | None = None,
+    method: Interpolation = "spline",
+    least_ratio: float = 1.5,
+    resamples: int = 200,
+    confidence: float = 0.95,
+    seed: int = 0,
+    progress: Progress = silent,
+) -> Circulation:
+    """Measure the circulation around a section from scattered drift velocities.
+
+    Parameters
+    ----------
+    position, drift : array_like, shape (particles, 2)
+        Mean positions relative to the centre of the section [m] and drift velocities [m/s], settling and mass
+        transport taken off.
+    outline : array_like, shape (n, 2)
+        Outline of the section about its centre [m].
+    size_ratio : array_like
+        Sizes Bc/B of the contours, at least two.
+    deviation : array_like, optional
+        Standard error of every drift velocity [m/s], for weights; all alike when absent.
+    method : {"spline", "triangles"}
+        Smoothing thin-plate spline over the trend of a vortex, or plain linear interpolation between neighbours.
+    least_ratio : float
+        Smallest contour for the fit with the Stokes term.
+    resamples : int
+        Number of resampled clouds behind the intervals; 0 for none.
+    confidence : float
+        Level of the intervals.
+    seed : int
+        Of the resampling.
+    progress : Progress
+
+    Returns
+    -------
+    Circulation
+
+    Raises
+    ------
+    InputError
+        When there are too few particles, or no contour lies within their cloud.
+    """
+    points = np.asarray(position, dtype=float)
+    vectors = np.asarray(drift, dtype=float)
+    ratio = np.asarray(size_ratio, dtype=float)
+    shape = np.asarray(outline, dtype=float)
+    if len(points) < 12:
+        raise InputError(
+            f"{len(points)} drift velocities are too few for a circulation", path="drift", allowed="at least 12"
+        )
+    if ratio.size < 2 or np.any(ratio < 1.0):
+        raise InputError("give at least two contours, none smaller than the section", path="contours")
+    error = np.ones(len(points)) if deviation is None else np.asarray(deviation, dtype=float)
+    length = float(np.ptp(shape[:, 0]))
+    outlier = outliers(points, vectors, error, length)
+    points, vectors, error = points[~outlier], vectors[~outlier], error[~outlier]
+    contours = [contour_points(shape, item) for item in ratio]
+    targets = np.vstack(contours)
+    limits = np.cumsum([0, *(len(item) for item in contours)])
+
+    def evaluate(weight: FloatArray, smoothing: float | None) -> FloatArray:
+        chosen = weight > 0.0
+        place, value = points[chosen], vectors[chosen]
+        spread = error[chosen] / np.sqrt(weight[chosen])
+        if method == "spline":
+            base, at_points = trend(place, value, spread, length, targets)
+            field_values = at_points + interpolation_matrix(place, targets, spread, smoothing or 0.0) @ (value - base)
+        else:
+            field_values = interpolation_matrix(place, targets, spread, None) @ value
+        pieces = [slice(limits[i], limits[i + 1]) for i in range(ratio.size)]
+        return np.array([line_integral(targets[piece], field_values[piece]) for piece in pieces])
+
+    whole = np.ones(len(points))
+    smoothing = remainder_smoothing(points, vectors, error, length) if method == "spline" else None
+    inside = _covered(points, contours)
+    value = np.where(inside, evaluate(whole, smoothing), np.nan)
+    if not np.isfinite(value).any():
+        raise InputError(
+            "no contour lies within the cloud of particles",
+            path="contours",
+            remedy="choose sizes Bc/B within the pictures",
+        )
+    generator = np.random.default_rng(seed)
+    samples = np.full((resamples, ratio.size), np.nan)
+    for index in range(resamples):
+        progress("circulation", index, resamples)
+        weight = np.bincount(generator.integers(0, len(points), len(points)), minlength=len(points)).astype(float)
+        samples[index] = np.where(inside, evaluate(weight, smoothing), np.nan)
+    if resamples:
+        progress("circulation", resamples, resamples)
+    return _summary(ratio, value, samples, least_ratio, confidence, inside, outlier)
+
+
+def _summary(
+    ratio: FloatArray,
+    value: FloatArray,
+    samples: FloatArray,
+    least: float,
+    confidence: float,
+    inside: NDArray[np.bool_],
+    outlier: NDArray[np.bool_],
+) -> Circulation:
+    spread = np.full(ratio.size, np.nan)
+    if len(samples) > 2:
+        spread[inside] = samples[:, inside].std(axis=0, ddof=1)
+    limit, term = extrapolate_stokes(ratio, value, least=least)
+    line = extrapolate_linear(ratio, value)
+    tails = (50.0 * (1.0 - confidence), 50.0 * (1.0 + confidence))
+    limit_interval = line_interval = (math.nan, math.nan)
+    if len(samples) > 2:
+        limits = [extrapolate_stokes(ratio, item, least=least)[0] for item in samples]
+        lines = [extrapolate_linear(ratio, item) for item in samples]
+        limit_interval = (float(np.percentile(limits, tails[0])), float(np.percentile(limits, tails[1])))
+        line_interval = (float(np.percentile(lines, tails[0])), float(np.percentile(lines, tails[1])))
+    notices = []
+    if not inside.all():
+        left = ", ".join(f"{item:g}" for item in ratio[~inside])
+        notices.append(
+            Notice(
+                "contour-outside-particles",
+                f"contours of Bc/B = {left} leave the cloud of particles and are left out",
+                value=float(ratio[~inside].min()),
+                limit=float(ratio[inside].max()),
+                remedy="choose smaller contours, or give pictures of a larger field",
+            )
+        )
+    return Circulation(
+        ratio,
+        value,
+        spread,
+        limit,
+        limit_interval,
+        term,
+        line,
+        line_interval,
+        confidence,
+        samples,
+        outlier,
+        tuple(notices),
+    )
+
+
+def _covered(points: FloatArray, contours: list[FloatArray]) -> NDArray[np.bool_]:
+    """Whether each contour lies within the hull of the particles."""
+    from scipy.spatial import Delaunay, QhullError
+
+    try:
+        hull = Delaunay(points)
+    except QhullError:
+        raise InputError("the particles lie on one line", path="drift") from None
+    return np.array([bool(np.all(hull.find_simplex(item) >= 0)) for item in contours])

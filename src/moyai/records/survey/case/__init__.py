@@ -1,0 +1,1 @@
+"""Files that describe a survey: schema, and the survey that they state."""

@@ -1,0 +1,226 @@
+"""A survey: loggers whose records are worked off block by block. What is to be done, frozen and checked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.records.reading.quality import QualityOptions
+from moyai.records.reading.record import FloatArray
+from moyai.records.reading.sensors import Sensor
+from moyai.records.reading.sources import LoggerSource
+from moyai.records.spectra import WelchOptions
+from moyai.records.waves import WaveOptions
+from moyai.sea.water import Water
+
+ChannelKind = Literal[
+    "elevation", "pressure", "velocity_x", "velocity_y", "velocity_z", "slope_x", "slope_y", "displacement_x",
+    "displacement_y", "acceleration_z", "speed", "direction", "tension", "force", "motion", "rotation", "other",
+]  # fmt: skip
+
+UNITS_OF_KINDS = {
+    "elevation": "m", "pressure": "Pa", "velocity_x": "m/s", "velocity_y": "m/s", "velocity_z": "m/s",
+    "displacement_x": "m", "displacement_y": "m", "acceleration_z": "m/s2", "speed": "m/s", "direction": "rad",
+    "tension": "N", "force": "N", "motion": "m", "rotation": "rad",
+}  # fmt: skip
+"""SI unit that a channel of each kind must have; kinds that are absent may have any."""
+
+
+@checks_words
+@dataclass(frozen=True)
+class ChannelUse:
+    """What a channel is and where.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+    sensor : Sensor, optional
+        For quantities of waves.
+    quality : QualityOptions
+    """
+
+    name: str
+    kind: ChannelKind
+    sensor: Sensor | None
+    quality: QualityOptions
+
+
+@dataclass(frozen=True)
+class Spectral:
+    """How spectra are taken, and in which band [Hz] their figures."""
+
+    options: WelchOptions
+    lowest: float
+    highest: float
+
+
+@dataclass(frozen=True)
+class Directions:
+    """Channels of the directional analysis; ``entropy`` fits the whole spectrum in every block."""
+
+    channels: tuple[str, ...]
+    entropy: bool = False
+
+
+@dataclass(frozen=True)
+class CurrentUse:
+    """Channels of the current: velocities along x and y, or speed and direction.
+
+    Parameters
+    ----------
+    x, y : str
+        Velocity channels, or speed and direction where ``polar``.
+    polar : bool
+    bearing : bool
+        Whether the direction is a compass bearing (towards which the current goes).
+    normal_heading : float
+        Heading of the structure's normal [rad], NaN where there is none.
+    """
+
+    x: str
+    y: str
+    polar: bool = False
+    bearing: bool = False
+    normal_heading: float = math.nan
+
+
+@checks_words
+@dataclass(frozen=True)
+class TensionUse:
+    """A tension channel and how it is split.
+
+    Parameters
+    ----------
+    channel : str
+    group : str
+        Type of structure or of anchor it belongs to.
+    steady : {"mean", "median", "low_pass"}
+    cutoff : float
+        Period of the low pass [s].
+    snap_limit : float
+        Rise over the steady part that counts as a snap [N]; infinite counts none.
+    """
+
+    channel: str
+    group: str
+    steady: Literal["mean", "median", "low_pass"] = "median"
+    cutoff: float = 30.0
+    snap_limit: float = math.inf
+
+
+LoadMeasure = Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]
+"""From wave height, period, angle and current of the blocks to what loads the structure."""
+
+
+@dataclass(frozen=True)
+class ReflectionUse:
+    """Gauges in front of and behind a structure, with their positions along the waves [m]."""
+
+    front: tuple[str, ...]
+    front_positions: tuple[float, ...]
+    rear: tuple[str, ...] = ()
+    rear_positions: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class ResponseUse:
+    """Motions (or any channels) whose response to a wave channel is wanted."""
+
+    wave: str
+    channels: tuple[str, ...]
+    least_coherence: float = 0.0
+
+
+@dataclass(frozen=True)
+class Survey:
+    """Everything that ``moyai measure records`` does.
+
+    Parameters
+    ----------
+    title : str
+    loggers : tuple of LoggerSource
+    channels : tuple of ChannelUse
+        Of all loggers.
+    block_length : float
+        [s].
+    block_start : float
+        An instant at which a block begins [s]; NaN: whole multiples of the length (dated), or the first sample.
+    water : Water, optional
+    x_axis_bearing : float
+        Compass bearing of +x [rad], NaN where unknown.
+    waves : tuple of str
+        Channels that are cut into waves.
+    wave_options : WaveOptions
+    spectral : Spectral, optional
+    directions : Directions, optional
+    current : CurrentUse, optional
+    tensions : tuple of TensionUse
+    wave_of_tensions : str
+        Wave channel whose waves the tensions are matched to.
+    tension_lag : float
+        Travel time from the gauge to the float [s].
+    largest_lag : float
+        How far the lag may be refined by correlation [s].
+    normal_heading : float
+        Heading of the structure's normal [rad].
+    reflection : ReflectionUse, optional
+    load_measure : callable, optional
+        From H1/3 [m], T1/3 [s], angle from the normal [rad] and normal current [m/s] to the squared velocity that loads
+        a curtain [m2/s2].
+    responses : ResponseUse, optional
+    case_text, case_hash : str
+    """
+
+    title: str
+    loggers: tuple[LoggerSource, ...]
+    channels: tuple[ChannelUse, ...]
+    block_length: float
+    block_start: float = math.nan
+    water: Water | None = None
+    x_axis_bearing: float = math.nan
+    waves: tuple[str, ...] = ()
+    wave_options: WaveOptions = field(default_factory=WaveOptions)
+    spectral: Spectral | None = None
+    directions: Directions | None = None
+    current: CurrentUse | None = None
+    tensions: tuple[TensionUse, ...] = ()
+    wave_of_tensions: str = ""
+    tension_lag: float = 0.0
+    largest_lag: float = 0.0
+    normal_heading: float = math.nan
+    reflection: ReflectionUse | None = None
+    load_measure: LoadMeasure | None = None
+    responses: ResponseUse | None = None
+    case_text: str = ""
+    case_hash: str = ""
+
+    def __post_init__(self) -> None:
+        names = [column.name for logger in self.loggers for column in logger.columns]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise InputError(f"two channels are named '{twice}'", path="loggers", remedy="rename one")
+        known = {channel.name for channel in self.channels}
+        wanted = {
+            "waves.channels": self.waves,
+            "directions.channels": self.directions.channels if self.directions else (),
+            "current": (self.current.x, self.current.y) if self.current else (),
+            "tensions": tuple(entry.channel for entry in self.tensions),
+            "reflection": (*self.reflection.front, *self.reflection.rear) if self.reflection else (),
+            "responses": (self.responses.wave, *self.responses.channels) if self.responses else (),
+            "tensions.waves": (self.wave_of_tensions,) if self.wave_of_tensions else (),
+        }
+        for path, channels in wanted.items():
+            absent = next((name for name in channels if name not in known), None)
+            if absent is not None:
+                raise InputError(f"there is no channel '{absent}'", path=path, allowed=", ".join(sorted(known)))
+        if not self.block_length > 0.0:
+            raise InputError(f"blocks of {self.block_length:g} s", path="blocks.length", allowed="greater than 0")
+
+    def use_of(self, name: str) -> ChannelUse:
+        """Return what a channel is."""
+        return next(channel for channel in self.channels if channel.name == name)

@@ -1,0 +1,490 @@
+"""Work a survey off: read the loggers by the chunk, figure every block, gather what holds for the whole record."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result, make_provenance
+from moyai.core.validity import Notice
+from moyai.records.reading.quality import find_drift, find_slips, quality_notices
+from moyai.records.reading.reader import CHUNK_ROWS, Block, aligned, blocks, read_chunks
+from moyai.records.reading.record import FloatArray, Record, instant_text
+from moyai.records.spectra import FIGURES
+from moyai.records.survey.blocks import BlockResult, work_off
+from moyai.records.survey.fits import fit_relations
+from moyai.records.survey.model import Survey
+from moyai.records.waves import STATISTICS, fit_rayleigh, fit_weibull
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import xarray as xr
+
+MOST_FINDINGS = 5000
+MOST_SLIPS = 10
+"""Slips of a unit told one by one; more are told together and stand in the table."""
+
+LONG_NAMES = {
+    "count": ("number of waves", ""),
+    "maximum_height": ("highest wave Hmax", "m"),
+    "maximum_period": ("period of the highest wave", "s"),
+    "tenth_height": ("mean height of the highest tenth H1/10", "m"),
+    "tenth_period": ("mean period of the highest tenth T1/10", "s"),
+    "third_height": ("significant height H1/3", "m"),
+    "third_period": ("significant period T1/3", "s"),
+    "mean_height": ("mean height", "m"),
+    "mean_period": ("mean zero-crossing period", "s"),
+    "rms_height": ("root mean square height", "m"),
+    "maximum_crest": ("highest crest", "m"),
+    "minimum_trough": ("lowest trough", "m"),
+    "spectral_height": ("spectral height 4 sqrt(m0)", "m"),
+    "peak_period": ("peak period Tp", "s"),
+    "smooth_peak_period": ("peak period from the centroid of S^4", "s"),
+    "period_m01": ("mean period m0/m1", "s"),
+    "period_m02": ("mean period sqrt(m0/m2)", "s"),
+    "period_energy": ("energy period m-1/m0", "s"),
+    "spectral_width": ("spectral width", ""),
+    "mean_heading": ("mean heading, direction of travel", "rad"),
+    "spread": ("directional spread", "rad"),
+    "peak_heading": ("heading at the peak", "rad"),
+    "peak_spread": ("spread at the peak", "rad"),
+    "current_x": ("mean current along x", "m/s"),
+    "current_y": ("mean current along y", "m/s"),
+    "current_speed": ("speed of the mean current", "m/s"),
+    "current_heading": ("heading of the mean current", "rad"),
+    "current_deviation": ("deviation from the mean current", "m/s"),
+    "current_normal": ("mean current normal to the structure U_x", "m/s"),
+    "reflection_coefficient": ("reflection coefficient", ""),
+    "reflection_error": ("standard error of the reflection coefficient", ""),
+    "incident_height": ("height of the incident waves 4 sqrt(m0)", "m"),
+    "reflected_height": ("height of the reflected waves 4 sqrt(m0)", "m"),
+    "transmission_coefficient": ("transmission coefficient", ""),
+    "transmission_error": ("standard error of the transmission coefficient", ""),
+    "transmitted_height": ("height of the transmitted waves 4 sqrt(m0)", "m"),
+    "steady": ("steady tension", "N"),
+    "maximum": ("highest tension of a wave above the steady part T_max", "N"),
+    "tenth": ("mean of the highest tenth T_1/10", "N"),
+    "third": ("mean of the highest third T_1/3", "N"),
+    "mean": ("mean of all waves T_mean", "N"),
+    "waves": ("waves that were matched", ""),
+    "snaps": ("snap events", ""),
+    "lag": ("lag of the tension behind the wave", "s"),
+}
+"""Words and unit of every figure of a block."""
+
+
+def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK_ROWS) -> Result:
+    """Work a survey off in bounded memory.
+
+    Parameters
+    ----------
+    survey : Survey
+    progress : Progress
+    rows : int
+        Rows read at a time.
+
+    Returns
+    -------
+    Result
+        Groups ``blocks``, ``waves``, ``spectra``, ``directions``, ``current``, ``reflection``, ``tensions``,
+        ``fits``, ``quality`` and ``whole``; those without content are absent.
+
+    Raises
+    ------
+    InputError
+        With file, row and column of what cannot be read.
+    """
+    found: list[BlockResult] = []
+    notices: list[Notice] = []
+    status = "converged"
+    message = ""
+    readers: list[_Reader] = []
+    try:
+        first, dated = _first_instant(survey)
+        origin = _origin(survey, first, dated)
+        readers = [_Reader(read_chunks(logger, rows), notices) for logger in survey.loggers]
+        streams: list[Iterator[Block]] = [blocks(iter(reader), origin, survey.block_length) for reader in readers]
+        for number, (index, records) in enumerate(aligned(streams), 1):
+            found.append(work_off(survey, index, origin, records))
+            progress("blocks", number, number + 1)
+    except KeyboardInterrupt:
+        if not found:
+            raise
+        status, message = "interrupted", f"stopped after {len(found)} blocks"
+    if not found:
+        raise InputError("the files hold no sample", path="loggers")
+    if len({reader.dated for reader in readers if reader.dated is not None}) > 1:
+        raise InputError("one logger has dates and another only seconds", path="time", remedy="give 'start'")
+    tree, further = _assemble(survey, found, dated)
+    everything = tuple(dict.fromkeys([*notices, *further, *_summed_up(found)]))
+    provenance = make_provenance(
+        title=survey.title,
+        case_hash=survey.case_hash,
+        files=[str(path.name) for logger in survey.loggers for path in logger.files],
+    )
+    if not message:
+        span = instant_text(found[0].start, dated), instant_text(found[-1].start + survey.block_length, dated)
+        words = "1 block" if len(found) == 1 else f"{len(found)} blocks"
+        message = f"{words} of {survey.block_length:g} s from {span[0]} to {span[1]}"
+    return Result(tree, status, message, (), everything, provenance)  # type: ignore[arg-type]
+
+
+class _Reader:
+    """Passes chunks on, and keeps their notices."""
+
+    def __init__(self, chunks: Iterator[Record], notices: list[Notice]) -> None:
+        self.chunks, self.notices = chunks, notices
+        self.dated: bool | None = None
+
+    def __iter__(self) -> Iterator[Record]:
+        for chunk in self.chunks:
+            self.dated = chunk.dated
+            self.notices.extend(chunk.notices)
+            yield chunk
+
+
+def _first_instant(survey: Survey) -> tuple[float, bool]:
+    """Return the earliest first sample of all loggers, and whether it is a date."""
+    starts = []
+    dated = False
+    for logger in survey.loggers:
+        for chunk in read_chunks(logger, 64):
+            starts.append(float(chunk.time[0]))
+            dated = dated or chunk.dated
+            break
+    if not starts:
+        raise InputError("the files hold no sample", path="loggers")
+    return min(starts), dated
+
+
+def _origin(survey: Survey, first: float, dated: bool) -> float:
+    length = survey.block_length
+    if math.isfinite(survey.block_start):
+        return survey.block_start + math.floor((first - survey.block_start) / length) * length
+    return math.floor(first / length) * length if dated else first
+
+
+def _summed_up(found: Sequence[BlockResult]) -> list[Notice]:
+    """Return notices of blocks, one for each code and wording, with how often it came."""
+    counted: dict[str, list[Notice]] = {}
+    for block in found:
+        for notice in block.notices:
+            counted.setdefault(notice.code, []).append(notice)
+    out = []
+    for entries in counted.values():
+        first = entries[0]
+        if len(entries) == 1:
+            out.append(first)
+            continue
+        text = f"in {len(entries)} analyses of blocks, the first: {first.message}"
+        out.append(Notice(first.code, text, first.value, first.limit, first.severity, first.remedy, first.source))
+    return out
+
+
+def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tuple[xr.DataTree, list[Notice]]:
+    import xarray as xr
+
+    start = np.array([block.start for block in found])
+    words = "start of the block, since 1970-01-01 UTC" if dated else "start of the block"
+    time = xr.Variable("block", start, {"units": "s", "long_name": words, "dated": int(dated)})
+    groups: dict[str, xr.Dataset] = {}
+    names = [channel.name for channel in survey.channels]
+    symbols = _symbols(survey)
+    groups["blocks"] = _channels(found, names, symbols, time)
+    if survey.waves:
+        groups["waves"] = _figures(
+            [
+                {name: {**block.waves.get(name, {}), **_spectral(block, name)} for name in survey.waves}
+                for block in found
+            ],
+            survey.waves,
+            "gauge",
+            (*STATISTICS, *FIGURES),
+            time,
+        )
+        groups |= _spectra(survey, found, time)
+    for key in ("directions", "current", "reflection"):
+        rows = [getattr(block, key) for block in found]
+        if any(rows):
+            keys = tuple(dict.fromkeys(name for row in rows for name in row))
+            groups[key] = _flat(rows, keys, time)
+    if any(block.tensions for block in found):
+        lines = tuple(entry.channel for entry in survey.tensions)
+        keys = tuple(dict.fromkeys(name for block in found for row in block.tensions.values() for name in row))
+        groups["tensions"] = _figures([dict(block.tensions) for block in found], lines, "line", keys, time)
+        groups["tensions"] = groups["tensions"].assign_coords(
+            group=("line", np.array([entry.group for entry in survey.tensions], dtype=object))
+        )
+    if any(block.responses for block in found):
+        groups["responses"] = _responses(survey, found, symbols, time)
+    fits = fit_relations(survey, groups)
+    if fits is not None:
+        groups["fits"] = fits
+    groups["quality"], notices = _quality(survey, found, names, dated)
+    whole = _whole(survey, found)
+    if whole is not None:
+        groups["whole"] = whole
+    tree = xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
+    tree.attrs = {
+        "title": survey.title,
+        "structure": "records",
+        "case_hash": survey.case_hash,
+        "case_text": survey.case_text,
+        "block_length": survey.block_length,
+        "dated": int(dated),
+        "x_axis_bearing_deg": math.degrees(survey.x_axis_bearing),
+    }
+    return tree, notices
+
+
+def _symbols(survey: Survey) -> dict[str, str]:
+    """Return the SI symbol of every channel, from the first chunk of its logger."""
+    out: dict[str, str] = {}
+    for logger in survey.loggers:
+        chunk = next(iter(read_chunks(logger, 64)))
+        out.update(zip(chunk.names, chunk.units))
+    return out
+
+
+def _channels(found: Sequence[BlockResult], names: Sequence[str], symbols: dict[str, str], time: Any) -> xr.Dataset:
+    import xarray as xr
+
+    labels = ("mean", "standard deviation", "smallest value", "largest value", "share of samples without a flag")
+    data = {}
+    for place, name in enumerate(names):
+        table = np.array([block.channels.get(name, (math.nan,) * 5) for block in found])
+        for column, (key, label) in enumerate(zip(("mean", "deviation", "smallest", "largest", "share"), labels)):
+            unit = "" if key == "share" else symbols.get(name, "")
+            attributes = {"units": unit, "long_name": f"{label} of {name}", "channel": name}
+            data[f"channel_{place}_{key}"] = ("block", table[:, column], attributes)
+    dataset = xr.Dataset(data, {"time": time})
+    dataset.attrs["channels"] = "\n".join(names)
+    return dataset
+
+
+def _spectral(block: BlockResult, name: str) -> dict[str, float]:
+    return block.spectra[name][3] if name in block.spectra else {}
+
+
+def _figures(
+    rows: Sequence[dict[str, dict[str, float]]], members: Sequence[str], dimension: str, keys: Sequence[str], time: Any
+) -> xr.Dataset:
+    import xarray as xr
+
+    data = {}
+    for key in keys:
+        values = np.array([[row.get(member, {}).get(key, math.nan) for member in members] for row in rows])
+        long_name, unit = LONG_NAMES[key]
+        data[key] = (("block", dimension), values, {"units": unit, "long_name": long_name})
+    return xr.Dataset(data, {"time": time, dimension: np.array(members, dtype=object)})
+
+
+def _flat(rows: Sequence[dict[str, float]], keys: Sequence[str], time: Any) -> xr.Dataset:
+    import xarray as xr
+
+    data = {}
+    for key in keys:
+        long_name, unit = LONG_NAMES[key]
+        values = np.array([row.get(key, math.nan) for row in rows])
+        data[key] = ("block", values, {"units": unit, "long_name": long_name})
+    return xr.Dataset(data, {"time": time})
+
+
+def _spectra(survey: Survey, found: Sequence[BlockResult], time: Any) -> dict[str, xr.Dataset]:
+    """Return the spectra of the blocks on the frequencies of the longest."""
+    import xarray as xr
+
+    grids = [block.spectra[name][0] for block in found for name in survey.waves if name in block.spectra]
+    if not grids:
+        return {}
+    frequency = max(grids, key=len)
+    density = np.full((len(found), len(survey.waves), frequency.size), np.nan)
+    freedom = np.full((len(found), len(survey.waves)), np.nan)
+    for row, block in enumerate(found):
+        for column, name in enumerate(survey.waves):
+            if name in block.spectra:
+                own, values, degrees, _ = block.spectra[name]
+                same = own.size == frequency.size and np.array_equal(own, frequency)
+                density[row, column] = values if same else np.interp(frequency, own, values, right=np.nan)
+                freedom[row, column] = degrees
+    dataset = xr.Dataset(
+        {
+            "density": (
+                ("block", "gauge", "frequency"),
+                density,
+                {"units": "m2/Hz", "long_name": "one-sided spectral density"},
+            ),
+            "degrees_of_freedom": (("block", "gauge"), freedom, {"units": "", "long_name": "degrees of freedom"}),
+        },
+        {
+            "time": time,
+            "gauge": np.array(survey.waves, dtype=object),
+            "frequency": ("frequency", frequency, {"units": "Hz", "long_name": "frequency"}),
+        },
+    )
+    return {"spectra": dataset}
+
+
+def _responses(survey: Survey, found: Sequence[BlockResult], symbols: dict[str, str], time: Any) -> xr.Dataset:
+    """Return modulus, phase, error and coherence of the responses."""
+    import xarray as xr
+
+    assert survey.responses is not None
+    names = survey.responses.channels
+    longest = max((entry for block in found for entry in block.responses.values()), key=lambda r: r.frequency.size)
+    shape = (len(found), len(names), longest.frequency.size)
+    tables = {key: np.full(shape, math.nan) for key in ("modulus", "phase", "error", "coherence")}
+    for row, block in enumerate(found):
+        for column, name in enumerate(names):
+            entry = block.responses.get(name)
+            if entry is None or entry.frequency.size != shape[2]:
+                continue
+            tables["modulus"][row, column] = entry.modulus
+            tables["phase"][row, column] = np.angle(entry.response)
+            tables["error"][row, column] = entry.error
+            tables["coherence"][row, column] = entry.coherence
+    words = {
+        "modulus": "response amplitude per wave amplitude",
+        "phase": "phase of the response, Re(X exp(-i omega t))",
+        "error": "standard error of the response amplitude",
+        "coherence": "squared coherence",
+    }
+    wave = symbols.get(survey.responses.wave, "m")
+    units = ", ".join(f"{name} {symbols.get(name, '')}/{wave}" for name in names)
+    data = {
+        key: (
+            ("block", "motion", "frequency"),
+            table,
+            {"units": "rad" if key == "phase" else "", "long_name": words[key]},
+        )
+        for key, table in tables.items()
+    }
+    coordinates = {
+        "time": time,
+        "motion": np.array(names, dtype=object),
+        "frequency": ("frequency", longest.frequency, {"units": "Hz", "long_name": "frequency"}),
+    }
+    return xr.Dataset(data, coordinates, {"units_of_modulus": units})
+
+
+def _quality(
+    survey: Survey, found: Sequence[BlockResult], names: Sequence[str], dated: bool
+) -> tuple[xr.Dataset, list[Notice]]:
+    """Return what was found about the samples, and the notices of gaps, flags, drift and unit slips."""
+    import xarray as xr
+
+    rows: list[tuple[str, str, float, float, int, str]] = []
+    totals: dict[str, dict[str, int]] = {}
+    gaps: list[tuple[float, float]] = []
+    for block in found:
+        gaps.extend(block.gaps)
+        rows.extend((f.channel, f.kind, f.start, f.end, f.count, f.detail) for f in block.findings)
+        for channel, kinds in block.counts.items():
+            mine = totals.setdefault(channel, {})
+            for kind, count in kinds.items():
+                mine[kind] = mine.get(kind, 0) + count
+    between = _silent_blocks(survey, found)
+    gaps.extend(between)
+    rows.extend(("(clock)", "gap", start, start + length, 0, f"{length:.6g} s") for start, length in gaps)
+    samples = sum(block.samples for block in found)
+    notices = list(quality_notices(totals, samples, gaps, dated))
+    for name in names:
+        moments = [block.moments[name] for block in found if name in block.moments]
+        slips = find_slips(moments, name) if survey.use_of(name).quality.unit_slips else ()
+        if len(slips) > MOST_SLIPS:
+            words = (
+                f"{name}: {len(slips)} stretches of blocks differ from their neighbours by a factor near a unit's; "
+                "that many are rather blocks too short to hold waves than wrong units"
+            )
+            notices.append(
+                Notice("unit-slips", words, float(len(slips)), float(MOST_SLIPS), remedy="take longer blocks")
+            )
+        for slip in slips:
+            first = next(block.start for block in found if block.index == slip.first)
+            last = next(block.start for block in found if block.index == slip.last) + survey.block_length
+            detail = f"scale {slip.factor:.3g} times that before and after, near a unit's factor {slip.unit_factor:.4g}"
+            rows.append((name, "unit slip", first, last, 0, detail))
+            words = f"{name}: from {instant_text(first, dated)} to {instant_text(last, dated)} {detail}"
+            if len(slips) <= MOST_SLIPS:
+                notices.append(Notice("unit-slip", words, slip.factor, 1.0, remedy="check the unit of these blocks"))
+        share = survey.use_of(name).quality.drift_share
+        drift = find_drift(moments, name)
+        if drift is not None and drift.significant and drift.share > share:
+            detail = f"trend of {drift.change:.4g} over the record, {drift.share:.2g} of its standard deviation"
+            rows.append((name, "drift", found[0].start, found[-1].start + survey.block_length, 0, detail))
+            notices.append(
+                Notice("drift", f"{name}: {detail}", drift.share, share, remedy="check the zero, or take the tide off")
+            )
+    lost = len(rows) - MOST_FINDINGS
+    if lost > 0:
+        rows = rows[:MOST_FINDINGS]
+        notices.append(Notice("findings-cut", f"{lost} further stretches are not listed; all are counted", float(lost)))
+    columns: list[Any] = list(zip(*rows)) if rows else [[] for _ in range(6)]
+    data = {
+        "channel": ("finding", np.array(columns[0], dtype=object), {"units": "", "long_name": "channel"}),
+        "kind": ("finding", np.array(columns[1], dtype=object), {"units": "", "long_name": "what was found"}),
+        "start": ("finding", np.array(columns[2], dtype=float), {"units": "s", "long_name": "first instant"}),
+        "end": ("finding", np.array(columns[3], dtype=float), {"units": "s", "long_name": "last instant"}),
+        "count": ("finding", np.array(columns[4], dtype=float), {"units": "", "long_name": "samples"}),
+        "detail": ("finding", np.array(columns[5], dtype=object), {"units": "", "long_name": "detail"}),
+    }
+    dataset = xr.Dataset(data)
+    dataset.attrs["samples"] = samples
+    return dataset, notices
+
+
+def _silent_blocks(survey: Survey, found: Sequence[BlockResult]) -> list[tuple[float, float]]:
+    """Return stretches of whole blocks without a sample of any logger."""
+    out = []
+    for before, after in itertools.pairwise(found):
+        missing = after.index - before.index - 1
+        if missing > 0:
+            out.append((before.start + survey.block_length, missing * survey.block_length))
+    return out
+
+
+def _whole(survey: Survey, found: Sequence[BlockResult]) -> xr.Dataset | None:
+    """Return the pooled heights of every gauge, each over its block's H1/3, with their fits."""
+    import xarray as xr
+
+    data: dict[str, Any] = {}
+    kept = []
+    for name in survey.waves:
+        pooled: list[FloatArray] = []
+        for block in found:
+            third = block.waves.get(name, {}).get("third_height", math.nan)
+            if name in block.cut and len(block.cut[name]) >= 20 and third > 0.0:
+                pooled.append(block.cut[name].height / third)
+        if not pooled or np.unique(np.concatenate(pooled)).size < 3:
+            continue
+        heights = np.concatenate(pooled)
+        heights = heights[heights > 0.0]
+        weibull, rayleigh = fit_weibull(heights), fit_rayleigh(heights)
+        levels = np.linspace(0.0, max(2.2, float(heights.max())), 89)
+        exceeded = np.array([np.count_nonzero(heights > level) for level in levels]) / heights.size
+        kept.append((name, levels, exceeded, weibull, rayleigh, heights.size))
+    if not kept:
+        return None
+    levels = kept[0][1] if len(kept) == 1 else np.linspace(0.0, max(entry[1][-1] for entry in kept), 89)
+    gauge = np.array([entry[0] for entry in kept], dtype=object)
+    ratio = {"units": "", "long_name": "height over the H1/3 of its block"}
+    exceedance = [np.interp(levels, entry[1], entry[2], right=0.0) for entry in kept]
+    data["exceedance"] = (("gauge", "ratio"), np.array(exceedance), {"units": "", "long_name": "share of waves above"})
+    for key, label, values in (
+        ("weibull_scale", "scale of the Weibull fit", [entry[3].scale for entry in kept]),
+        ("weibull_shape", "shape of the Weibull fit (2: Rayleigh)", [entry[3].shape for entry in kept]),
+        ("weibull_shape_error", "standard error of the shape", [entry[3].shape_error for entry in kept]),
+        ("weibull_distance", "distance of the Weibull fit", [entry[3].distance for entry in kept]),
+        ("rayleigh_scale", "scale of the Rayleigh fit", [entry[4].scale for entry in kept]),
+        ("rayleigh_distance", "distance of the Rayleigh fit", [entry[4].distance for entry in kept]),
+        ("wave_count", "waves of the whole record", [float(entry[5]) for entry in kept]),
+    ):
+        data[key] = ("gauge", np.array(values), {"units": "", "long_name": label})
+    return xr.Dataset(data, {"gauge": gauge, "ratio": ("ratio", levels, ratio)})

@@ -1,0 +1,242 @@
+"""Mooring tensions beside waves: steady and fluctuating part, one maximum for every wave, their statistics.
+
+Steps of the chain of Tabata et al.; :mod:`moyai.records.survey.tension_blocks` runs it over a record. Arrays in,
+numbers out.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.records.detrend import slow_part
+from moyai.sea.statistics import significant
+
+Array = NDArray[np.float64]
+SteadyRule = Literal["median", "mean", "low_pass"]
+
+# A second maximum of one wave counts as a double peak above this share of the first
+_DOUBLE = 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class SplitTension:
+    """A tension as steady plus fluctuating part.
+
+    Parameters
+    ----------
+    steady : ndarray
+        At each sample [N]; one value throughout for ``median`` and ``mean``.
+    fluctuating : ndarray
+        [N].
+    rule : {"median", "mean", "low_pass"}
+        How it was split.
+    """
+
+    steady: Array
+    fluctuating: Array
+    rule: SteadyRule
+
+    @property
+    def level(self) -> float:
+        """Mean of the steady part [N]."""
+        return float(np.mean(self.steady))
+
+
+@checks_words
+def split_tension(
+    time: ArrayLike, tension: ArrayLike, rule: SteadyRule = "median", *, cutoff: float = 30.0
+) -> SplitTension:
+    """Split a tension into steady and fluctuating part [eq:tensions-split].
+
+    Parameters
+    ----------
+    time, tension : array_like
+        [s], [N], of one block.
+    rule : {"median", "mean", "low_pass"}
+        ``mean``: of the block, as the paper; it absorbs the spikes and comes out too high by their share of the time.
+        ``median``: of the block, which spikes hardly move. ``low_pass``: what varies slower than ``cutoff``, which
+        follows the tide but absorbs spikes as the mean does.
+    cutoff : float
+        Period of response one half of ``low_pass`` [s].
+
+    Raises
+    ------
+    InputError
+        For another rule, gaps, or a block shorter than the cut-off.
+    """
+    t, values = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
+    if t.ndim != 1 or t.shape != values.shape or t.size < 5:
+        raise InputError(
+            f"times {t.shape} and tensions {values.shape}", path="tension", allowed="equal lists, 5 or more"
+        )
+    if not np.isfinite(values).all():
+        raise InputError("the tension has gaps", path="tension", remedy="cut or fill gaps before")
+    if rule == "low_pass":
+        steady = slow_part(t, values, cutoff)
+    else:
+        steady = np.full(t.size, float(np.median(values) if rule == "median" else np.mean(values)))
+    return SplitTension(steady, values - steady, rule)
+
+
+@dataclass(frozen=True, eq=False)
+class WaveTensions:
+    """Largest fluctuating tension in the time of each wave.
+
+    Parameters
+    ----------
+    maximum : ndarray
+        [N], in the order of the waves; NaN where a wave has no sample, or lacks more than a tenth of them.
+    time : ndarray
+        When [s].
+    double : ndarray of bool
+        Whether a second, separate peak comes near the first (bounces, or two lines).
+    delay : float
+        By which the windows were shifted against the waves [s].
+    """
+
+    maximum: Array
+    time: Array
+    double: NDArray[np.bool_]
+    delay: float
+
+    @property
+    def matched(self) -> int:
+        """Waves with a maximum."""
+        return int(np.isfinite(self.maximum).sum())
+
+
+def wave_maxima(
+    time: ArrayLike, fluctuating: ArrayLike, start: ArrayLike, period: ArrayLike, *, delay: float = 0.0
+) -> WaveTensions:
+    """Find the largest tension in the time of every wave [eq:tensions-waves].
+
+    Parameters
+    ----------
+    time, fluctuating : array_like
+        [s], [N].
+    start, period : array_like
+        Opening crossing and duration of the waves [s].
+    delay : float
+        Of the tension behind the waves [s]: the way from gauge to float, or from :func:`find_delay`.
+
+    Raises
+    ------
+    InputError
+        When lists differ in length or the delay is no number.
+    """
+    t, values = np.asarray(time, dtype=np.float64), np.asarray(fluctuating, dtype=np.float64)
+    first, last = np.asarray(start, dtype=np.float64), np.asarray(start, dtype=np.float64) + np.asarray(period)
+    if t.shape != values.shape or first.shape != last.shape:
+        raise InputError("lists differ in length", path="fluctuating", allowed="equal lengths")
+    if not math.isfinite(delay):
+        raise InputError(f"delay is {delay:g} s", path="delay", allowed="finite")
+    low, high = np.searchsorted(t, first + delay), np.searchsorted(t, last + delay)
+    count = first.size
+    usual = float(np.median(np.diff(t))) if t.size > 1 else math.inf
+    maximum, when = np.full(count, np.nan), np.full(count, np.nan)
+    double = np.zeros(count, dtype=bool)
+    for i in range(count):
+        part = values[low[i] : high[i]]
+        # a wave whose window is cut by the end of the record is no wave of this record
+        if part.size < 2 or last[i] + delay > t[-1] or first[i] + delay < t[0] - 1e-9:
+            continue
+        # where samples lack, the largest may be among them
+        if part.size < 0.9 * (last[i] - first[i]) / usual - 2.0:
+            continue
+        place = int(np.argmax(part))
+        maximum[i], when[i] = part[place], t[low[i] + place]
+        double[i] = _second_peak(part, place)
+    return WaveTensions(maximum, when, double, delay)
+
+
+def _second_peak(part: Array, place: int) -> bool:
+    """Return whether another peak near the first stands behind a valley of less than half of it."""
+    top = float(part[place])
+    if top <= 0.0:
+        return False
+    for side in (part[:place][::-1], part[place + 1 :]):
+        below = np.flatnonzero(side < 0.5 * top)
+        if below.size and float(side[below[0] :].max()) > _DOUBLE * top:
+            return True
+    return False
+
+
+def find_delay(time: ArrayLike, elevation: ArrayLike, fluctuating: ArrayLike, *, longest: float) -> float:
+    """Return the delay of the tension behind the waves [s] within bounds, by the largest correlation.
+
+    Positive parts are correlated (crests against pulls), the top is refined by a parabola. It cannot tell a delay from
+    one of a wave period more: keep ``longest`` below half a period, about the way that waves take from gauge to float.
+
+    Parameters
+    ----------
+    time, elevation, fluctuating : array_like
+        Uniform [s], [m], [N].
+    longest : float
+        Bound of the delay on both sides [s].
+
+    Raises
+    ------
+    InputError
+        When the bound is below one sample or beyond a quarter of the record, or a series does not vary.
+    """
+    t = np.asarray(time, dtype=np.float64)
+    eta = np.asarray(elevation, dtype=np.float64)
+    one = np.maximum(eta - eta.mean(), 0.0)
+    two = np.maximum(np.asarray(fluctuating, dtype=np.float64), 0.0)
+    step = float(t[1] - t[0])
+    reach = int(longest / step + 1e-9)
+    if not 1 <= reach <= t.size // 4:
+        raise InputError(f"longest is {longest:g} s", path="longest", allowed=f"{step:g} to {0.25 * t.size * step:g} s")
+    one, two = one - one.mean(), two - two.mean()
+    if not (one.any() and two.any()):
+        raise InputError("a series does not vary", path="fluctuating", allowed="waves and tensions")
+    score = np.array(
+        [
+            float(one[max(0, -k) : t.size - max(0, k)] @ two[max(0, k) : t.size - max(0, -k)]) / (t.size - abs(k))
+            for k in range(-reach, reach + 1)
+        ]
+    )
+    best = int(np.argmax(score))
+    shift = 0.0
+    if 0 < best < score.size - 1:
+        a, m, c = score[best - 1 : best + 2]
+        bend = a - 2.0 * m + c
+        shift = 0.5 * (a - c) / bend if bend < 0.0 else 0.0
+    return (best - reach + shift) * step
+
+
+@dataclass(frozen=True)
+class TensionStatistics:
+    """Statistics of the maxima of one block.
+
+    Parameters
+    ----------
+    maximum, tenth, third, mean : float
+        Largest, means of the highest tenth and third, mean of all [N].
+    count : int
+        Maxima.
+    """
+
+    maximum: float
+    tenth: float
+    third: float
+    mean: float
+    count: int
+
+
+def tension_statistics(maxima: ArrayLike) -> TensionStatistics:
+    """Return T_max, T_1/10, T_1/3, T_mean of maxima [N], ranked by themselves; NaN left out."""
+    values = np.asarray(maxima, dtype=np.float64)
+    values = values[np.isfinite(values)]
+    if values.size == 0:
+        return TensionStatistics(math.nan, math.nan, math.nan, math.nan, 0)
+    return TensionStatistics(
+        float(values.max()), significant(values, 0.1), significant(values), float(values.mean()), int(values.size)
+    )

@@ -1,0 +1,408 @@
+"""Individual waves of a record by zero crossing, with every choice explicit; statistics and fits of their heights."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.core.validity import Notice
+from moyai.records.detrend import Detrend, detrended
+from moyai.records.reading.record import FloatArray
+
+Rounding = Literal["nearest", "down", "up"]
+
+
+@checks_words
+@dataclass(frozen=True)
+class WaveOptions:
+    """How a record is cut into waves.
+
+    Parameters
+    ----------
+    crossing : {"up", "down"}
+        A wave begins where the surface rises, or falls, through the mean level.
+    detrend : Detrend
+        What is taken off before.
+    dead_band : float
+        A crossing counts when the surface has been so far below the level and then rises so far above it [unit of the
+        record]; 0 counts every crossing.
+    crest : {"sample", "parabola"}
+        The highest sample, or the top of the parabola through it and its neighbours.
+    share : {"nearest", "down", "up"}
+        How N/3 and N/10 are rounded to whole waves (at least one).
+    shortest, longest : float
+        Waves with other periods are left out of the statistics [s].
+    """
+
+    crossing: Literal["up", "down"] = "up"
+    detrend: Detrend = field(default_factory=Detrend)
+    dead_band: float = 0.0
+    crest: Literal["sample", "parabola"] = "parabola"
+    share: Rounding = "nearest"
+    shortest: float = 0.0
+    longest: float = math.inf
+
+    def __post_init__(self) -> None:
+        if not self.dead_band >= 0.0:
+            raise InputError(f"dead band {self.dead_band:g}", path="dead_band", allowed="at least 0")
+        if not 0.0 <= self.shortest < self.longest:
+            raise InputError(
+                f"periods {self.shortest:g} to {self.longest:g} s", path="shortest", allowed="0 <= shortest < longest"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Waves:
+    """Waves of a record.
+
+    Parameters
+    ----------
+    start, period : ndarray
+        Opening crossing and duration [s].
+    height, crest, trough : ndarray
+        Height, highest and lowest value about the level (trough negative) [unit of the record].
+    options : WaveOptions
+    notices : tuple of Notice
+    """
+
+    start: FloatArray
+    period: FloatArray
+    height: FloatArray
+    crest: FloatArray
+    trough: FloatArray
+    options: WaveOptions
+    notices: tuple[Notice, ...] = ()
+
+    def __len__(self) -> int:
+        return int(self.height.size)
+
+    def highest(self, fraction: float) -> tuple[float, float]:
+        """Return mean height and mean period [s] of the highest ``fraction`` of the waves."""
+        if len(self) == 0:
+            return math.nan, math.nan
+        number = share_of(len(self), fraction, self.options.share)
+        order = np.argsort(-self.height, kind="stable")[:number]
+        return float(self.height[order].mean()), float(self.period[order].mean())
+
+    @property
+    def end(self) -> FloatArray:
+        """Closing crossing of each wave [s]."""
+        return self.start + self.period
+
+    def statistics(self) -> dict[str, float]:
+        """Return the usual figures; NaN where there is no wave.
+
+        Returns
+        -------
+        dict
+            ``count``, ``maximum_height``, ``maximum_period``, ``tenth_height`` (H1/10), ``tenth_period``,
+            ``third_height`` (H1/3), ``third_period`` (T1/3), ``mean_height``, ``mean_period``, ``rms_height``,
+            ``maximum_crest``, ``minimum_trough``.
+        """
+        if len(self) == 0:
+            return {"count": 0.0, **dict.fromkeys(STATISTICS[1:], math.nan)}
+        top = int(np.argmax(self.height))
+        tenth, third = self.highest(0.1), self.highest(1.0 / 3.0)
+        figures = (
+            float(len(self)),
+            float(self.height[top]),
+            float(self.period[top]),
+            *tenth,
+            *third,
+            float(self.height.mean()),
+            float(self.period.mean()),
+            math.sqrt(float(np.mean(self.height**2))),
+            float(self.crest.max()),
+            float(self.trough.min()),
+        )
+        return dict(zip(STATISTICS, figures))
+
+
+STATISTICS = (
+    "count",
+    "maximum_height",
+    "maximum_period",
+    "tenth_height",
+    "tenth_period",
+    "third_height",
+    "third_period",
+    "mean_height",
+    "mean_period",
+    "rms_height",
+    "maximum_crest",
+    "minimum_trough",
+)
+
+
+@checks_words
+def share_of(count: int, fraction: float, rounding: Rounding = "nearest") -> int:
+    """Return how many of ``count`` waves make up ``fraction``: at least one.
+
+    Parameters
+    ----------
+    count : int
+    fraction : float
+        For instance 1/3.
+    rounding : {"nearest", "down", "up"}
+        Halves are rounded up by ``nearest``.
+    """
+    exact = count * fraction
+    if rounding == "down":
+        number = math.floor(exact + 1e-9)
+    elif rounding == "up":
+        number = math.ceil(exact - 1e-9)
+    else:
+        number = math.floor(exact + 0.5 + 1e-9)
+    return max(number, 1)
+
+
+@njit(cache=True, error_model="numpy")
+def _find_waves(values: FloatArray, times: FloatArray, band: float, parabola: bool, gap: float, out: FloatArray) -> int:
+    """Fill ``out[:, wave]`` with start, period, crest, trough; return the number of waves.
+
+    A NaN, and a step longer than ``gap``, end the wave at hand without counting it.
+    """
+    count = 0
+    open_wave = False
+    armed = False  # the surface has been below the dead band
+    pending = False  # it has crossed upwards and is not yet above the band
+    start = crossing = crest = trough = next_crest = 0.0
+    for i in range(values.size):
+        now = values[i]
+        if np.isnan(now) or (i > 0 and times[i] - times[i - 1] > gap):
+            open_wave = armed = pending = False
+            if np.isnan(now):
+                continue
+        peak = now
+        inner = 0 < i < values.size - 1
+        if parabola and inner and times[i] - times[i - 1] <= gap and times[i + 1] - times[i] <= gap:
+            left, right = values[i - 1], values[i + 1]
+            if (now >= left and now > right) or (now <= left and now < right):
+                bend = left - 2.0 * now + right
+                if bend != 0.0:
+                    peak = now - (right - left) ** 2 / (8.0 * bend)
+        if i > 0 and values[i - 1] < 0.0 <= now and armed:
+            # The last upward crossing before the surface leaves the band is the one that counts
+            if pending:
+                crest = max(crest, next_crest)
+            crossing = times[i - 1] + (times[i] - times[i - 1]) * (-values[i - 1] / (now - values[i - 1]))
+            pending = True
+            next_crest = 0.0
+        if pending and now < -band:
+            pending = False
+            crest = max(crest, next_crest)
+        if pending and now >= band:
+            if open_wave:
+                out[0, count], out[1, count] = start, crossing - start
+                out[2, count], out[3, count] = crest, trough
+                count += 1
+            open_wave = True
+            pending = armed = False
+            start, crest, trough = crossing, next_crest, 0.0
+        if pending:
+            next_crest = max(next_crest, peak)
+            trough = min(trough, peak)
+        else:
+            crest, trough = max(crest, peak), min(trough, peak)
+        if now < -band:
+            armed = True
+    return count
+
+
+def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap: float | None = None) -> Waves:
+    """Cut a record into waves.
+
+    Waves that touch a missing sample (NaN) or a gap of the clock are left out and counted in a notice; crossings are
+    interpolated linearly.
+
+    Parameters
+    ----------
+    time : array_like
+        Increasing instants [s], evenly stepped but for gaps.
+    values : array_like
+        Surface elevation or any other oscillating quantity; NaN where missing.
+    options : WaveOptions
+    gap : float, optional
+        Longer steps are gaps [s]; 1.5 median steps by default.
+
+    Returns
+    -------
+    Waves
+
+    Raises
+    ------
+    InputError
+        Lengths that differ, instants that do not increase, fewer than three samples, or none that is a number.
+    """
+    t = np.ascontiguousarray(time, dtype=np.float64)
+    v = np.ascontiguousarray(values, dtype=np.float64)
+    if t.ndim != 1 or t.shape != v.shape:
+        raise InputError(f"{v.shape} values for {t.shape} instants", path="values", allowed="equal, 1-D")
+    if t.size < 3 or np.count_nonzero(np.isfinite(v)) < 3:
+        raise InputError(f"{np.count_nonzero(np.isfinite(v))} samples are no record of waves", path="values")
+    if not np.all(np.diff(t) > 0.0):
+        raise InputError("the instants must increase", path="time")
+    step = float(np.median(np.diff(t)))
+    level = detrended(t, v, options.detrend)
+    if options.crossing == "down":
+        level = -level
+    origin = t[0]  # dates are large numbers: crossings keep their digits as differences
+    out = np.empty((4, t.size))
+    limit = 1.5 * step if gap is None else gap
+    count = _find_waves(level, t - origin, float(options.dead_band), options.crest == "parabola", limit, out)
+    start, period, crest, trough = (out[row, :count].copy() for row in range(4))
+    if options.crossing == "down":
+        crest, trough = -trough, -crest
+    kept = (period >= options.shortest) & (period <= options.longest)
+    notices = _notices(v, t, kept, count, limit, options)
+    return Waves(
+        start[kept] + origin,
+        period[kept],
+        (crest - trough)[kept],
+        crest[kept],
+        trough[kept],
+        options,
+        notices,
+    )
+
+
+def _notices(
+    values: FloatArray, time: FloatArray, kept: NDArray[np.bool_], count: int, gap: float, options: WaveOptions
+) -> tuple[Notice, ...]:
+    notices = []
+    missing = int(np.count_nonzero(~np.isfinite(values)))
+    broken = int(np.count_nonzero(np.diff(time) > gap))
+    if missing or broken:
+        message = (
+            f"{missing} samples and {broken} stretches of the clock are missing; waves that touch them are left out"
+        )
+        notices.append(Notice("waves-broken", message, float(missing + broken), 0.0))
+    dropped = count - int(kept.sum())
+    if dropped:
+        notices.append(
+            Notice(
+                "waves-periods",
+                f"{dropped} waves with periods outside {options.shortest:g} to {options.longest:g} s are left out",
+                float(dropped),
+                0.0,
+                severity="information",
+            )
+        )
+    if kept.sum() < 50:
+        notices.append(
+            Notice(
+                "few-waves",
+                f"only {int(kept.sum())} waves in the block: statistics of so few are uncertain",
+                float(kept.sum()),
+                50.0,
+            )
+        )
+    return tuple(notices)
+
+
+# ------------------------------------------------------------------------------------------------------- fits
+
+
+@dataclass(frozen=True)
+class WeibullFit:
+    """Distribution 1 - exp(-(x / scale)^shape) of heights; equation [eq:records-weibull].
+
+    Parameters
+    ----------
+    scale, shape : float
+        Scale [unit of the heights] and shape [-] (2: Rayleigh).
+    scale_error, shape_error : float
+        Standard errors by the observed information.
+    log_likelihood : float
+    distance : float
+        Largest distance of the empirical from the fitted distribution (Kolmogorov) [-].
+    count : int
+    """
+
+    scale: float
+    shape: float
+    scale_error: float
+    shape_error: float
+    log_likelihood: float
+    distance: float
+    count: int
+
+    def exceedance(self, values: ArrayLike) -> FloatArray:
+        """Return the probability that a height exceeds each value."""
+        return np.asarray(np.exp(-((np.asarray(values, dtype=float) / self.scale) ** self.shape)))
+
+    def quantile(self, exceedance: ArrayLike) -> FloatArray:
+        """Return the height that is exceeded with the given probability."""
+        return np.asarray(self.scale * (-np.log(np.asarray(exceedance, dtype=float))) ** (1.0 / self.shape))
+
+
+def fit_rayleigh(heights: ArrayLike) -> WeibullFit:
+    """Fit a Rayleigh distribution: its scale is the root mean square height [eq:records-weibull]."""
+    x = _heights(heights)
+    scale = math.sqrt(float(np.mean(x**2)))
+    return _fit(x, scale, 2.0, scale / (2.0 * math.sqrt(x.size)), 0.0)
+
+
+def fit_weibull(heights: ArrayLike) -> WeibullFit:
+    """Fit scale and shape by maximum likelihood [eq:records-weibull].
+
+    Raises
+    ------
+    InputError
+        With fewer than three different positive heights.
+    """
+    from scipy.optimize import brentq
+
+    x = _heights(heights)
+    top = float(x.max())
+    y = x / top
+    logs = np.log(y)
+    mean_log = float(logs.mean())
+
+    def slope(shape: float) -> float:
+        weight = y**shape
+        return float(np.sum(weight * logs) / np.sum(weight)) - 1.0 / shape - mean_log
+
+    low, high = 1e-3, 2.0
+    while slope(high) < 0.0 and high < 1e4:
+        high *= 2.0
+    shape = float(brentq(slope, low, high, xtol=1e-12))
+    scale = top * float(np.mean(y**shape)) ** (1.0 / shape)
+    # Observed information of (shape, scale)
+    z = np.log(x / scale)
+    power = (x / scale) ** shape
+    n = x.size
+    information = np.array(
+        [
+            [n / shape**2 + float(np.sum(power * z**2)), -float(np.sum(power * (1.0 + shape * z)) - n) / scale],
+            [0.0, n * shape**2 / scale**2],
+        ]
+    )
+    information[1, 0] = information[0, 1]
+    errors = np.sqrt(np.diag(np.linalg.inv(information)))
+    return _fit(x, scale, shape, float(errors[1]), float(errors[0]))
+
+
+def _heights(heights: ArrayLike) -> FloatArray:
+    x = np.asarray(heights, dtype=np.float64).reshape(-1)
+    x = x[np.isfinite(x)]
+    if np.unique(x).size < 3 or (x <= 0.0).any():
+        raise InputError(f"{x.size} heights", path="heights", allowed="three or more different, all greater than 0")
+    return x
+
+
+def _fit(x: FloatArray, scale: float, shape: float, scale_error: float, shape_error: float) -> WeibullFit:
+    ratio = x / scale
+    likelihood = float(np.sum(math.log(shape / scale) + (shape - 1.0) * np.log(ratio) - ratio**shape))
+    ordered = np.sort(x)
+    fitted = -np.expm1(-((ordered / scale) ** shape))
+    steps = np.arange(x.size + 1) / x.size
+    distance = float(max(np.max(steps[1:] - fitted), np.max(fitted - steps[:-1])))
+    return WeibullFit(scale, shape, scale_error, shape_error, likelihood, distance, int(x.size))

@@ -1,0 +1,1 @@
+"""Time series: what is found in any record or simulation."""

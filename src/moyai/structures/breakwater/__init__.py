@@ -1,0 +1,54 @@
+"""Floating breakwaters: their case, model, analyses and report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from moyai.core.kinds import StructureKind
+from moyai.core.progress import Progress
+from moyai.core.results import Result
+
+
+class BreakwaterKind(StructureKind):
+    """The parts of this folder, each imported when it is asked for."""
+
+    name = "breakwater"
+    package = __name__
+    templates = (("breakwater", "template.yaml"),)
+
+    def schema(self) -> Any:
+        from moyai.structures.breakwater.case.schema import BreakwaterCase
+
+        return BreakwaterCase
+
+    def check(self, model: Any, findings: Any, folder: Path) -> None:
+        from moyai.structures.breakwater.case.check import check
+
+        check(model, findings, folder)
+
+    def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
+        from moyai.structures.breakwater.case.build import build_problem
+
+        return build_problem(model, folder, case_text=case_text, case_hash=case_hash)
+
+    def derived(self, case: Any) -> Any:
+        from moyai.structures.breakwater.case.derived import derived_numbers
+
+        return derived_numbers(case)
+
+    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
+        from moyai.core.store import DatasetStore
+        from moyai.structures.breakwater.coefficients_file import planar_coefficients
+        from moyai.structures.breakwater.run import run
+
+        store = None if keep is None else DatasetStore(keep)
+        return run(problem, progress, store=store, coefficients=planar_coefficients(problem))
+
+    def compose(self, result: Result) -> Any:
+        from moyai.structures.breakwater.report.page import compose
+
+        return compose(result)
+
+
+KIND = BreakwaterKind()

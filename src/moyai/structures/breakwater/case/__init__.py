@@ -1,0 +1,1 @@
+"""Case files of floating breakwaters: schema, checks, and the problem that they state."""

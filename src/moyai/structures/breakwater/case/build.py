@@ -1,0 +1,282 @@
+"""From the breakwater schema to :mod:`moyai.structures.breakwater.model`."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from moyai.case.build_sea import environment_of
+from moyai.case.criteria import criteria_of
+from moyai.case.measured import read_points
+from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, LineEntry, OwnSegment, SpringLine
+from moyai.core.errors import InputError
+from moyai.flexible.network import BarType
+from moyai.mooring.lines import Clump, LineType, Segment
+from moyai.sea.water import Water
+from moyai.structures.breakwater.case import schema
+from moyai.structures.breakwater.model import (
+    MODES,
+    Breakwater,
+    BreakwaterProblem,
+    CoefficientsFile,
+    Damping,
+    LineDynamics,
+    MeasuredPoints,
+    MooringLine,
+    MooringSpring,
+    Sensitivity,
+    Settings,
+    TimeSettings,
+)
+from moyai.tables.edge_damping import edge_damping_numbers
+from moyai.tables.lines import line_type
+
+
+def build_problem(
+    model: schema.BreakwaterCase, folder: Path, *, case_text: str = "", case_hash: str = ""
+) -> BreakwaterProblem:
+    """Return the breakwater problem of a case.
+
+    Parameters
+    ----------
+    model : BreakwaterCase
+        Validated content.
+    folder : Path
+        Folder that the file names in it refer to.
+    case_text, case_hash : str
+        Kept with the result.
+
+    Raises
+    ------
+    InputError
+        For what the schema alone cannot see: shapes, catalogue names, files.
+    """
+    water = Water(model.site.water_depth, model.site.density, model.site.gravity)
+    measured = None
+    if model.measured is not None:
+        columns = read_points(folder / model.measured.file, model.measured.columns, "measured.file")
+        measured = MeasuredPoints(model.measured.file, columns)
+    return BreakwaterProblem(
+        title=model.title,
+        breakwater=breakwater_of(model, water, folder),
+        environment=environment_of(model, water, folder),
+        settings=settings_of(model),
+        measured=measured,
+        case_text=case_text,
+        case_hash=case_hash,
+        criteria=criteria_of(model),
+    )
+
+
+def breakwater_of(model: schema.BreakwaterCase, water: Water, folder: Path) -> Breakwater:
+    """Return the floating unit with its lines."""
+    unit = model.structure
+    try:
+        hull = unit.section.hull()
+    except InputError as error:
+        fault = error.fault
+        key = fault.path.split(".")[-1]
+        inner = f".{key}" if key in type(unit.section).model_fields else ""
+        raise InputError(
+            fault.message, path=f"structure.section{inner}", allowed=fault.allowed, remedy=fault.remedy
+        ) from None
+    gyradius = unit.roll_gyradius
+    if gyradius is None:
+        if unit.mass is None or unit.roll_inertia is None:
+            raise InputError(
+                "'roll_inertia' needs 'mass'", path="structure.roll_inertia", remedy="give 'mass' or 'roll_gyradius'"
+            )
+        gyradius = math.sqrt(unit.roll_inertia / unit.mass)
+    rig = unit.additional_mass or schema.AdditionalMass()
+    return Breakwater(
+        hull=hull,
+        length=unit.length,
+        roll_gyradius=gyradius,
+        centre_of_gravity=(unit.centre_of_gravity_x, unit.centre_of_gravity_above_keel),
+        mass=unit.mass,
+        draught=unit.draught,
+        damping=_damping(unit),
+        additional_mass=(rig.sway, rig.heave, rig.roll),
+        wind_drag_coefficient=unit.wind_drag_coefficient,
+        current_drag_coefficient=unit.current_drag_coefficient,
+        gap_damping_lid=unit.gap_damping_lid,
+        lines=tuple(
+            line_of(line, index, water, in_motion=model.settings.time.lines.mode == "dynamic")
+            for index, line in enumerate(model.lines)
+        ),
+        coefficients_file=_coefficients(unit.coefficients_file, model, folder),
+    )
+
+
+def _damping(unit: schema.BreakwaterStructure) -> Damping:
+    extra = unit.additional_damping or schema.AdditionalDamping()
+    roll = unit.roll_damping or schema.RollDampingTerms()
+    linear = (extra.sway, extra.heave, extra.roll + roll.linear)
+    numbers = edge_damping_numbers()
+    terms = unit.damping or schema.DampingTerms()
+    computed = terms.viscous == "computed"
+    if terms.viscous is None:
+        # A measured roll damping or a fraction that stands for all of it holds the eddies already
+        computed = terms.fraction_of_critical is None and unit.roll_damping is None
+    band = terms.band or (numbers.band_low, numbers.band_high)
+    return Damping(
+        terms.fraction_of_critical or 0.0,
+        terms.modes or MODES,
+        linear,
+        roll.quadratic,
+        computed,
+        terms.viscous_factor,
+        (min(band), max(band)),
+    )
+
+
+def _coefficients(entry: Any, model: schema.BreakwaterCase, folder: Path) -> CoefficientsFile | None:
+    if entry is None:
+        return None
+    options: dict[str, Any] = {"sea": entry.sea, "origin": entry.origin}
+    if not isinstance(entry, schema.NemohCoefficients) and entry.reference_point is not None:
+        options["reference_point"] = entry.reference_point
+    if isinstance(entry, schema.CapytaineCoefficients) and entry.body is not None:
+        options["body"] = entry.body
+    if isinstance(entry, schema.WamitCoefficients):
+        # WAMIT files are made dimensionless with these
+        options["density"] = model.site.density
+        options["gravity"] = model.site.gravity
+        for name in ("length_scale", "first_column"):
+            if getattr(entry, name) is not None:
+                options[name] = getattr(entry, name)
+    return CoefficientsFile(entry.program, folder / entry.path, options)
+
+
+def line_of(entry: LineEntry, index: int, water: Water, *, in_motion: bool = False) -> MooringLine | MooringSpring:
+    """Return one entry of ``lines``; ``in_motion`` sets it in motion from the start whatever it says itself."""
+    fairlead = (entry.fairlead.x, entry.fairlead.y, entry.fairlead.above_keel)
+    if isinstance(entry, SpringLine):
+        anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.z)
+        return MooringSpring(entry.name, entry.count, fairlead, anchor, entry.stiffness, entry.pretension)
+    segments: list[Segment] = []
+    clumps: list[Clump] = []
+    for number, part in enumerate(entry.segments):
+        if isinstance(part, ClumpEntry):
+            weight = (part.clump.mass - water.density * part.clump.volume) * water.gravity
+            clumps.append(Clump(len(segments) - 1, weight))
+        else:
+            segments.append(_segment(part, f"lines[{index}].segments[{number}]", number, entry, water))
+    anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
+    moving = entry.dynamic or in_motion
+    materials = tuple(
+        bar_type_of(part, f"lines[{index}].segments[{number}]", entry, water, needed=moving)
+        for number, part in enumerate(entry.segments)
+        if not isinstance(part, ClumpEntry)
+    )
+    bodies = tuple((part.clump.mass, part.clump.volume) for part in entry.segments if isinstance(part, ClumpEntry))
+    return MooringLine(
+        entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction, entry.drag_width,
+        moving, tuple(kind for kind in materials if kind is not None) if None not in materials else (), bodies,
+    )  # fmt: skip
+
+
+#: What a segment of its own must tell when its line is in motion.
+NEEDED_IN_MOTION = ("mass", "diameter", "drag_normal", "drag_tangential", "added_mass_normal")
+
+
+def bar_type_of(
+    part: CatalogueSegment | OwnSegment, path: str, entry: CatenaryLine, water: Water, *, needed: bool
+) -> BarType | None:
+    """Return what a segment is made of for a line in motion, without internal damping.
+
+    ``None`` where the segment does not tell enough and the line need not be ``needed`` in motion.
+
+    Raises
+    ------
+    InputError
+        For a segment that does not tell enough, cannot stretch, or floats more than its mass allows.
+    """
+    if isinstance(part, CatalogueSegment):
+        return BarType.from_properties(line_type(part.catalogue, part.diameter), viscosity=0.0)
+    missing = [name for name in NEEDED_IN_MOTION if getattr(part, name) is None]
+    if not needed and (missing or math.isinf(part.axial_stiffness)):
+        return None
+    if missing:
+        raise InputError(
+            f"line {entry.name!r} is in motion and a segment of it lacks {', '.join(missing)}",
+            path=f"{path}.{missing[0]}",
+            remedy="give " + " and ".join(missing) + ", or set dynamic: false",
+        )
+    if math.isinf(part.axial_stiffness):
+        raise InputError(
+            f"line {entry.name!r} is in motion and a segment of it cannot stretch",
+            path=f"{path}.axial_stiffness",
+            allowed="a finite stiffness",
+            remedy="give EA, or set dynamic: false",
+        )
+    mass = float(part.mass or 0.0)
+    weight = part.submerged_weight
+    if weight is None:
+        weight = float(part.submerged_mass or 0.0) * water.gravity
+    volume = (mass - weight / water.gravity) / water.density
+    if volume < 0.0 and not needed:
+        return None
+    if volume < 0.0:
+        raise InputError(
+            f"a segment of line {entry.name!r} weighs {weight / water.gravity:.4g} kg/m in water, {mass:.4g} in air",
+            path=f"{path}.mass",
+            allowed="more in air than in water",
+        )
+    return BarType(
+        part.name or entry.name, mass, part.axial_stiffness, float(part.diameter or 0.0), volume_per_length=volume,
+        drag_normal=float(part.drag_normal or 0.0), drag_tangential=float(part.drag_tangential or 0.0),
+        added_mass_normal=float(part.added_mass_normal or 0.0), added_mass_tangential=part.added_mass_tangential,
+    )  # fmt: skip
+
+
+def _segment(part: CatalogueSegment | OwnSegment, path: str, number: int, entry: CatenaryLine, water: Water) -> Segment:
+    if isinstance(part, CatalogueSegment):
+        try:
+            properties = line_type(part.catalogue, part.diameter)
+        except InputError as error:
+            fault = error.fault
+            key = "diameter" if fault.path == "diameter" else "catalogue"
+            raise InputError(fault.message, path=f"{path}.{key}", allowed=fault.allowed, remedy=fault.remedy) from None
+        return Segment(LineType.from_properties(properties, water.density, water.gravity), part.length)
+    weight = part.submerged_weight
+    if weight is None:
+        weight = (part.submerged_mass or 0.0) * water.gravity
+    name = part.name or f"{entry.name} {number + 1}"
+    breaking = math.inf if part.breaking_load is None else part.breaking_load
+    return Segment(LineType(name, weight, part.axial_stiffness, breaking), part.length)
+
+
+def settings_of(model: schema.BreakwaterCase) -> Settings:
+    """Return analyses and settings."""
+    given = model.settings
+    time = given.time
+    return Settings(
+        analyses=model.analyses,
+        drift=given.drift,
+        frequencies=_values(given.frequencies),
+        restoring_offsets=_values(given.restoring_offsets),
+        time=TimeSettings(
+            time.duration,
+            time.ramp,
+            time.time_step,
+            time.analysed_periods,
+            time.drift,
+            time.memory,
+            LineDynamics(**time.lines.model_dump()),
+            None if isinstance(time.realisations, str) else time.realisations,
+        ),
+        sensitivity=Sensitivity(
+            given.sensitivity.damping_fractions, given.sensitivity.line_slacks, given.sensitivity.line_counts
+        ),
+    )
+
+
+def _values(given: Any) -> tuple[float, ...] | None:
+    """Return the values of ``auto``, a list or a range."""
+    if isinstance(given, str):
+        return None
+    if isinstance(given, (schema.FrequencyRange, schema.OffsetRange)):
+        return given.spread(given.first, given.last, given.count)
+    return tuple(given)

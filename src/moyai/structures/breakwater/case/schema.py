@@ -1,0 +1,357 @@
+"""Schema of the floating breakwater case."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+
+from moyai.case.schema_criteria import CRITERIA, BreakwaterCriteria, BreakwaterKeeps
+from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
+from moyai.case.schema_lines import LineEntry
+from moyai.case.schema_types import (
+    AddedInertia,
+    AddedMass,
+    AngularFrequency,
+    Auto,
+    AutoDuration,
+    Block,
+    Damping,
+    FileName,
+    Fraction,
+    Inertia,
+    KeyGroups,
+    Length,
+    Mass,
+    Name,
+    NonNegativeNumber,
+    OneOrMany,
+    PositiveLength,
+    PositiveNumber,
+    Range,
+    RollDamping,
+    RollQuadraticDamping,
+    Truth,
+    Whole,
+    once_each,
+)
+from moyai.structures.breakwater.case.schema_sections import Section
+
+Mode = Literal["sway", "heave", "roll"]
+Analysis = Literal["statics", "mooring", "frequency", "time"]
+
+
+class DampingTerms(Block):
+    """Damping beyond wave radiation: computed from the section, a fraction of critical, or both."""
+
+    viscous: Literal["computed", "none"] | None = Field(
+        default=None,
+        description="'computed': by eddies at the edges of the section. Default: computed, unless fraction_of_critical "
+        "or roll_damping is given.",
+    )
+    viscous_factor: PositiveNumber = Field(
+        default=1.0, description="What the computed viscous damping is multiplied with. Default: 1."
+    )
+    fraction_of_critical: Fraction | None = Field(
+        default=None, description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)); needs modes."
+    )
+    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] | None = Field(
+        default=None,
+        description="Motions that the fraction is applied to.",
+        examples=[["sway", "heave", "roll"]],
+    )
+    band: tuple[PositiveNumber, PositiveNumber] | None = Field(
+        default=None,
+        description="Factors on this damping for the band of transmission and motion. Default: [0.5, 2].",
+    )
+
+    @classmethod
+    def _between_keys(cls, data: dict[str, Any]) -> list[tuple[str, str, str]]:
+        faults = super()._between_keys(data)
+        if data.get("fraction_of_critical") is not None and data.get("modes") is None:
+            remedy = "give it: Motions that it is applied to, for instance [sway, heave, roll]"
+            faults.append(("", "the key 'modes' is missing", remedy))
+        if data.get("modes") is not None and data.get("fraction_of_critical") is None:
+            faults.append(("modes", "'modes' needs 'fraction_of_critical'", "give it, or leave 'modes' out"))
+        return faults
+
+
+class RollDampingTerms(Block):
+    """Measured or estimated roll damping of the whole unit."""
+
+    linear: RollDamping = Field(default=0.0, description="b1 in b1 theta' + b2 |theta'| theta'.")
+    quadratic: RollQuadraticDamping = Field(default=0.0, description="b2 in b1 theta' + b2 |theta'| theta'.")
+
+
+class AdditionalMass(Block):
+    """Mass that moves in one motion only, such as a rig of a model test."""
+
+    sway: AddedMass = Field(default=0.0, description="Moves in sway only.")
+    heave: AddedMass = Field(default=0.0, description="Moves in heave only.")
+    roll: AddedInertia = Field(default=0.0, description="Moves in roll only.")
+
+
+class AdditionalDamping(Block):
+    """Linear damping of the whole unit beyond wave radiation."""
+
+    sway: Damping = Field(default=0.0, description="Force per sway velocity.")
+    heave: Damping = Field(default=0.0, description="Force per heave velocity.")
+    roll: RollDamping = Field(default=0.0, description="Moment per roll velocity.")
+
+
+class _Coefficients(Block):
+    path: FileName = Field(description="File or folder of the program, relative to the case file.")
+    sea: Literal["beam", "head"] = Field(
+        description="'beam': this +x is the body's +y in the file; 'head': it is the body's +x."
+    )
+    origin: tuple[Length, Length] = Field(
+        default=(0.0, 0.0), description="Axes of the file: [x, y] of this origin. Default: [0, 0]."
+    )
+
+
+class CapytaineCoefficients(_Coefficients):
+    """Coefficients computed by Capytaine."""
+
+    program: Literal["capytaine"] = Field(description="NetCDF written by Capytaine.")
+    reference_point: tuple[Length, Length, Length] | None = Field(
+        default=None, description="Rotation centre [x, y, z] where the file does not say it."
+    )
+    body: str | None = Field(default=None, description="Body to take from a file with several.")
+
+
+class WamitCoefficients(_Coefficients):
+    """Coefficients computed by WAMIT or written in its form."""
+
+    program: Literal["wamit"] = Field(description="WAMIT .1 and .3 files (HAMS writes them too).")
+    reference_point: tuple[Length, Length, Length] | None = Field(
+        default=None, description="Origin of the body axes [x, y, z]; from the .pot file when absent."
+    )
+    length_scale: PositiveLength | None = Field(default=None, description="ULEN; from the .gdf file when absent.")
+    first_column: Literal["period", "angular_frequency", "wave_number"] | None = Field(
+        default=None, description="Meaning of the first column; must be given for HAMS."
+    )
+
+
+class NemohCoefficients(_Coefficients):
+    """Coefficients computed by NEMOH."""
+
+    program: Literal["nemoh"] = Field(description="Folder with Nemoh.cal and Results.")
+
+
+CoefficientsFile = Annotated[
+    CapytaineCoefficients | WamitCoefficients | NemohCoefficients, Field(discriminator="program")
+]
+
+
+class BreakwaterStructure(Block):
+    """A floating breakwater: one unit of constant section."""
+
+    at_least_one: ClassVar[KeyGroups] = (("draught", "mass"),)
+    exactly_one: ClassVar[KeyGroups] = (("roll_gyradius", "roll_inertia"),)
+
+    kind: Literal["breakwater"] = Field(description="Floating breakwater.")
+    length: PositiveLength = Field(description="Length of the unit along its crest.")
+    section: Section = Field(description="Shape of the section.")
+    draught: PositiveLength | None = Field(
+        default=None, description="Draught at the first water level; with 'mass' as well the imbalance is reported."
+    )
+    mass: Mass | None = Field(default=None, description="Mass of the unit without its lines.")
+    centre_of_gravity_above_keel: Length = Field(description="Height of the centre of gravity above the keel.")
+    centre_of_gravity_x: Length = Field(
+        default=0.0, description="Centre of gravity from the centre line, positive along +x. Default: 0."
+    )
+    roll_gyradius: PositiveLength | None = Field(
+        default=None, description="Roll radius of gyration about the centre of gravity."
+    )
+    roll_inertia: Inertia | None = Field(
+        default=None, description="Roll moment of inertia of the unit about its centre of gravity; needs 'mass'."
+    )
+    allow_unstable: Truth = Field(
+        default=False,
+        description="Whether a metacentric height of 0 m or less is meant: lines hold it upright. Default: false.",
+    )
+    damping: DampingTerms | None = Field(
+        default=None,
+        description="Damping beyond wave radiation. Default: computed from the section, unless roll_damping is given.",
+    )
+    roll_damping: RollDampingTerms | None = Field(default=None, description="Linear and quadratic roll damping.")
+    additional_mass: AdditionalMass | None = Field(
+        default=None, description="Mass that moves in one motion only (rigs of model tests)."
+    )
+    additional_damping: AdditionalDamping | None = Field(
+        default=None, description="Linear damping of the whole unit beyond wave radiation."
+    )
+    wind_drag_coefficient: NonNegativeNumber | None = Field(
+        default=None, description="Drag coefficient of the area above water; needed with 'wind'."
+    )
+    current_drag_coefficient: NonNegativeNumber | None = Field(
+        default=None, description="Drag coefficient of the area under water; needed with 'current'."
+    )
+    gap_damping_lid: NonNegativeNumber = Field(
+        default=0.0, description="Damping lid in the gaps of twin pontoons: K becomes K (1 + i lid). Default: 0."
+    )
+    coefficients_file: CoefficientsFile | None = Field(
+        default=None, description="Coefficients of a 3-D program for the whole unit in place of the section."
+    )
+
+
+class FrequencyRange(Range):
+    """Evenly spaced angular frequencies."""
+
+    first: AngularFrequency = Field(alias="from", description="First angular frequency.")
+    last: AngularFrequency = Field(alias="to", description="Last angular frequency.")
+
+
+class OffsetRange(Range):
+    """Evenly spaced offsets."""
+
+    first: Length = Field(alias="from", description="First offset.")
+    last: Length = Field(alias="to", description="Last offset.")
+
+
+def _form(value: Any) -> str:
+    if isinstance(value, str) or value is None:
+        return "<word>"
+    return "<range>" if isinstance(value, (dict, Range)) else "<list>"
+
+
+def _word_or_number(value: Any) -> str:
+    return "<word>" if isinstance(value, str) or value is None else "<number>"
+
+
+class LineDynamics(Block):
+    """When lines are in motion, how they are cut, what the bed takes, and what counts as slack and as snap."""
+
+    mode: Literal["auto", "quasi_static", "dynamic"] = Field(
+        default="auto",
+        description=(
+            "Lines without 'dynamic: true': in motion around the largest events where their peaks pass five times the "
+            "mean (auto), at rest at every instant (quasi_static), in motion from the start (dynamic)."
+        ),
+    )
+    bars: Annotated[int, Field(strict=True, ge=4, le=2000)] = Field(
+        default=30, description="Straight bars that each line is cut into. Default: 30."
+    )
+    damping_ratio: NonNegativeNumber = Field(
+        default=0.1,
+        description="Internal damping BA of the material over bar length times sqrt(EA m), at this number of bars.",
+    )
+    bed_stiffness: PositiveNumber | None = Field(
+        default=None,
+        description="Stiffness of the bed per contact area, Pa/m. Default: the line sinks a fiftieth of its diameter.",
+    )
+    bed_damping: NonNegativeNumber | None = Field(
+        default=None, description="Normal damping of the bed per contact area, Pa s/m. Default: half of critical."
+    )
+    slack_fraction: NonNegativeNumber = Field(
+        default=0.05, description="Tension over that at rest under which a line counts as slack. Default: 0.05."
+    )
+    snap_fraction: PositiveNumber = Field(
+        default=3.0, description="Peak over the tension at rest from which a contact counts as a snap. Default: 3."
+    )
+    sensitivity: Truth = Field(
+        default=False,
+        description="Whether each run is repeated with twice the bars, half the step, twice the internal damping.",
+    )
+
+
+class TimeSettings(Block):
+    """How the time domain is run."""
+
+    duration: AutoDuration = Field(default=None, description="Simulated time in regular waves. Default: auto.")
+    ramp: AutoDuration = Field(default=None, description="Length of the ramp of the waves. Default: auto.")
+    time_step: AutoDuration = Field(default=None, description="Time step. Default: auto.")
+    analysed_periods: Whole = Field(
+        default=10, description="Whole periods at the end that are analysed in regular waves. Default: 10."
+    )
+    drift: Literal["auto", "ramped", "pulsating", "newman", "none"] = Field(
+        default="auto",
+        description=(
+            "Drift force in time: mean under the ramp, F(1 + cos 2wt), slow drift after Newman, none; auto: newman in "
+            "irregular seas, ramped in regular waves."
+        ),
+    )
+    realisations: Annotated[
+        Annotated[Auto, Tag("<word>")] | Annotated[int, Field(strict=True, ge=1, le=100), Tag("<number>")],
+        Discriminator(_word_or_number),
+    ] = Field(
+        default="auto",
+        description=(
+            "Realisations of each irregular sea, the first with its 'seed'; numbers are means over them. Default: "
+            "auto, 5, or 1 where lines are in motion from the start."
+        ),
+    )
+    memory: Literal["state_space", "convolution"] = Field(
+        default="state_space", description="Wave memory by a rational approximation or by convolution."
+    )
+    lines: LineDynamics = Field(default_factory=LineDynamics, description="Lines in motion.")
+
+
+class Sensitivity(Block):
+    """Variations that are run beside the case."""
+
+    damping_fractions: Annotated[tuple[Fraction, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
+        default=(), description="Fractions of critical damping."
+    )
+    line_slacks: Annotated[tuple[Length, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
+        default=(), description="Line length less the chord from anchor to fairlead."
+    )
+    line_counts: Annotated[tuple[Whole, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
+        default=(), description="Total number of lines, shared alike."
+    )
+
+
+class Settings(Block):
+    """How the analyses are run."""
+
+    drift: Truth = Field(default=True, description="Whether the mean drift force acts. Default: true.")
+    frequencies: Annotated[
+        Annotated[Auto, Tag("<word>")]
+        | Annotated[tuple[AngularFrequency, ...], Field(min_length=1, max_length=10_000), Tag("<list>")]
+        | Annotated[FrequencyRange, Tag("<range>")],
+        Discriminator(_form),
+    ] = Field(default="auto", description="Angular frequencies of the motions: auto, a list, or {from, to, count}.")
+    restoring_offsets: Annotated[
+        Annotated[Auto, Tag("<word>")]
+        | Annotated[tuple[Length, ...], Field(min_length=2, max_length=10_000), Tag("<list>")]
+        | Annotated[OffsetRange, Tag("<range>")],
+        Discriminator(_form),
+    ] = Field(default="auto", description="Sway offsets of the restoring curve: auto, a list, or {from, to, count}.")
+    time: TimeSettings = Field(default_factory=TimeSettings, description="How the time domain is run.")
+    sensitivity: Sensitivity = Field(
+        default_factory=Sensitivity, description="Variations that are run beside the case."
+    )
+    water_levels: Annotated[
+        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+        Discriminator(_form),
+    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+
+
+class Measured(Block):
+    """Measured points to show beside the results."""
+
+    file: FileName = Field(description="CSV, names and units in its header: 'period [s], transmission_coefficient'.")
+    columns: dict[str, Annotated[str, Field(min_length=1)]] = Field(
+        default_factory=dict, description="Names of columns in the file and what they are called in the results."
+    )
+
+
+class BreakwaterCase(Block):
+    """A floating breakwater from its site to its analyses."""
+
+    moyai: Literal[1] = Field(description="Version of the case file format.")
+    title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
+    site: Site = Field(description="The water of the site.")
+    waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
+        default=(), description="One sea state, or a list of them; each is run."
+    )
+    wind: Wind | None = Field(default=None, description="Steady wind.")
+    current: Current | None = Field(default=None, description="Steady current.")
+    structure: BreakwaterStructure = Field(description="The floating unit.")
+    lines: tuple[LineEntry, ...] = Field(default=(), description="Mooring lines or springs.", max_length=200)
+    analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
+        description="What is computed.", examples=[["statics", "mooring", "frequency", "time"]]
+    )
+    criteria: BreakwaterKeeps = Field(default_factory=BreakwaterCriteria, description=CRITERIA)
+    settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
+    measured: Measured | None = Field(default=None, description="Measured points to show beside the results.")

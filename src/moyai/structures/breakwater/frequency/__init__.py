@@ -1,0 +1,1 @@
+"""The unit in the frequency domain: operators, regular and irregular seas."""

@@ -1,0 +1,351 @@
+"""Which frequencies a breakwater needs, and its hydrodynamic coefficients there."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai import __version__
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.store import DatasetStore, key_of
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.potential.damping_model import Start
+from moyai.potential.memory_plan import FrequencyPlan, recommend_frequencies, refine_frequencies
+from moyai.potential.modes import rigid_modes
+from moyai.potential.solver import RadiationDiffraction, solve
+from moyai.sea.dispersion import angular_frequency, wave_number
+from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+CoefficientsOf = Callable[[FloatingUnit], "xr.Dataset"]
+"""Gives planar coefficients per metre of the unit from another program, for a unit at rest."""
+
+SHORTEST_WAVE_OVER_BEAM = 1.0  # operators are drawn from L/B = 1, where a floating breakwater lets nothing pass,
+LONGEST_WAVE_OVER_BEAM = 12.0  # to 12, where it stops nothing
+OPERATOR_FREQUENCIES = 60
+SECTOR = math.radians(75.0)  # headings to either side of the normal that meet the side of the unit
+MOST_REFINEMENTS = 6
+MOST_SOLVED = 4  # solutions of the normal heading that are kept in memory
+MOST_FREQUENCIES = 1500
+REFINEMENT_TOLERANCE = 1e-3  # error of interpolated damping over its largest value at which frequencies are added
+OBLIQUE_FREQUENCIES = 64
+HEADING_TOLERANCE = math.radians(0.5)  # within which a heading of a 3-D program counts as that of the case
+ENERGY_LEFT_OUT = 1e-3  # share of a spectrum beyond the highest frequency of its analysis
+
+
+@dataclass(frozen=True)
+class UnitHydrodynamics:
+    """Coefficients of the unit at one water level.
+
+    Parameters
+    ----------
+    per_metre : xarray.Dataset
+        In Capytaine's names, per metre of structure (or of the whole unit from a 3-D program, attribute ``length``).
+    oblique_per_metre : xarray.Dataset or None
+        The oblique headings of the case.
+    unit : Hydrodynamics
+        Of the whole unit in normal incidence, over the whole band.
+    by_heading : tuple of Hydrodynamics
+        The same, one heading each, with the radiation that belongs to that heading.
+    solution : RadiationDiffraction or None
+        Of the section; ``None`` with coefficients of another program.
+    checks : tuple of IdentityCheck
+    notices : tuple of Notice
+    """
+
+    per_metre: xr.Dataset
+    oblique_per_metre: xr.Dataset | None
+    unit: Hydrodynamics
+    by_heading: tuple[Hydrodynamics, ...]
+    solution: RadiationDiffraction | None
+    checks: tuple[IdentityCheck, ...]
+    notices: tuple[Notice, ...]
+
+    def at(self, omega: Array, heading: float) -> Hydrodynamics:
+        """Return the coefficients at other frequencies for one heading that was computed.
+
+        In oblique waves the radiation is that of a long structure whose motion runs along it with the wave.
+        """
+        return self.by_heading[self._index(heading)].at(omega)
+
+    def whole(self, heading: float) -> Hydrodynamics:
+        """Return the coefficients of one heading at all frequencies that were computed for it."""
+        return self.by_heading[self._index(heading)]
+
+    def _index(self, heading: float) -> int:
+        known = np.array([float(item.heading[0]) for item in self.by_heading])
+        return int(np.argmin(np.abs(known - heading)))
+
+
+def operator_frequencies(unit: FloatingUnit, problem: BreakwaterProblem) -> Array:
+    """Return the frequencies [rad/s] at which response operators are drawn.
+
+    The user's own, or waves of one to twelve beams, evenly in frequency.
+    """
+    given = problem.settings.angular_frequencies()
+    if given is not None:
+        return np.unique(given)
+    beam, water = unit.breakwater.hull.beam, unit.water
+    lengths = beam * np.array([SHORTEST_WAVE_OVER_BEAM, LONGEST_WAVE_OVER_BEAM])
+    high, low = angular_frequency(2.0 * math.pi / lengths, water.depth, water.gravity)
+    return np.linspace(float(low), float(high), OPERATOR_FREQUENCIES)
+
+
+def sea_frequencies(problem: BreakwaterProblem) -> Array:
+    """Return the frequencies of the sea states: regular waves exactly, spectra over their energy."""
+    parts = [np.zeros(0)]
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, RegularSea):
+            parts.append(2.0 * math.pi / np.asarray(sea.periods))
+        else:
+            parts.append(spectrum_band(sea))
+    return np.unique(np.concatenate(parts))
+
+
+def spectrum_band(sea: IrregularSea, count: int = 200) -> Array:
+    """Return frequencies [rad/s] over all but 1e-3 of the energy of a spectrum, half of them crowded by energy."""
+    low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-5, 1.0 - ENERGY_LEFT_OUT])))
+    by_energy = sea.spectrum.quantile(np.linspace(1e-5, 1.0 - ENERGY_LEFT_OUT, count // 2))
+    grid = np.concatenate([np.linspace(low, high, count // 2), np.asarray(by_energy, dtype=float)])
+    # Seas that differ in height alone have the same frequencies to the last digit, and share their coefficients
+    grid = np.unique([float(f"{frequency:.11g}") for frequency in grid])
+    # Points closer than a thousandth of the band to the last one kept carry no information and spoil splines
+    kept = [grid[0]]
+    for frequency in grid[1:]:
+        if frequency - kept[-1] > 1e-3 * (high - low):
+            kept.append(frequency)
+    return np.array(kept, dtype=float)
+
+
+def headings_of(problem: BreakwaterProblem) -> Array:
+    """Return the headings [rad] of all sea states, normal incidence first when it is there or there are no seas."""
+    headings = [float(sea.heading) for sea in problem.environment.sea_states]
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, IrregularSea) and sea.spreading is not None:
+            headings.extend(spread_headings(sea, np.ones(1))[0])
+    return np.unique(np.asarray(headings if headings else [0.0]))
+
+
+def spread_headings(sea: IrregularSea, omega: Array, count: int = 15) -> tuple[Array, Array]:
+    """Return headings [rad] of a spread sea that meet the breakwater, and the share of energy (n, h) of each.
+
+    Even cells over the headings that carry all but 1e-3 of the energy, within 75 degrees of the normal. The share of a
+    cell is the exact integral of the spreading over it, so that the energy is kept however narrow the sea. What travels
+    outside of the sector meets the ends rather than the side and is left out: the shares sum to less than one by that.
+    """
+    if sea.spreading is None:
+        return np.array([sea.heading]), np.ones((len(omega), 1))
+    peaks = np.asarray(sea.spectrum.quantile(np.array([0.02, 0.5, 0.98])), dtype=float)
+    ends = np.asarray(sea.spreading.quantile(np.array([[5e-4], [1.0 - 5e-4]]), peaks[None, :]))
+    low = max(sea.heading + float(ends[0].min()), -SECTOR)
+    high = min(sea.heading + float(ends[1].max()), SECTOR)
+    if not low < high:
+        raise InputError(
+            f"{sea.name}: hardly any wave of this sea travels within 75 degrees of the normal of the unit",
+            path="waves.heading_deg",
+            remedy="turn the sea towards the unit or leave it out",
+        )
+    edges = np.linspace(low, high, count + 1)
+    below = np.asarray(sea.spreading.cumulative(np.clip(edges - sea.heading, -np.pi, np.pi)[None, :], omega[:, None]))
+    share = np.diff(np.broadcast_to(below, (len(omega), count + 1)), axis=1)
+    # Rounded, so that the middle of a sea straight on is normal incidence and mirrored headings share one solve
+    return np.round(0.5 * (edges[1:] + edges[:-1]), 12), share
+
+
+def solve_unit(
+    unit: FloatingUnit,
+    problem: BreakwaterProblem,
+    *,
+    coefficients: CoefficientsOf | None = None,
+    store: DatasetStore | None = None,
+    progress: Progress = silent,
+) -> UnitHydrodynamics:
+    """Compute the coefficients of the unit for everything that the case asks for.
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+    problem : BreakwaterProblem
+    coefficients : callable or None
+        Coefficients of a 3-D program in place of the section.
+    store : DatasetStore or None
+        Where coefficients that took long are kept and looked for.
+    progress : Progress
+    """
+    if coefficients is not None:
+        return _given(coefficients(unit), unit, problem)
+    wanted = np.concatenate([operator_frequencies(unit, problem), sea_frequencies(problem)])
+    length = unit.breakwater.length
+    # One solve of the normal heading serves operators, seas, natural periods and memory: a frequency costs little
+    normal = _solve_band(unit, np.concatenate([wanted, band(unit).omega]), progress)
+    headings = headings_of(problem)
+    oblique = headings[headings != 0.0]
+    by_heading = [item.scaled_to(length) for item in _headings_of(normal.dataset, 1.0)]
+    checks, notices, turned = list(normal.checks), list(normal.notices), None
+    if len(oblique):
+        # An oblique heading has matrices of its own at every frequency: only what the case asks for
+        chosen = oblique_frequencies(problem, wanted)
+        turned, found_checks = _oblique(unit, chosen, oblique, store, progress)
+        by_heading.extend(item.scaled_to(length) for item in _headings_of(turned, 1.0))
+        checks.extend(replace(check, name=f"oblique waves: {check.name}") for check in found_checks)
+    return UnitHydrodynamics(
+        per_metre=normal.dataset,
+        oblique_per_metre=turned,
+        unit=by_heading[0],
+        by_heading=tuple(sorted(by_heading, key=lambda item: float(item.heading[0]))),
+        solution=normal,
+        checks=tuple(checks),
+        notices=tuple(notices),
+    )
+
+
+def _oblique(
+    unit: FloatingUnit, omega: Array, headings: Array, store: DatasetStore | None, progress: Progress
+) -> tuple[xr.Dataset, tuple[IdentityCheck, ...]]:
+    """Solve oblique headings, or take them from the store: they cost a hundred times the normal one."""
+    modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
+    key = _key(unit, omega, headings)
+    data = None if store is None else store.get(key)
+    if data is None:
+        found = solve(unit.section, unit.water, omega, modes=modes, heading=headings, lid=lid, progress=progress)
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
+        data = found.dataset
+        if store is not None:
+            store.put(key, data)
+    checks = tuple(
+        IdentityCheck(
+            item["name"],
+            math.nan if item["value"] is None else float(item["value"]),
+            float(item["tolerance"]),
+            item.get("meaning", ""),
+        )
+        for item in json.loads(data.attrs["checks"])
+    )
+    return data, checks
+
+
+def _key(unit: FloatingUnit, omega: Array, headings: Array) -> str:
+    """Return the key of a solve: geometry, position, water, frequencies, headings, lid, version."""
+    outlines = [part for outline in unit.section.outlines for part in (outline.vertices, outline.bulges)]
+    outlines += [part for plate in unit.section.plates for part in (plate.points, plate.edges.bulge)]
+    position = (unit.section.draught, unit.section.heel, unit.centre, unit.breakwater.gap_damping_lid)
+    water = (unit.water.depth, unit.water.density, unit.water.gravity)
+    return key_of(__version__, *outlines, position, water, omega, headings)
+
+
+def oblique_frequencies(problem: BreakwaterProblem, wanted: Array) -> Array:
+    """Return frequencies [rad/s] of oblique headings: regular waves exactly, the rest of the band for splines."""
+    regular = [
+        2.0 * math.pi / np.asarray(sea.periods) for sea in problem.environment.sea_states if isinstance(sea, RegularSea)
+    ]
+    even = np.linspace(float(wanted.min()), float(wanted.max()), OBLIQUE_FREQUENCIES)
+    return distinct(np.concatenate([*regular, even]))
+
+
+def _given(data: xr.Dataset, unit: FloatingUnit, problem: BreakwaterProblem) -> UnitHydrodynamics:
+    """Take planar coefficients of another program, per metre of the unit.
+
+    Raises
+    ------
+    InputError
+        When a heading of the case is not among them.
+    """
+    length = unit.breakwater.length
+    by_heading = tuple(item.scaled_to(length) for item in _headings_of(data, 1.0))
+    known = np.array([float(item.heading[0]) for item in by_heading])
+    for heading in headings_of(problem):
+        if np.min(np.abs(known - heading)) > HEADING_TOLERANCE:
+            raise InputError(
+                f"the coefficients hold no heading of {math.degrees(heading):.4g} degrees to the normal of the unit",
+                path="structure.coefficients_file",
+                allowed=", ".join(f"{math.degrees(value):.4g}" for value in np.sort(known)),
+                remedy="compute that heading, or change that of the waves",
+            )
+    order = np.argsort(known)
+    normal = by_heading[int(np.argmin(np.abs(known)))]
+    return UnitHydrodynamics(data, None, normal, tuple(by_heading[index] for index in order), None, (), ())
+
+
+def distinct(omega: Array) -> Array:
+    """Return sorted frequencies; two that differ by rounding only are one."""
+    omega = np.unique(omega)
+    return np.asarray(omega[np.concatenate([[True], np.diff(omega) > 1e-9 * omega[-1]])], dtype=float)
+
+
+def band(unit: FloatingUnit) -> FrequencyPlan:
+    """Return the frequencies that the memory of the water is made of, and why these."""
+    # A thin wetted side leaves the exact tail late; a hundredth of the beam bounds the effort
+    height = max(-unit.section.keel, 0.01 * unit.breakwater.hull.beam)
+    if not unit.section.surface_piercing:
+        height = max(-unit.section.bounds[3], 0.05 * unit.breakwater.hull.beam)
+    return recommend_frequencies(unit.water, breadth=unit.breakwater.hull.beam, wall_height=height)
+
+
+def damping_start(unit: FloatingUnit) -> Start:
+    """Return how radiation damping starts at zero frequency: an even function in two dimensions and finite depth."""
+    return "even" if math.isfinite(unit.water.depth) else "zero"
+
+
+_SOLVED: OrderedDict[str, RadiationDiffraction] = OrderedDict()
+
+
+def _solve_band(unit: FloatingUnit, omega: Array, progress: Progress) -> RadiationDiffraction:
+    """Solve the normal heading, adding frequencies where the damping turns sharply (water between twin hulls).
+
+    The last few solutions are kept: the cases of a study often differ in what does not touch them.
+    """
+    modes, lid = rigid_modes(unit.centre), unit.breakwater.gap_damping_lid or None
+    grid = distinct(omega)
+    key = _key(unit, grid, np.zeros(1))
+    if key in _SOLVED:
+        _SOLVED.move_to_end(key)
+        return _SOLVED[key]
+    for _ in range(MOST_REFINEMENTS):
+        found = solve(unit.section, unit.water, grid, modes=modes, lid=lid, progress=progress)
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
+        damping = found.normal.radiation_damping
+        more = refine_frequencies(grid, damping, start=damping_start(unit), tolerance=REFINEMENT_TOLERANCE)
+        if not len(more) or len(grid) > MOST_FREQUENCIES:
+            break
+        grid = distinct(np.concatenate([grid, more]))
+    _SOLVED[key] = found
+    while len(_SOLVED) > MOST_SOLVED:
+        _SOLVED.popitem(last=False)
+    return found
+
+
+def _headings_of(data: xr.Dataset, length: float) -> tuple[Hydrodynamics, ...]:
+    """Take a dataset apart by heading, each with its own radiation where the dataset tells it."""
+    out = []
+    for index in range(data.sizes["wave_direction"]):
+        one = data.isel(wave_direction=[index])
+        if "oblique_added_mass" in data:
+            own = one.isel(wave_direction=0)
+            one = one.assign(
+                added_mass=own.oblique_added_mass,
+                radiation_damping=own.oblique_radiation_damping,
+                radiated_wave=own.oblique_radiated_wave,
+            )
+        out.append(Hydrodynamics.from_dataset(one, length=length))
+    return tuple(out)
+
+
+def wavelengths(omega: Array, unit: FloatingUnit) -> Array:
+    """Return wave lengths [m]."""
+    return np.asarray(2.0 * math.pi / wave_number(omega, unit.water.depth, unit.water.gravity))

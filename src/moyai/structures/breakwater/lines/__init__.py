@@ -1,0 +1,1 @@
+"""Mooring lines in motion: their network, their water, their drag, and events of irregular seas."""

@@ -1,0 +1,173 @@
+"""Lines set in motion around the largest events of an irregular sea, where lines at rest at every instant do not serve.
+
+The rerun starts from rest, shortly before the event, on the same waves; it lasts until the start is forgotten and the
+event has passed. The whole sea with lines in motion would take a hundred times longer.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.progress import Progress, silent
+from moyai.floating.forcing import IrregularForcing
+from moyai.floating.time import CumminsModel, Simulation
+from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.frequency.model import FrequencyModel
+from moyai.structures.breakwater.model import MooringLine, TimeSettings
+from moyai.structures.breakwater.responses import SNAP_RATIO
+from moyai.structures.breakwater.time.lines import lines_at_rest, motion_summary
+from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun, compiled_lines
+from moyai.structures.breakwater.viscous_damping import in_moving_water
+
+Array = NDArray[np.float64]
+
+RAMP_PERIODS = 4.0  # of the waves, at the start of a window
+FORGOTTEN = math.log(20.0)  # the start of a window dies to a twentieth before its event
+MOST_LEAD = 600.0  # [s] from the start of a window to its event
+PERIODS_AROUND = 4.0  # peak periods before and after the event that count
+
+
+def with_lines_in_motion(model: FrequencyModel) -> FrequencyModel:
+    """Return the model with every line in motion of which enough is known."""
+    breakwater = model.unit.breakwater
+    lines = tuple(
+        replace(line, dynamic=True) if isinstance(line, MooringLine) and line.can_move else line
+        for line in breakwater.lines
+    )
+    return replace(model, unit=replace(model.unit, breakwater=replace(breakwater, lines=lines)))
+
+
+def movable(unit: FloatingUnit) -> NDArray[np.bool_]:
+    """Return which lines may be set in motion and are not in motion yet."""
+    return np.array(
+        [isinstance(line, MooringLine) and line.can_move and not line.dynamic for line in unit.breakwater.lines],
+        dtype=bool,
+    )
+
+
+def out_of_range(unit: FloatingUnit, largest: Array, mean: Array) -> NDArray[np.bool_]:
+    """Return which lines at rest at every instant have peaks that such lines do not tell (no springs).
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+    largest, mean : ndarray (..., lines)
+        Tensions [N]; one passing value over the leading axes is enough.
+    """
+    kinds = len(unit.lines)
+    passing = np.nan_to_num(largest).reshape(-1, kinds) > SNAP_RATIO * np.nan_to_num(mean).reshape(-1, kinds)
+    chains = np.array([isinstance(line, MooringLine) for line in unit.breakwater.lines], dtype=bool)
+    return np.asarray(passing.any(axis=0) & chains & lines_at_rest(unit))
+
+
+@dataclass(frozen=True)
+class EventSettings:
+    """What the reruns of a sea share.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    cummins : CumminsModel
+    expected : ndarray (3,)
+    settings : TimeSettings
+    peak_period : float
+        [s].
+    slow_omega, slow_damping : float
+        Natural frequency of sway [rad/s] and its damping over critical.
+    """
+
+    model: FrequencyModel
+    cummins: CumminsModel
+    expected: Array
+    settings: TimeSettings
+    peak_period: float
+    slow_omega: float
+    slow_damping: float
+
+    @property
+    def lead(self) -> float:
+        """Time from the start of a window to its event [s]."""
+        forget = 0.0
+        if self.slow_omega > 0.0 and math.isfinite(self.slow_omega):
+            forget = FORGOTTEN / (max(self.slow_damping, 0.01) * self.slow_omega)
+        return min(RAMP_PERIODS * self.peak_period + max(forget, 6.0 * self.peak_period), MOST_LEAD)
+
+
+def run_event(
+    given: EventSettings,
+    forcing: IrregularForcing,
+    sea: SeaOfRun,
+    whole: Simulation,
+    line: int,
+    progress: Progress = silent,
+) -> TimeRun:
+    """Run the unit on lines in motion around the largest tension of one line.
+
+    Parameters
+    ----------
+    given : EventSettings
+    forcing : IrregularForcing
+        Of the whole realisation.
+    sea : SeaOfRun
+        Its waves and current.
+    whole : Simulation
+        The realisation with lines at rest at every instant.
+    line : int
+        Whose largest tension is the event.
+    progress : Progress
+    """
+    from moyai.structures.breakwater.lines.motion import run_on_lines
+
+    model = with_lines_in_motion(given.model)
+    kept = whole.time >= sea.begin
+    event = float(whole.time[kept][int(np.argmax(whole.tension[kept, line]))])
+    start = max(event - given.lead, 0.0)
+    around = PERIODS_AROUND * given.peak_period
+    duration = min(event + around, float(whole.time[-1])) - start
+    begin = max(event - start - around, 0.0)
+    ramp = RAMP_PERIODS * given.peak_period
+    turned = replace(forcing, amplitude=forcing.amplitude * np.exp(-1j * forcing.omega * start), ramp=ramp)
+    waves = sea.waves
+    if waves is not None:
+        waves = replace(waves, phase=waves.phase - waves.omega * start)
+    unit = model.unit
+    reach = np.maximum(2.0 * given.expected, 1e-3 * np.array([unit.breakwater.hull.beam] * 2 + [1.0]))
+    moved = in_moving_water(unit, turned, waves.heading if waves is not None else np.zeros(1))
+    moving, lines = run_on_lines(
+        model, given.cummins, moved, given.expected, given.settings.lines,
+        static_lines=compiled_lines(unit, reach, at_rest_only=True), waves=waves, current=sea.current, ramp=ramp,
+        duration=duration, time_step=given.settings.time_step, begin=begin, period=given.peak_period, progress=progress,
+    )  # fmt: skip
+    attributes = {
+        "kind": "irregular", "ramp": ramp, "analysis_start": begin, "starts_at": start, "event": event,
+        "line": given.model.unit.lines[line].name,
+    }  # fmt: skip
+    return TimeRun("event", moving, attributes, lines, _part(whole, start, duration))
+
+
+def event_numbers(model: FrequencyModel, run: TimeRun) -> dict[str, Array]:
+    """Return what counts of an event: largest tensions of the lines, and what lines in motion add."""
+    unit = with_lines_in_motion(model).unit
+    begin = float(run.attributes["analysis_start"])
+    window = run.simulation.time >= begin
+    assert run.lines is not None
+    anchor, uplift = run.lines.anchor[window], run.lines.uplift[window]
+    level = np.sqrt(np.maximum(anchor**2 - uplift**2, 0.0))
+    return {
+        "maximum_tension": run.peaks[window].max(axis=0),
+        "maximum_anchor_vertical_tension": uplift.max(axis=0),
+        "maximum_anchor_horizontal_tension": level.max(axis=0),
+        **motion_summary(unit, run, window, begin),
+    }
+
+
+def _part(whole: Simulation, start: float, duration: float) -> Simulation:
+    rows = (whole.time >= start) & (whole.time <= start + duration)
+    return replace(
+        whole, time=whole.time[rows] - start, position=whole.position[rows], velocity=whole.velocity[rows],
+        mooring_force=whole.mooring_force[rows], tension=whole.tension[rows], elevation=whole.elevation[rows],
+    )  # fmt: skip

@@ -1,0 +1,63 @@
+"""Steady loads of wind and current on the unit."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.model import Environment
+
+Array = NDArray[np.float64]
+
+LEVELS = 41  # Simpson points over the draught for the current
+
+
+def steady_force(unit: FloatingUnit, environment: Environment) -> Array:
+    """Return the force of wind and current on the unit [eq:breakwater-steady-load].
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+    environment : Environment
+
+    Returns
+    -------
+    ndarray (3,)
+        Sway force [N], heave force (zero) and roll moment about the centre of gravity [N m].
+
+    Raises
+    ------
+    InputError
+        When there is wind or current and its coefficient is missing.
+    """
+    breakwater, total = unit.breakwater, np.zeros(3)
+    if environment.wind is not None and environment.wind.speed != 0.0:
+        coefficient = _required(breakwater.wind_drag_coefficient, "wind_drag_coefficient", "wind")
+        wind, freeboard = environment.wind, max(unit.freeboard, 0.0)
+        normal = wind.speed * math.cos(wind.heading)
+        force = 0.5 * wind.density * coefficient * breakwater.length * freeboard * abs(wind.speed) * normal
+        total += force * np.array([1.0, 0.0, 0.5 * freeboard - unit.centre[1]])
+    if environment.current is not None:
+        coefficient = _required(breakwater.current_drag_coefficient, "current_drag_coefficient", "current")
+        z = np.linspace(unit.section.bottom, min(0.0, unit.section.bounds[3]), LEVELS)
+        normal_speed = np.asarray(environment.current.velocity(z), dtype=float)[..., 0]
+        pressure = 0.5 * unit.water.density * coefficient * breakwater.length * np.abs(normal_speed) * normal_speed
+        total += np.array([_simpson(pressure, z), 0.0, _simpson(pressure * (z - unit.centre[1]), z)])
+    return total
+
+
+def _required(value: float | None, name: str, load: str) -> float:
+    if value is None:
+        raise InputError(
+            f"there is {load} but no {name}", path=f"structure.{name}", remedy=f"give {name} or leave {load} out"
+        )
+    return value
+
+
+def _simpson(values: Array, z: Array) -> float:
+    step = (z[-1] - z[0]) / (len(z) - 1)
+    return float(step / 3.0 * (values[0] + values[-1] + 4.0 * values[1:-1:2].sum() + 2.0 * values[2:-1:2].sum()))

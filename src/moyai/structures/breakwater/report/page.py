@@ -1,0 +1,290 @@
+"""Compose the report of a floating breakwater: governing numbers first, then what they rest on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from moyai.core.results import Result
+from moyai.report.document import (
+    Block,
+    Choice,
+    Document,
+    Drawing,
+    Option,
+    Paragraph,
+    Section,
+)
+from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail, with_colours
+from moyai.report.formatting import MINUS, format_quantity
+from moyai.report.general_page import case_listing, closing_section, provenance, report_title
+from moyai.report.reading import Group
+from moyai.structures.breakwater.report import damping, figures, sea_figures, tables
+from moyai.structures.breakwater.report.reading import (
+    MODES,
+    Level,
+    Sea,
+    SeaNumbers,
+    all_numbers,
+    attribute_number,
+    governing_entry,
+    water_levels,
+)
+from moyai.structures.breakwater.report.summary import summary_blocks
+from moyai.structures.breakwater.report.time import (
+    Record,
+    centre_of_gravity,
+    lines_rest_shapes,
+    outlines_at_rest,
+    read_record,
+    run_blocks,
+)
+
+LEVEL_GROUP = "water-level"
+MOST_ANIMATIONS = 24
+POINTS_OF_ALL_RECORDS = 40000  # thinned samples outside the windows, over all runs
+
+
+def compose(result: Result) -> Document:
+    """Compose the report of a floating breakwater.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = Group("", result.tree)
+    levels = water_levels(result)
+    numbers = all_numbers(levels)
+    decides = governing_entry(result, numbers)
+    default = next((n for n, level in enumerate(levels) if decides is not None and level.name == decides.level), 0)
+    measured = root.child("measured")
+
+    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(
+                Option(_level_words(level), blocks or (Paragraph("Not run at this water level.", quiet=True),))
+            )
+        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        return (Choice(LEVEL_GROUP, "Water level", tuple(options), default),)
+
+    sections = [
+        Section(
+            "summary",
+            "Summary",
+            (
+                *summary_blocks(result, numbers, decides),
+                *at_each_level(lambda level: [sea_figures.tension_bars(level)]),
+            ),
+        ),
+        Section("input", "Input", (*_input(root, levels), *at_each_level(_drawings))),
+        Section("rest", "At rest", at_each_level(_at_rest)),
+        Section("response", "Response to waves", at_each_level(_response)),
+        Section("seas", "Sea states", at_each_level(lambda level: _seas(level, measured, decides))),
+        Section("time", "Time domain", at_each_level(_time_section(levels, decides))),
+        Section("sensitivity", "Sensitivity", at_each_level(_sensitivity)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _level_words(level: Level) -> str:
+    if not math.isfinite(level.elevation):
+        return level.name
+    height = f"{level.elevation:+.2f} m".replace("-", MINUS)
+    return f"{level.name} ({height})"
+
+
+def _subtitle(levels: tuple[Level, ...]) -> str:
+    parts = ["Floating breakwater"]
+    if levels:
+        statics = levels[0].group.child("statics")
+        sizes = [
+            format_quantity(value, "m")
+            for name in ("beam", "section_height", "unit_length")
+            if math.isfinite(value := statics.value(name))
+        ]
+        if len(sizes) == 3:
+            parts.append(f"{sizes[0]} beam, {sizes[1]} high, {sizes[2]} long")
+        parts.append(
+            ("Water levels " if len(levels) > 1 else "Water level ") + ", ".join(level.name for level in levels)
+        )
+        seas = list(dict.fromkeys(name for level in levels for name in level.sea_names()))
+        if seas:
+            parts.append(("Sea states " if len(seas) > 1 else "Sea state ") + ", ".join(seas))
+    return " · ".join(parts)
+
+
+def _input(root: Group, levels: tuple[Level, ...]) -> tuple[Block, ...]:
+    derived = tables.derived_numbers(levels) if levels else None
+    return (case_listing(root), *([derived] if derived is not None else []))
+
+
+def _drawings(level: Level) -> Sequence[Block | None]:
+    outlines = outlines_at_rest(level)
+    if not outlines:
+        return ()
+    statics = level.group.child("statics")
+    geometry = SectionGeometry(
+        outlines,
+        centre_of_gravity(level),
+        statics.value("draught"),
+        statics.value("freeboard"),
+        statics.value("beam"),
+        statics.value("section_height"),
+        level.depth,
+        lines_rest_shapes(level),
+    )
+    drawings = [
+        Drawing(
+            figures.key(level, "section"),
+            "Section and signs of the motions",
+            svg := section_detail(geometry),
+            with_colours(svg),
+            "To scale. Axes x, z with the origin in the still water; positive roll turns the top towards +x.",
+        )
+    ]
+    if geometry.lines:
+        drawings.insert(
+            0,
+            Drawing(
+                figures.key(level, "elevation"),
+                "Mooring at rest",
+                svg := mooring_elevation(geometry),
+                with_colours(svg),
+                "To scale, at rest.",
+            ),
+        )
+    return drawings
+
+
+def _at_rest(level: Level) -> Sequence[Block | None]:
+    return (
+        tables.lines_at_rest(level),
+        tables.natural_periods(level),
+        figures.restoring(level),
+        tables.stiffness_matrices(level),
+    )
+
+
+def _response(level: Level) -> Sequence[Block | None]:
+    return (
+        *figures.response_operators(level),
+        figures.wave_coefficients(level),
+        figures.drift(level),
+        *figures.hydrodynamic_coefficients(level),
+    )
+
+
+def _seas(level: Level, measured: Group, decides: SeaNumbers | None) -> Sequence[Block | None]:
+    names = level.sea_names()
+    options = []
+    for name in names:
+        sea = level.sea(name)
+        found = _regular_blocks(level, sea, measured) if sea.regular else _irregular_blocks(level, sea)
+        blocks = tuple(block for block in found if block is not None)
+        if blocks:
+            options.append(Option(name, blocks))
+    if not options:
+        return ()
+    default = next((n for n, option in enumerate(options) if decides is not None and option.label == decides.sea), 0)
+    return (Choice("sea", "Sea state", tuple(options), default),)
+
+
+def _regular_blocks(level: Level, sea: Sea, measured: Group) -> Sequence[Block | None]:
+    return (
+        sea_figures.regular_motions(level, sea, measured),
+        sea_figures.regular_coefficients(level, sea, measured),
+        sea_figures.regular_drift(level, sea, measured),
+        sea_figures.stiffness_under_drift(level, sea),
+        sea_figures.regular_tension(level, sea),
+        *tables.regular_tables(level, sea),
+        damping.regular_damping_table(level, sea),
+    )
+
+
+def _irregular_blocks(level: Level, sea: Sea) -> Sequence[Block | None]:
+    return (
+        tables.irregular_waves(level, sea),
+        tables.irregular_motions(level, sea),
+        tables.irregular_tensions(level, sea),
+        damping.damping_table(level, sea),
+        sea_figures.spectra(level, sea),
+    )
+
+
+def _time_section(levels: tuple[Level, ...], decides: SeaNumbers | None) -> Callable[[Level], Sequence[Block | None]]:
+    """Return the composer of the runs: animations for as many as a mail can carry, the worst runs first."""
+    records: dict[tuple[str, str, str], tuple[Level, Sea, Record]] = {}
+    for level in levels:
+        for name in level.sea_names():
+            sea = level.sea(name)
+            for run in sea.runs():
+                record = read_record(level, run)
+                if record is not None:
+                    records[level.name, name, run.name] = (level, sea, record)
+
+    def severity(entry: tuple[str, str, str]) -> float:
+        record = records[entry][2]
+        if record.run.name == "event":  # lines in motion stand before the same record with lines at rest
+            return math.inf
+        peak = (
+            record.tension[record.at, record.governing_line]
+            if record.governing_line >= 0
+            else abs(record.pose[record.at, 0])
+        )
+        return float(peak)
+
+    animated = set(sorted(records, key=severity, reverse=True)[:MOST_ANIMATIONS])
+    bins = max(POINTS_OF_ALL_RECORDS // max(len(records), 1) // 16, 60)
+
+    def compose_level(level: Level) -> Sequence[Block | None]:
+        options = []
+        for name in level.sea_names():
+            mine = [entry for entry in records if entry[:2] == (level.name, name)]
+            if not mine:
+                continue
+            worst = max(range(len(mine)), key=lambda number: severity(mine[number]))
+            runs = tuple(
+                Option(_run_words(records[entry][2]), run_blocks(*records[entry], entry in animated, bins))
+                for entry in mine
+            )
+            options.append(Option(name, (Choice(f"run-{name}", "Run", runs, worst, print_all=False),)))
+        if not options:
+            return ()
+        default = next(
+            (n for n, option in enumerate(options) if decides is not None and option.label == decides.sea), 0
+        )
+        return (Choice("sea", "Sea state", tuple(options), default),)
+
+    return compose_level
+
+
+def _run_words(record: Record) -> str:
+    period, attributes = attribute_number(record.run, "period"), record.run.attributes
+    named = {"event": "largest event, lines in motion", "realisation": "whole record"}
+    words = f"T = {period:.4g} s" if period > 0.0 else named.get(record.run.name, record.run.name.replace("_", " "))
+    if "seed" in attributes and "seed" not in words:
+        words += f", seed {attributes['seed']}"
+    status = str(attributes.get("status", "converged"))
+    return words if status in {"converged", ""} else f"{words} ({status.replace('_', ' ')})"
+
+
+def _sensitivity(level: Level) -> Sequence[Block | None]:
+    return [sea_figures.sensitivity(level, group) for group in level.group.child("sensitivity").children()]
+
+
+__all__ = ["MODES", "compose"]

@@ -1,0 +1,268 @@
+"""Slow drift in the frequency domain: its force spectrum, the slow sway, and extremes with the waves' own motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.floating.damping import LinearDamping
+from moyai.floating.irregular import integration_weights
+from moyai.floating.modes import added_mass_function, damping_function, natural_modes
+from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.frequency.model import FrequencyModel
+from moyai.structures.breakwater.viscous_damping import natural_added_mass
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+WAVE_POINTS = 600  # frequencies of the waves over which the force spectrum is integrated
+REACH = 4.0  # difference frequencies up to so many natural frequencies of sway
+POINTS_PER_WIDTH = 12  # difference frequencies in the width of the resonance
+LEAST_CYCLES = 25.0  # natural periods of sway in a record, for its largest slow excursion to be near its most probable
+SIGNIFICANT = 2.0  # significant amplitude over standard deviation of a narrow-banded response
+
+
+def force_spectrum(omega: Array, directional: Array, drift: Array, difference: Array) -> Array:
+    """Return the spectrum of the slowly varying drift force [eq:breakwater-slow-force], [N2 s/rad].
+
+    Pinkster's sum over pairs of waves with Newman's approximation by the arithmetic mean of the two mean drifts, the
+    same that the time domain uses; pairs of different headings included.
+
+    Parameters
+    ----------
+    omega : ndarray (n,)
+        [rad/s].
+    directional : ndarray (n, h)
+        Wave spectrum of each heading, times its angle [m2 s/rad].
+    drift : ndarray (n, h)
+        Mean drift force over amplitude squared [N/m2].
+    difference : ndarray (k,)
+        Difference frequencies [rad/s].
+    """
+    grid = np.linspace(float(omega[0]), float(omega[-1]), WAVE_POINTS)
+    step = grid[1] - grid[0]
+    moments = np.array([np.sum(directional * drift**order, axis=1) for order in (0, 1, 2)])
+    zero, one, two = (np.interp(grid, omega, row) for row in moments)
+    out = np.zeros(len(difference))
+    for index, mu in enumerate(difference):
+        other = [np.interp(grid + mu, omega, row, left=0.0, right=0.0) for row in moments]
+        out[index] = 2.0 * step * float(np.sum(two * other[0] + 2.0 * one * other[1] + zero * other[2]))
+    return out
+
+
+@dataclass(frozen=True)
+class SlowDrift:
+    """Slow sway of a sea; a mooring without stiffness in sway has none.
+
+    Parameters
+    ----------
+    deviation : ndarray (3,)
+        Standard deviation of sway, heave [m], roll [rad].
+    crossing_period : float
+        Mean zero-crossing period of the slow sway [s].
+    natural_period : float
+        Of sway with the stiffness of the mean offset [s].
+    damping_ratio : float
+        All linear and linearised damping over critical at that period: radiation, lines, what the case gives.
+    half_damping, double_damping : float
+        Standard deviation of sway [m] with half and twice that damping.
+    difference : ndarray (k,)
+        [rad/s]
+    force : ndarray (k,)
+        Spectrum of the force [N2 s/rad].
+    transfer : ndarray (k, 3)
+        Complex motion per unit force in sway [m/N, rad/N].
+    """
+
+    deviation: Array
+    crossing_period: float
+    natural_period: float
+    damping_ratio: float
+    half_damping: float
+    double_damping: float
+    difference: Array
+    force: Array
+    transfer: ComplexArray
+
+    def probable_factor(self, duration: float) -> float:
+        """Return the most probable largest amplitude over the standard deviation in ``duration`` [s]."""
+        cycles = duration / self.crossing_period if self.crossing_period > 0.0 else 0.0
+        return math.sqrt(2.0 * math.log(cycles)) if cycles > math.e else math.sqrt(2.0)
+
+
+def slow_drift(
+    model: FrequencyModel,
+    omega: Array,
+    directional: Array,
+    drift: Array,
+    mooring_stiffness: Array,
+    damping: LinearDamping,
+) -> SlowDrift | None:
+    """Return the slow drift motion about the mean offset, ``None`` where sway has no restoring.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    omega, directional, drift
+        As in :func:`force_spectrum`.
+    mooring_stiffness : ndarray (3, 3)
+        At the mean offset.
+    damping : LinearDamping
+        Beyond radiation, quadratic terms linearised for the sea.
+
+    Notes
+    -----
+    The slow motion is not in the linearisation of quadratic damping, nor is wave-drift damping counted: both would
+    lessen it.
+    """
+    unit, hydro = model.unit, model.hydro.unit
+    stiffness = unit.statics.stiffness + mooring_stiffness
+    modes = natural_modes(hydro, unit.inertia, stiffness)
+    natural = float(modes.omega[0])
+    if not (math.isfinite(natural) and natural > 0.0):
+        return None
+    added, radiation = added_mass_function(hydro), damping_function(hydro)
+    extra = np.asarray(damping.at(unit.inertia, natural_added_mass(model, hydro), stiffness), dtype=float)
+    shape = modes.shape[0]
+    mass = float(shape @ (unit.inertia + added(natural)) @ shape)
+    ratio = float(shape @ (radiation(natural) + extra) @ shape) / (2.0 * natural * mass)
+    step = max(ratio, 0.005) * natural / POINTS_PER_WIDTH
+    reach = min(REACH * natural, float(omega[-1] - omega[0]))
+    difference = np.arange(step, reach, step)
+    if len(difference) < 3:
+        return None
+    force = force_spectrum(omega, directional, drift, difference)
+    weights = integration_weights(difference)
+
+    def transfer(factor: float) -> ComplexArray:
+        out = np.zeros((len(difference), 3), dtype=complex)
+        for index, mu in enumerate(difference):
+            matrix = stiffness - mu**2 * (unit.inertia + added(mu)) - 1j * mu * factor * (radiation(mu) + extra)
+            out[index] = np.linalg.solve(matrix, np.array([1.0, 0.0, 0.0]))
+        return out
+
+    def deviation(found: ComplexArray) -> Array:
+        return np.asarray(np.sqrt((weights * force) @ np.abs(found) ** 2), dtype=float)
+
+    here = transfer(1.0)
+    spectrum = weights * force * np.abs(here[:, 0]) ** 2
+    second = float(np.sum(spectrum * difference**2))
+    crossing = 2.0 * math.pi * math.sqrt(float(np.sum(spectrum)) / second) if second > 0.0 else 2.0 * math.pi / natural
+    return SlowDrift(
+        deviation(here), crossing, 2.0 * math.pi / natural, ratio, float(deviation(transfer(0.5))[0]),
+        float(deviation(transfer(2.0))[0]), difference, force, here,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class CombinedExtremes:
+    """Largest of each line, mean, slow drift and waves together, the line on its exact shape.
+
+    Parameters
+    ----------
+    tension, anchor_vertical, anchor_horizontal : ndarray (lines,)
+        [N].
+    grounded : ndarray (lines,)
+        Length on the bed at that instant [m].
+    offset : float
+        Largest sway from rest [m].
+    """
+
+    tension: Array
+    anchor_vertical: Array
+    anchor_horizontal: Array
+    grounded: Array
+    offset: float
+
+
+def combined_extremes(
+    unit: FloatingUnit,
+    offset: Array,
+    displacement: ComplexArray,
+    tension: ComplexArray,
+    directional: Array,
+    omega: Array,
+    slow: SlowDrift | None,
+    factors: tuple[Array, Array],
+    duration: float,
+) -> CombinedExtremes:
+    """Return the extremes of lines and sway by the rule of DNV-OS-E301 [eq:breakwater-combined-extreme].
+
+    The larger of: largest slow part with the significant part of the waves, and significant slow part with the largest
+    part of the waves. For each line the position that most probably goes with its largest linear tension is taken
+    (the covariances of motion and tension over the deviation of tension), and the exact line is solved there.
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+    offset : ndarray (3,)
+        Mean [m, rad].
+    displacement : ndarray (n, h, 3)
+        Motions per wave amplitude.
+    tension : ndarray (n, h, lines)
+        Linear tension per wave amplitude.
+    directional : ndarray (n, h)
+    omega : ndarray (n,)
+    slow : SlowDrift or None
+    factors : (ndarray (3,), ndarray (lines,))
+        Most probable largest over deviation, of motions and of tensions, from the waves.
+    duration : float
+        [s].
+    """
+    weights = integration_weights(omega)[:, None] * directional
+    motion = np.nan_to_num(displacement)
+    sway = math.sqrt(float(np.sum(weights * np.abs(motion[..., 0]) ** 2)))
+    slow_sway = 0.0 if slow is None else float(slow.deviation[0])
+    probable = 0.0 if slow is None else slow.probable_factor(duration)
+    pairs = ((probable, SIGNIFICANT), (min(SIGNIFICANT, probable), math.nan))  # of slow drift and waves; NaN: probable
+    mean = float(offset[0])
+    excursion = max(
+        slow_factor * slow_sway + (float(factors[0][0]) if math.isnan(wave) else wave) * sway
+        for slow_factor, wave in pairs
+    )
+    count = len(unit.lines)
+    out = {name: np.full(count, math.nan) for name in ("tension", "vertical", "horizontal", "grounded")}
+    if count:
+        slope = _slopes(unit, offset)
+        pulls = np.nan_to_num(tension)
+        for line in range(count):
+            variance = float(np.sum(weights * np.abs(pulls[..., line]) ** 2))
+            first = np.einsum("nh,nhm,nh->m", weights, motion, pulls[..., line].conj()).real
+            first = first / math.sqrt(variance) if variance > 0.0 else np.zeros(3)
+            second = _slow_direction(slow, slope[:, line])
+            positions = []
+            for slow_factor, wave in pairs:
+                factor = float(factors[1][line]) if math.isnan(wave) else wave
+                positions.append(offset + factor * first + slow_factor * second)
+            state = list(unit.mooring.planar.states(np.array(positions)).values())[line]
+            at = int(np.argmax(state.tension_fairlead))
+            out["tension"][line] = state.tension_fairlead[at]
+            out["vertical"][line] = state.vertical_tension_anchor[at]
+            out["horizontal"][line] = state.horizontal_tension[at]
+            out["grounded"][line] = state.grounded_length[at]
+    return CombinedExtremes(out["tension"], out["vertical"], out["horizontal"], out["grounded"], abs(mean) + excursion)
+
+
+def _slopes(unit: FloatingUnit, offset: Array) -> Array:
+    """Return the change of the tensions with each motion (3, lines)."""
+    steps = np.diag([1e-4 * unit.breakwater.hull.beam, 1e-4 * unit.breakwater.hull.beam, 1e-4])
+    pull = unit.mooring.planar.tensions(np.concatenate([offset + steps, offset - steps]))
+    return np.asarray((pull[:3] - pull[3:]) / (2.0 * np.diag(steps))[:, None])
+
+
+def _slow_direction(slow: SlowDrift | None, slope: Array) -> Array:
+    """Return the slow motion (3,) that goes with one standard deviation of the slow tension of a line."""
+    if slow is None:
+        return np.zeros(3)
+    power = integration_weights(slow.difference) * slow.force
+    pull = slow.transfer @ slope
+    variance = float(power @ np.abs(pull) ** 2)
+    if variance <= 0.0:
+        return np.zeros(3)
+    return np.asarray((power @ (slow.transfer * pull.conj()[:, None])).real / math.sqrt(variance))
+
+
+__all__ = ["LEAST_CYCLES", "CombinedExtremes", "SlowDrift", "combined_extremes", "force_spectrum", "slow_drift"]

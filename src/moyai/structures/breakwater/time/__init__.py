@@ -1,0 +1,1 @@
+"""The unit in the time domain: regular and irregular seas."""

@@ -1,0 +1,489 @@
+"""Irregular seas in time: realisations with slow drift and nonlinear lines, and their means."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
+from moyai.floating.forcing import IrregularForcing
+from moyai.floating.frequency import solve_motions
+from moyai.floating.memory import StateSpaceMemory
+from moyai.floating.time import CumminsModel, Simulation
+from moyai.sea.irregular import synthesise
+from moyai.sea.statistics import zero_crossing
+from moyai.structures.breakwater.assembly import FloatingUnit
+from moyai.structures.breakwater.frequency.model import FrequencyModel
+from moyai.structures.breakwater.hydrodynamics import SECTOR
+from moyai.structures.breakwater.lines.events import EventSettings, event_numbers, movable, out_of_range, run_event
+from moyai.structures.breakwater.lines.motion import has_dynamic_lines
+from moyai.structures.breakwater.memory_model import UnitMemory
+from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, MODES, IrregularSea, TimeSettings
+from moyai.structures.breakwater.responses import SNAP_RATIO, anchor_loads, snap_notices
+from moyai.structures.breakwater.slow_drift import LEAST_CYCLES
+from moyai.structures.breakwater.time.lines import STATISTICS, lines_at_rest, motion_summary
+from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
+from moyai.structures.breakwater.variables import labelled
+from moyai.structures.breakwater.viscous_damping import about_rest_in_sea, in_moving_water, natural_added_mass
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from moyai.flexible.flow import Current
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Sea:
+    """What every realisation of a sea shares."""
+
+    model: FrequencyModel
+    sea: IrregularSea
+    settings: TimeSettings
+    cummins: CumminsModel
+    expected: Array
+    ramp: float
+    law: str
+    current: Current | None
+
+    @property
+    def peak_period(self) -> float:
+        return 2.0 * math.pi / float(self.sea.spectrum.peak_omega)
+
+
+@dataclass(frozen=True)
+class _Realisation:
+    """One realisation with its numbers."""
+
+    seed: int
+    run: TimeRun
+    forcing: IrregularForcing
+    around: SeaOfRun
+    summary: xr.Dataset
+
+
+def irregular_sea(
+    model: FrequencyModel,
+    memory: UnitMemory,
+    sea: IrregularSea,
+    frequency: xr.Dataset,
+    settings: TimeSettings,
+    progress: Progress = silent,
+    current: Current | None = None,
+) -> TimeResult:
+    """Simulate realisations of an irregular sea with slow drift and nonlinear lines; numbers are means over them.
+
+    Parameters
+    ----------
+    model : FrequencyModel
+    memory : UnitMemory
+    sea : IrregularSea
+    frequency : xarray.Dataset
+        The same sea in the frequency domain, for the expected motions and the slow drift.
+    settings : TimeSettings
+    progress : Progress
+    current : profile or None
+        Around lines in motion.
+    """
+    unit = model.unit
+    shared = _shared(model, memory, sea, frequency, settings, current)
+    wanted = settings.realisations or (1 if has_dynamic_lines(unit) else DEFAULT_REALISATIONS)
+    members: list[_Realisation] = []
+    status, notices = "converged", []
+    for number in range(wanted):
+        progress(f"realisations, {unit.name}, {sea.name}", number, wanted)
+        one = _realisation(shared, realisation_seed(sea.seed, number), progress)
+        ended = one.run.simulation.status
+        if ended != "interrupted" or not members:
+            members.append(one)
+        if ended == "diverged":
+            told = f"{unit.name}, {sea.name}, seed {one.seed}: {one.run.simulation.message}"
+            notices.append(Notice("diverged", told, severity="error"))
+        if ended != "converged":
+            status = {"diverged": "not_converged", "interrupted": "interrupted"}[ended]
+            break
+    progress(f"realisations, {unit.name}, {sea.name}", wanted, wanted)
+    good = [one for one in members if "maximum_tension" in one.summary and one.run.simulation.status == "converged"]
+    notices = [*members[0].run.simulation.notices, *notices]
+    events: list[TimeRun] = []
+    moved = np.zeros(len(unit.lines), dtype=bool)
+    if good and status == "converged":
+        try:
+            good, events, moved, told_of = _lines_in_motion(shared, good, frequency, progress)
+        except KeyboardInterrupt:
+            status, told_of = "interrupted", ()
+        notices.extend(told_of)
+    data, shown = _gathered(unit, good or members, moved)
+    kept = (good or members)[shown]
+    runs = [kept.run, *events[shown : shown + 1]]
+    # In oblique waves the memory is that of another problem than the operators: no transmission is combined from them
+    if sea.spreading is None and sea.heading == 0.0 and "mean_offset" in data:
+        data = data.assign(_transmission(model, kept.run.simulation, sea, shared.ramp))
+    notices.extend(_notices(shared, data, frequency, moved))
+    data.attrs |= {
+        "kind": "irregular",
+        "heading": sea.heading,
+        "duration": sea.duration,
+        "seed": sea.seed,
+        "shown_seed": kept.seed,
+        "realisations": len(good or members),
+        "drift": shared.law,
+        "status": status,
+    }
+    return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
+
+
+def realisation_seed(seed: int, number: int) -> int:
+    """Return the seed of a realisation: the case's own first, then seeds that no neighbouring seed leads to."""
+    if number == 0:
+        return seed
+    return int(np.random.SeedSequence([seed, number]).generate_state(1, np.uint32)[0])
+
+
+def _shared(
+    model: FrequencyModel,
+    memory: UnitMemory,
+    sea: IrregularSea,
+    frequency: xr.Dataset,
+    settings: TimeSettings,
+    current: Current | None,
+) -> _Sea:
+    unit = model.unit
+    ramp = settings.ramp if settings.ramp is not None else 10.0 * 2.0 * math.pi / float(sea.spectrum.peak_omega)
+    laws = {"auto": "newman", "ramped": "ramped", "newman": "newman", "pulsating": "newman", "none": "none"}
+    law = laws[settings.drift] if model.with_drift and model.hydro.whole(sea.heading).has_far_field else "none"
+    added = natural_added_mass(model, memory.beam_sea)
+    offset = np.asarray(frequency.mean_offset.values)
+    stiffness = unit.statics.stiffness + unit.mooring.stiffness(offset)
+    cummins = memory.model(model, linear_damping(model, added, stiffness))
+    expected = np.asarray(frequency.most_probable_maximum_motion.values) + np.abs(offset)
+    if "slow_motion_deviation" in frequency and law == "newman":
+        expected = expected + 3.0 * frequency.slow_motion_deviation.values
+    return _Sea(model, sea, settings, cummins, expected, ramp, law, current)
+
+
+def _realisation(shared: _Sea, seed: int, progress: Progress) -> _Realisation:
+    model, sea, ramp = shared.model, shared.sea, shared.ramp
+    unit, duration = model.unit, shared.sea.duration + shared.ramp
+    components = synthesise(
+        sea.spectrum,
+        unit.water,
+        duration=duration,
+        seed=seed,
+        heading=sea.heading,
+        spreading=sea.spreading,
+    )
+    amplitude = components.complex_amplitude
+    if sea.spreading is None:
+        excitation = model.hydro.whole(sea.heading).excitation_at(components.omega)
+    else:
+        # What travels outside of the computed sector meets the ends of the unit and is left out, as in frequency
+        joined = _excitation_of_headings(model)
+        low, high = float(joined.heading[0]), float(joined.heading[-1])
+        amplitude = np.where(np.abs(components.heading) <= SECTOR, amplitude, 0.0)
+        excitation = joined.excitation_at(components.omega, np.clip(components.heading, low, high))
+    drift = None if shared.law == "none" else _drift_of_components(model, components.omega, components.heading, sea)
+    forcing = IrregularForcing(
+        omega=components.omega,
+        amplitude=amplitude,
+        excitation=excitation,
+        drift=drift,
+        steady=model.steady,
+        drift_law=shared.law,  # type: ignore[arg-type]
+        ramp=ramp,
+    )
+    attributes = {"kind": "irregular", "seed": seed, "ramp": ramp, "analysis_start": ramp}
+    around = SeaOfRun(components, shared.current, ramp, ramp, shared.peak_period)
+    waves = in_moving_water(unit, forcing, components.heading)
+    run = run_with_lines(
+        "realisation", attributes, model, shared.cummins, waves, shared.expected, shared.settings, around, duration,
+        progress,
+    )  # fmt: skip
+    summary = _irregular_summary(unit, run, sea, float(forcing.mean_drift()[0]), ramp)
+    return _Realisation(seed, run, forcing, around, summary)
+
+
+def _lines_in_motion(
+    shared: _Sea, members: list[_Realisation], frequency: xr.Dataset, progress: Progress
+) -> tuple[list[_Realisation], list[TimeRun], NDArray[np.bool_], tuple[Notice, ...]]:
+    """Set lines in motion around the largest event of every realisation where lines at rest do not serve.
+
+    The line of the highest utilisation comes first; another follows only while its peak with lines at rest is higher
+    than what was found, since it could govern.
+    """
+    unit, moved = shared.model.unit, np.zeros(len(shared.model.unit.lines), dtype=bool)
+    tension = np.array([one.summary.maximum_tension.values for one in members])
+    passing = out_of_range(unit, tension, np.array([one.summary.mean_tension.values for one in members]))
+    if not (passing & movable(unit)).any() or shared.settings.lines.mode != "auto":
+        return members, [], moved, ()
+    if not isinstance(shared.cummins.memory, StateSpaceMemory):
+        told = f"{unit.name}, {shared.sea.name}: lines in motion need the memory of the water as states"
+        remedy = "give structure.gap_damping_lid where water resonates between hulls, or memory: state_space"
+        return members, [], moved, (Notice("lines-stay-at-rest", told, remedy=remedy),)
+    known = "slow_sway_period" in frequency
+    given = EventSettings(
+        shared.model, shared.cummins, shared.expected, shared.settings, shared.peak_period,
+        2.0 * math.pi / float(frequency.slow_sway_period) if known else 0.0,
+        float(frequency.slow_sway_damping_ratio) if known else 0.0,
+    )  # fmt: skip
+    loads = np.array([line.breaking_load for line in unit.lines])
+    rank = tension.mean(axis=0) / np.where(np.isfinite(loads), loads, 1.0)
+    shown: list[TimeRun] = []
+    best = -math.inf
+    for line in sorted(np.flatnonzero(passing & movable(unit)), key=lambda number: -rank[number]):
+        if rank[line] <= best:
+            break
+        found: list[TimeRun] = []
+        for number, one in enumerate(members):
+            progress(f"lines in motion, {unit.name}, {shared.sea.name}", number, len(members))
+            try:
+                event = run_event(given, one.forcing, one.around, one.run.simulation, int(line), progress)
+            except InputError as error:
+                told = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
+                return members, shown, moved, (Notice("lines-stay-at-rest", told, remedy=error.fault.remedy),)
+            if event.simulation.status == "interrupted":
+                raise KeyboardInterrupt
+            if event.simulation.status != "converged":
+                told = f"{unit.name}, {shared.sea.name}: lines in motion: {event.simulation.message}"
+                return members, shown, moved, (Notice("lines-stay-at-rest", told),)
+            found.append(replace(event, attributes={**event.attributes, "seed": one.seed}))
+        moved[line] = True
+        members = [_with_event(shared.model, one, run, int(line)) for one, run in zip(members, found, strict=True)]
+        now = float(np.mean([one.summary.maximum_tension.values[line] for one in members]))
+        value = now / (float(loads[line]) if math.isfinite(loads[line]) else 1.0)
+        if value > best:
+            best, shown = value, found
+    names = ", ".join(line.name for line, there in zip(unit.lines, moved, strict=True) if there)
+    told = (
+        f"{unit.name}, {shared.sea.name}: peaks of line {names} pass {SNAP_RATIO:g} times the mean with lines at rest "
+        f"at every instant; they were run in motion over {given.lead:.0f} s up to the largest event of each realisation"
+    )
+    return members, shown, moved, (Notice("lines-set-in-motion", told, severity="information"),)
+
+
+def _with_event(model: FrequencyModel, one: _Realisation, run: TimeRun, line: int) -> _Realisation:
+    """Put the numbers of an event of one line in the place of those with lines at rest."""
+    data, numbers = one.summary.copy(), event_numbers(model, run)
+    for name, values in numbers.items():
+        given = data[name].values.copy() if name in data else np.full(values.shape, np.nan)
+        given[line] = values[line]
+        data[name] = ("line", given)
+    load = model.unit.lines[line].breaking_load
+    if math.isfinite(load):
+        share = data["maximum_utilisation"].values.copy()
+        share[line] = numbers["maximum_tension"][line] / load
+        data["maximum_utilisation"] = ("line", share)
+    return replace(one, summary=data)
+
+
+def _gathered(unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np.bool_]) -> tuple[xr.Dataset, int]:
+    """Return means over the realisations with what each gave, and the number of the one whose record is kept.
+
+    The kept record is that whose largest tension of the governing line (without lines: largest sway) is nearest to the
+    mean.
+    """
+    import xarray as xr
+
+    data = xr.concat([one.summary for one in members], dim="member")
+    if "maximum_tension" not in data:
+        return members[0].summary, 0
+    tension = data.maximum_tension.values
+    excursion = data.maximum_excursion.values
+    followed = excursion[:, 0]
+    if tension.shape[1]:
+        loads = np.array([line.breaking_load for line in unit.lines])
+        share = tension.mean(axis=0) / (loads if np.isfinite(loads).all() else 1.0)
+        followed = tension[:, int(np.argmax(share))]
+    shown = int(np.argmin(np.abs(followed - followed.mean())))
+    out = data.mean("member", skipna=True)
+    if "least_grounded_length" in data:
+        out["least_grounded_length"] = data["least_grounded_length"].min("member", skipna=True)
+    # counts and single events of snaps are those of the realisation whose record is kept
+    for name in STATISTICS:
+        if name in data:
+            out[name] = data[name].isel(member=shown)
+    still = lines_at_rest(unit) & ~moved
+    for name in ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension"):
+        if name in data:
+            out[f"{name}_of_realisation"] = (("member", "line"), data[name].values)
+    return out.assign(
+        maximum_tension_of_realisation=(("member", "line"), tension),
+        maximum_excursion_of_realisation=(("member", "dof"), excursion),
+        seed_of_realisation=("member", np.array([one.seed for one in members], dtype=np.int64)),
+        lines_in_motion=("line", (~still).astype(np.int8)),
+    ), shown
+
+
+def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArray[np.bool_]) -> tuple[Notice, ...]:
+    """Tell of peaks out of range, of drift that was switched off, of records that are too short for slow drift."""
+    unit, sea = shared.model.unit, shared.sea
+    out: list[Notice] = []
+    where = f"{unit.name}, {sea.name}"
+    if "maximum_tension" in data and len(unit.lines):
+        kept = lines_at_rest(unit) & ~moved
+        names = [line.name for line, rests in zip(unit.lines, kept, strict=True) if rests]
+        largest = data.maximum_tension_of_realisation.values[:, kept]
+        mean = np.broadcast_to(data.mean_tension.values[kept], largest.shape)
+        out.extend(snap_notices(f"{where}, time domain", names, largest, mean))
+    if "slow_sway_period" not in frequency:
+        return tuple(out)
+    period, slow = float(frequency.slow_sway_period), float(frequency.slow_motion_deviation.values[0])
+    if shared.law != "newman":
+        out.append(
+            Notice(
+                "slow-drift-off",
+                f"{where}: slow drift is switched off (time.drift: {shared.settings.drift}); the slow sway that is "
+                f"left out has a standard deviation of {slow:.3g} m at a natural period of {period:.3g} s, by the "
+                "frequency domain, and the tensions that go with it are missing",
+                value=slow,
+                limit=0.0,
+                remedy="leave settings.time.drift at auto, or give newman",
+            )
+        )
+    cycles = sea.duration / period
+    if shared.law == "newman" and cycles < LEAST_CYCLES:
+        out.append(
+            Notice(
+                "few-slow-cycles",
+                f"{where}: the record of {sea.duration:g} s holds {cycles:.0f} natural periods of sway ({period:.3g} "
+                "s); its largest slow excursion scatters widely",
+                value=cycles,
+                limit=LEAST_CYCLES,
+                remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more settings.time.realisations",
+            )
+        )
+    return tuple(out)
+
+
+def _excitation_of_headings(model: FrequencyModel) -> Hydrodynamics:
+    """Put the wave loads of all headings side by side on the frequencies that all have."""
+    every = model.hydro.by_heading
+    low = max(float(item.omega[0]) for item in every)
+    high = min(float(item.omega[-1]) for item in every)
+    shortest = min(every, key=lambda item: len(item.omega))
+    omega = shortest.omega[(shortest.omega >= low) & (shortest.omega <= high)]
+    loads = np.concatenate([item.at(omega).excitation for item in every], axis=1)
+    first = every[0].at(omega)
+    heading = np.array([float(item.heading[0]) for item in every])
+    return replace(first, heading=heading, excitation=loads, reflection=None, transmission=None, radiated_wave=None)
+
+
+def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, sea: IrregularSea) -> Array | None:
+    """Mean drift over amplitude squared at the wave components, from the linear motions about rest."""
+    every = model.hydro.by_heading if sea.spreading is not None else (model.hydro.whole(sea.heading),)
+    if not every[0].has_far_field:
+        return None
+    rows = []
+    for hydro in every:
+        # Undamped resonances would drift without bound: quadratic damping counts as in this sea
+        if model.unit.breakwater.damping.viscous:
+            motions = about_rest_in_sea(model, hydro, sea)
+        else:
+            motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
+        far = far_field(hydro, motions.displacement)
+        square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)
+        rows.append(np.interp(omega, hydro.omega, square[:, 0]))
+    table, known = np.array(rows), np.array([float(hydro.heading[0]) for hydro in every])
+    out = np.zeros((len(omega), 3))
+    if len(known) == 1:
+        out[:, 0] = table[0]
+        return out
+    right = np.clip(np.searchsorted(known, heading), 1, len(known) - 1)
+    weight = np.clip((heading - known[right - 1]) / (known[right] - known[right - 1]), 0.0, 1.0)
+    columns = np.arange(len(omega))
+    out[:, 0] = (1.0 - weight) * table[right - 1, columns] + weight * table[right, columns]
+    return out
+
+
+def _irregular_summary(
+    unit: FloatingUnit, whole: TimeRun, sea: IrregularSea, drift_force: float, ramp: float
+) -> xr.Dataset:
+    import xarray as xr
+
+    run = whole.simulation
+    keep = run.time >= ramp
+    position, tension = run.position[keep], run.tension[keep]
+    out: dict = {}
+    if keep.sum() > 100:
+        mean = position.mean(axis=0)
+        vertical, horizontal, grounded = anchor_loads(unit, position, tension)
+        out = {
+            "mean_offset": ("dof", mean),
+            "maximum_motion": ("dof", np.max(np.abs(position - mean), axis=0)),
+            "maximum_excursion": ("dof", np.max(np.abs(position), axis=0)),
+            "significant_motion": ("dof", _significant(run.time[keep], position)),
+            "mean_tension": ("line", tension.mean(axis=0)),
+            "maximum_tension": ("line", whole.peaks[keep].max(axis=0) if len(unit.lines) else np.zeros(0)),
+            "significant_tension": ("line", _significant(run.time[keep], tension)),
+            "maximum_anchor_vertical_tension": ("line", vertical),
+            "maximum_anchor_horizontal_tension": ("line", horizontal),
+            "least_grounded_length": ("line", grounded),
+            "mean_drift_force": ((), float(drift_force)),
+            "significant_height": ((), 4.0 * float(np.std(run.elevation[keep]))),
+        }
+        if whole.lines is not None:
+            found = motion_summary(unit, whole, keep, ramp)
+            still, lines = lines_at_rest(unit), whole.lines
+            level = np.sqrt(np.maximum(lines.anchor[keep] ** 2 - lines.uplift[keep] ** 2, 0.0)).max(axis=0)
+            found["least_grounded_length"] = np.where(still, grounded, found["least_grounded_length"])
+            out |= {name: ("line", values) for name, values in found.items()}
+            out["maximum_anchor_vertical_tension"] = ("line", np.where(still, vertical, found["maximum_uplift"]))
+            out["maximum_anchor_horizontal_tension"] = ("line", np.where(still, horizontal, level))
+        load = np.array([line.breaking_load for line in unit.lines])
+        out["maximum_utilisation"] = ("line", np.where(np.isfinite(load), out["maximum_tension"][1] / load, np.nan))
+    return xr.Dataset(out, coords={"dof": list(MODES), "line": [line.name for line in unit.lines]})
+
+
+def _transmission(model: FrequencyModel, run: Simulation, sea: IrregularSea, ramp: float) -> dict[str, Any]:
+    """Return transmission and reflection of the sea with the motions of the time domain.
+
+    The combined method of P3 carried over to spectra: the wave that passes the body held fixed plus the waves that the
+    simulated motions radiate, frequency by frequency of the record [eq:breakwater-combined]. Slow drift radiates
+    nothing and is left out with everything outside the band of the waves. Long-crested seas only.
+    """
+    hydro = model.hydro.whole(sea.heading)
+    if hydro.reflection is None or hydro.transmission is None or hydro.radiated_wave is None:
+        return {}
+    keep = run.time >= ramp
+    window = np.hanning(int(keep.sum()))
+    step = float(run.time[1] - run.time[0])
+    omega = 2.0 * math.pi * np.fft.rfftfreq(len(window), step)
+    low, high = (float(item) for item in sea.spectrum.quantile(np.array([1e-4, 1.0 - 1e-3])))
+    band = (omega >= max(low, hydro.omega[0])) & (omega <= min(high, hydro.omega[-1]))
+
+    def spectrum(series: Array) -> NDArray[np.complex128]:
+        # The convention is exp(-i omega t): the conjugate of the transform
+        return np.asarray(np.conj(np.fft.rfft(series * window)))[band]
+
+    wave = spectrum(run.elevation[keep])
+    at = hydro.at(omega[band])
+    if at.reflection is None or at.transmission is None or at.radiated_wave is None:
+        return {}
+    position = run.position[keep] - run.position[keep].mean(axis=0)
+    velocity = -1j * omega[band][:, None] * np.stack([spectrum(column) for column in position.T], axis=1)
+    radiated = np.einsum("nm,nms->ns", velocity, at.radiated_wave)
+    incident = float(np.sum(np.abs(wave) ** 2))
+    if incident == 0.0:
+        return {}
+    reflected = math.sqrt(float(np.sum(np.abs(at.reflection[:, 0] * wave + radiated[:, 0]) ** 2)) / incident)
+    passed = math.sqrt(float(np.sum(np.abs(at.transmission[:, 0] * wave + radiated[:, 1]) ** 2)) / incident)
+    height = 4.0 * float(np.std(run.elevation[keep]))
+    return {
+        "transmission_coefficient": ((), passed),
+        "reflection_coefficient": ((), reflected),
+        "transmitted_significant_height": ((), passed * height),
+    }
+
+
+def _significant(time: Array, series: Array) -> Array:
+    """Return the mean of the highest third of the zero-up-crossing double amplitudes of each column."""
+    return np.array([zero_crossing(time, column).significant_height() for column in series.T])

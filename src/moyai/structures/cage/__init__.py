@@ -1,0 +1,57 @@
+"""Net cages: the rigid cage of small models, flexible cages, their moorings and their analyses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from moyai.core.kinds import StructureKind
+from moyai.core.progress import Progress
+from moyai.core.results import Result
+
+
+class CageKind(StructureKind):
+    """The parts of this folder, each imported when it is asked for; the model of a cage chooses among them."""
+
+    name = "cage"
+    package = __name__
+    templates = (
+        ("cage", "template.yaml"),
+        ("rigid_cage", "template_rigid.yaml"),
+    )
+
+    def schema(self) -> Any:
+        from moyai.structures.cage.case.schema import CageCase
+
+        return CageCase
+
+    def check(self, model: Any, findings: Any, folder: Path) -> None:
+        from moyai.structures.cage.case.check import check
+
+        check(model, findings, folder)
+
+    def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
+        from moyai.structures.cage.case import build_flexible, build_rigid
+
+        build = {"rigid": build_rigid.build_problem, "flexible": build_flexible.build_problem}[model.structure.model]
+        return build(model, folder, case_text=case_text, case_hash=case_hash)
+
+    def derived(self, case: Any) -> Any:
+        from moyai.structures.cage.case import derived_flexible, derived_rigid
+
+        if case.model.structure.model == "rigid":
+            return derived_rigid.derived_numbers(case)
+        return derived_flexible.derived_numbers(case)
+
+    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
+        from moyai.structures.cage.run import run
+
+        return run(problem, progress)
+
+    def compose(self, result: Result) -> Any:
+        from moyai.structures.cage.report.page import compose
+
+        return compose(result)
+
+
+KIND = CageKind()

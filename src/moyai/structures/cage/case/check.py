@@ -1,0 +1,76 @@
+"""Checks of a cage case that all models share: surroundings, water levels, breaking waves; then those of its model."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from moyai.case.build_sea import spectrum_of
+from moyai.case.check_sea import check_surroundings, wave_path
+from moyai.case.faults import did_you_mean
+from moyai.case.findings import Findings, duplicates
+from moyai.case.schema_environment import PeriodRange, SpectrumFile
+from moyai.core.errors import InputError
+from moyai.sea.water import Water
+from moyai.structures.cage.case import check_flexible, check_rigid, schema
+
+
+def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
+    """Record every fault and warning of a cage case in ``findings``."""
+    check_surroundings(model, findings, folder)
+    _check_levels(model, findings)
+    if findings.sound("site", "waves"):
+        _check_waves(model, findings, folder)
+    if findings.sound("site", "waves", "current"):
+        of_model = check_rigid.check if model.structure.model == "rigid" else check_flexible.check
+        of_model(model, findings, folder)
+
+
+def _check_levels(model: schema.CageCase, findings: Findings) -> None:
+    chosen = model.settings.water_levels
+    if isinstance(chosen, str):
+        return
+    for index, name in enumerate(chosen):
+        if name not in model.site.water_levels:
+            findings.fault(
+                ("settings", "water_levels", index),
+                f"there is no water level '{name}'",
+                allowed=", ".join(model.site.water_levels),
+                remedy=did_you_mean(name, model.site.water_levels),
+            )
+    for index in duplicates(chosen):
+        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+
+
+def _check_waves(model: schema.CageCase, findings: Findings, folder: Path) -> None:
+    """Hold every sea state against breaking and the limits of linear theory, at every water level."""
+    from moyai.sea.validity import check_spectrum, check_wave
+
+    for index, state in enumerate(model.waves):
+        said: set[str] = set()
+        for name, level in model.site.water_levels.items():
+            depth = model.site.water_depth
+            water = Water(depth if math.isinf(depth) else depth + level, model.site.density, model.site.gravity)
+            pairs: list[tuple[str, Any]] = []
+            if isinstance(state, schema.CageRegularWaves):
+                if isinstance(state.periods, PeriodRange) and state.periods.first == state.periods.last:
+                    findings.fault(wave_path(findings, index, "periods"), "'from' and 'to' are equal")
+                    break
+                key = "height" if state.height is not None else "heights"
+                pairs = [(key, check_wave(state.highest, period, water)) for period in state.all_periods()]
+            else:
+                key = "file" if isinstance(state, SpectrumFile) else "significant_height"
+                try:
+                    pairs = [(key, check_spectrum(spectrum_of(state, water, folder, f"waves[{index}]"), water))]
+                except InputError as error:
+                    findings.raised(error, wave_path(findings, index))
+                    break
+            for key, notices in pairs:
+                for notice in notices:
+                    if notice.severity == "information" or notice.code in said:
+                        continue
+                    said.add(notice.code)
+                    record = findings.fault if notice.severity == "error" else findings.warn
+                    where = f" (water level {name})" if len(model.site.water_levels) > 1 else ""
+                    record(wave_path(findings, index, key), f"{notice.message}{where}", remedy=notice.remedy)

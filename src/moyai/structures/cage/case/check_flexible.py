@@ -1,0 +1,65 @@
+"""Checks of a flexible cage case: does it float, do its lines reach, does its law cover its net and speeds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from moyai.case.faults import did_you_mean
+from moyai.case.findings import Findings
+from moyai.core.errors import InputError
+from moyai.structures.cage.case import schema
+from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure
+
+#: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
+_WATER_VISCOSITY = (2e-7, 3e-6)
+
+
+def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
+    """Record every fault and warning of a flexible cage case in ``findings``."""
+    from moyai.morison.net_law import available_net_laws, known_net_law
+    from moyai.structures.cage.case.build_flexible import build_problem
+    from moyai.structures.cage.flexible.checks import problem_notices
+
+    unit = model.structure
+    assert isinstance(unit, FlexibleCageStructure)
+    law = unit.net.law
+    if not known_net_law(law):
+        findings.fault(
+            ("structure", "net", "law"),
+            f"there is no net law '{law}'",
+            allowed=", ".join(available_net_laws()),
+            remedy=did_you_mean(law, available_net_laws()),
+        )
+    if not _WATER_VISCOSITY[0] <= unit.kinematic_viscosity <= _WATER_VISCOSITY[1]:
+        findings.warn(
+            ("structure", "kinematic_viscosity"),
+            f"{unit.kinematic_viscosity:.3g} m2/s is not the kinematic viscosity of water",
+            remedy="water has 0.3e-6 to 2e-6 m2/s",
+        )
+    needs = [name for name in ("time", "sensitivity") if name in model.analyses]
+    if needs and not model.waves:
+        findings.fault(
+            ("analyses", model.analyses.index(needs[0])),
+            f"'{needs[0]}' needs waves",
+            remedy="give 'waves', or leave it out",
+        )
+    if model.settings.flexible.current_speeds and (model.current is None):
+        findings.fault(
+            ("settings", "flexible", "current_speeds"),
+            "speeds of a current without a current",
+            remedy="give 'current', whose profile and heading they scale",
+        )
+    if not findings.sound("structure", "settings", "analyses", "site"):
+        return
+    try:
+        problem = build_problem(model, folder)
+        for _, level in problem.environment.water_levels:
+            problem.at_level(level)
+    except InputError as error:
+        findings.raised(error, ("structure",))
+        return
+    for notice in problem_notices(problem):
+        if notice.severity == "information":
+            continue
+        where = ("structure", "mesh") if notice.code == "cage-mesh" else ("structure", "net", "law")
+        findings.warn(where, notice.message, remedy=notice.remedy)

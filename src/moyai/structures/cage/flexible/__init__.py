@@ -1,0 +1,1 @@
+"""Flexible net cages: collar, net, weights and grid mooring as a network."""

@@ -1,0 +1,194 @@
+"""A flexible cage at rest in a current, and the numbers that a designer asks for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import ConvergenceError
+from moyai.core.progress import Progress, silent
+from moyai.flexible.dynamic_relaxation import relax_network
+from moyai.flexible.flow import Current, Flow
+from moyai.flexible.network import Network
+from moyai.flexible.result import State
+from moyai.flexible.rings import ring_moments
+from moyai.flexible.simulate import simulate
+from moyai.flexible.statics import Equilibrium, solve_equilibrium
+from moyai.structures.cage.flexible.loads import PARTS, drag_on_holds, drag_split, pull_on_anchors
+from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.flexible.parts import CageNetwork, CageParts
+from moyai.structures.cage.flexible.wake import sheltered
+
+Array = NDArray[np.float64]
+
+#: Force left over the largest tension: what is asked for, and above what the true motion leads to rest.
+TOLERANCE, SETTLE_ABOVE = 1e-4, 1e-3
+#: The same before Newton's method is asked, and how far it may lead away from there, over the size of a cage.
+LEAD, ASTRAY = 1e-3, 0.05
+#: Steps that Newton's method gets; it takes 10 to 50 where it finds a rest.
+NEWTON_STEPS = 100
+#: Time of that motion over the square root of size over gravity.
+SETTLE_TIME = 15.0
+
+
+@dataclass(frozen=True, eq=False)
+class CageRest:
+    """A cage at rest.
+
+    Parameters
+    ----------
+    built : CageNetwork
+    network : Network
+        With the shelter of its current.
+    current : Current or None
+    state : State
+    tension : ndarray
+        Of every bar [N].
+    residual : float
+        Largest force left on a node over the largest tension.
+    steps : int
+        Of the relaxation.
+    """
+
+    built: CageNetwork
+    network: Network
+    current: Current | None
+    state: State
+    tension: Array
+    residual: float
+    steps: int
+
+
+def solve_rest(
+    model: FlexibleCage,
+    built: CageNetwork,
+    current: Current | None,
+    *,
+    start: State | None = None,
+    progress: Progress = silent,
+) -> CageRest:
+    """Find a cage at rest in a current.
+
+    Dynamic relaxation leads, which ends in no unstable rest, then Newton's method. Where slack net flutters and will
+    not come to rest, the true motion, which the water damps, goes on from there.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    built : CageNetwork
+        Of :func:`moyai.structures.cage.flexible.build.build_cage`.
+    current : Current, optional
+    start : State, optional
+        Rest in a similar current.
+    progress : Progress
+
+    Raises
+    ------
+    ConvergenceError
+        When it does not come near rest.
+    """
+    network, flow = sheltered(model, built, current), Flow(current=current)
+    found = relax_network(
+        network, flow=flow, start=start, tolerance=LEAD, good_enough=1.0, most_steps=30_000, progress=progress
+    )
+    polished = _newton(model, network, flow, found.state)
+    if polished is None:
+        found = relax_network(
+            network, flow=flow, start=found.state, tolerance=TOLERANCE, good_enough=0.05, most_steps=50_000,
+            progress=progress,
+        )  # fmt: skip
+        polished = _newton(model, network, flow, found.state)
+    if polished is not None:
+        return CageRest(built, network, current, polished.state, polished.tension, polished.residual, found.steps)
+    state, tension, residual = found.state, found.tension, found.residual
+    if residual > SETTLE_ABOVE:
+        duration = SETTLE_TIME * math.sqrt(model.design.size / model.water.gravity)
+        history = simulate(network, duration=duration, output_step=duration / 20.0, flow=flow, start=state)
+        if history.status == "converged":
+            place = history.final.position
+            state, tension = State(0.0, place, np.zeros_like(place)), history.tension[-1]
+            again = relax_network(network, flow=flow, start=state, tolerance=1.0, good_enough=1.0)
+            residual = again.residual
+    return CageRest(built, network, current, state, tension, residual, found.steps)
+
+
+def _newton(model: FlexibleCage, network: Network, flow: Flow, start: State) -> Equilibrium | None:
+    """Return the rest near a state by Newton's method, ``None`` where it finds none or another one."""
+    try:
+        found = solve_equilibrium(network, flow=flow, start=start, most_steps=NEWTON_STEPS)
+    except ConvergenceError:
+        return None
+    away = np.linalg.norm(found.state.position - start.position, axis=1)
+    return found if float(away.max()) < ASTRAY * max(model.design.size, model.spacing) else None
+
+
+def stress_around(model: FlexibleCage, rest: CageRest, position: Array, tension: Array) -> list[list[Array]]:
+    """Return the largest stress at every node of each ring of each collar [Pa] [eq:cage-collar-stress]."""
+    return [[values["stress"] for values in rings] for rings in collar_forces(model, rest, position, tension)]
+
+
+def collar_forces(model: FlexibleCage, rest: CageRest, position: Array, tension: Array) -> list[list[dict[str, Array]]]:
+    """Return axial force, moments and stress around the rings of each collar.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    rest : CageRest
+    position : ndarray, shape (n, 3)
+    tension : ndarray
+        Of every bar [N].
+    """
+    moments = dict(
+        zip((ring.name for ring in rest.network.rings), ring_moments(rest.network.rings, position), strict=True)
+    )
+    pipe, out = model.design.collar.pipe, []
+    for cage in rest.built.cages:
+        rings = []
+        for number, bars in enumerate(cage.collar_bars):
+            name = f"{cage.name} {'outer ' if number else ''}collar"
+            bending = moments[name]
+            # at a node: the mean of the bars that meet there
+            axial = 0.5 * (tension[bars] + np.roll(tension[bars], 1))
+            torsion = 0.5 * (bending[:, 2] + np.roll(bending[:, 2], 1))
+            rings.append(
+                {
+                    "axial": axial, "in_plane": bending[:, 0], "out_of_plane": bending[:, 1], "torsion": torsion,
+                    "stress": pipe.stress(axial, bending[:, 0], bending[:, 1], torsion),
+                }
+            )  # fmt: skip
+        out.append(rings)
+    return out
+
+
+def ring_shape(cage: CageParts, position: Array, built: Array) -> tuple[Array, float, float]:
+    """Return the mean place of the collar (3), its ovality and its largest height out of its plane [m].
+
+    Ovality is the largest less the smallest diameter across opposite knots over their mean [-], each diameter over
+    that as built (places of all nodes ``built``): a square has none before it is pulled out of shape.
+    """
+    ring = position[cage.collar[0]]
+    middle = ring.mean(axis=0)
+    half = len(ring) // 2
+    drawn = built[cage.collar[0]]
+    across = np.linalg.norm(ring[:half] - ring[half : 2 * half], axis=1)
+    across = across / np.linalg.norm(drawn[:half] - drawn[half : 2 * half], axis=1)
+    _, _, axes = np.linalg.svd(ring - middle)
+    warp = np.abs((ring - middle) @ axes[2])
+    return middle, float((across.max() - across.min()) / across.mean()), float(warp.max())
+
+
+def horizontal_balance(rest: CageRest) -> tuple[Array, Array]:
+    """Return the drag on all parts (parts, 3) and the pull on all holds, summed (3) [N]: they agree at rest."""
+    position = rest.state.position
+    water = Flow(current=rest.current).at(0.0, position.T)
+    split = drag_split(rest.built, rest.network, position, np.zeros_like(position), water)
+    pull = pull_on_anchors(rest.built, rest.network, position, rest.tension)
+    return split, (pull + drag_on_holds(rest.built, rest.network, position, water)).sum(axis=0)
+
+
+__all__ = [
+    "PARTS", "CageRest", "collar_forces", "horizontal_balance", "ring_shape", "solve_rest", "stress_around",
+]  # fmt: skip

@@ -1,0 +1,97 @@
+"""The design state of a flexible cage under the laws of nets that were measured on nets like its own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.progress import Progress, silent
+from moyai.morison.net_law_base import NetLaw
+from moyai.morison.net_law_choice import METAL, LawChoice, law_choice
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.equilibrium import CageRest, horizontal_balance, ring_shape, solve_rest
+from moyai.structures.cage.flexible.loads import pull_on_anchors
+from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.flexible.variables import described
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def choice_of(model: FlexibleCage, speed: float) -> LawChoice:
+    """Return the laws that were measured on nets like that of a cage, at a speed [m/s]."""
+    net = model.design.net
+    return law_choice(net.law, net.net, speed, model.kinematic_viscosity, metal=net.density > METAL)
+
+
+def laws_dataset(
+    model: FlexibleCage, rest: CageRest, calm: CageRest, speed: float, heading: float, progress: Progress = silent
+) -> xr.Dataset:
+    """Return the rest in the current of the site under the law of the case and under every other valid one.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    rest : CageRest
+        In the current of the site, under the law of the case.
+    calm : CageRest
+        In the slowest current, from which offsets count.
+    speed, heading : float
+        Of the current at the surface [m/s], [rad].
+    progress : Progress
+    """
+    import xarray as xr
+
+    choice = choice_of(model, speed)
+    laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
+    rows = []
+    for number, law in enumerate(laws):
+        progress("laws of nets", number, len(laws))
+        found = rest
+        if number:
+            other = replace(model, design=replace(model.design, net=replace(model.design.net, law=law)))
+            found = solve_rest(other, build_cage(other), rest.current, start=rest.state)
+        rows.append(_numbers(found, calm, heading))
+    progress("laws of nets", len(laws), len(laws))
+    coefficients = [
+        float(law.coefficients(0.0, speed, model.design.net.net, model.kinematic_viscosity)[0]) for law in laws
+    ]
+    return described(
+        xr.Dataset(
+            {
+                "normal_drag_coefficient": ("law", np.array(coefficients)),
+                **{f"law_{name}": ("law", np.array([row[name] for row in rows])) for name in rows[0]},
+            },
+            coords={"law": [law.name for law in laws]},
+            attrs={"speed": speed, "valid": choice.named, "reynolds": choice.reynolds},
+        )
+    )
+
+
+def _numbers(rest: CageRest, calm: CageRest, heading: float) -> dict[str, float]:
+    """Return what the first page shows of one rest."""
+    built, position = rest.built, rest.state.position
+    along = np.array([math.cos(heading), math.sin(heading), 0.0])
+    split, _ = horizontal_balance(rest)
+    strands = built.network.strands
+    places = [
+        ring_shape(cage, place, built.network.nodes.position)[0]
+        for place in (position, calm.state.position) for cage in built.cages
+    ]  # fmt: skip
+    half = len(built.cages)
+    offset = max(float(np.linalg.norm((now - before)[:2])) for now, before in zip(places[:half], places[half:]))
+    pulls = pull_on_anchors(built, rest.network, position, rest.tension)
+    lines = [float(rest.tension[strands[part.strand].bars].max()) for part in built.lines]
+    used = [pull / part.breaking_load for pull, part in zip(lines, built.lines, strict=True)]
+    return {
+        "volume_share": min(float(cage.volume(position)) / cage.rest_volume for cage in built.cages),
+        "drag": float(split.sum(axis=0) @ along),
+        "tension": max(lines, default=math.nan),
+        "utilisation": max(used, default=math.nan),
+        "offset": offset,
+        "anchor_pull": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,
+        "residual": rest.residual,
+    }

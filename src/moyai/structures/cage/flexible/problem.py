@@ -1,0 +1,95 @@
+"""What a run of a flexible cage takes: the cage, the site, the seas, how they are computed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
+from moyai.sea.environment import Environment
+from moyai.sea.kinematics import Stretching
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.rigid.model import RegularWaves
+
+
+@checks_words
+@dataclass(frozen=True)
+class FlexibleSettings:
+    """How a flexible cage is computed.
+
+    Parameters
+    ----------
+    analyses : tuple of str
+        ``statics`` (rest in each current), ``time`` (each sea), ``sensitivity`` (step, mesh and damping behind peaks).
+    current_speeds : tuple of float
+        Speeds at the surface that the profile of the current is scaled to for ``statics`` [m/s]; the current as it is
+        when empty.
+    periods : int
+        Wave periods that are run in regular waves after the ramp.
+    ramp_periods : float
+        Periods over which the waves grow.
+    rows_per_period : int
+        Rows of the result in a wave period (the peak period of a spectrum).
+    frames : int
+        Pictures kept of every run.
+    stretching : str
+        Kinematics above still water.
+    slack_share, snap_factor : float
+        A line counts as slack below this share of its mean tension, and a peak after slack as a snap above this
+        multiple of it.
+    """
+
+    analyses: tuple[str, ...]
+    current_speeds: tuple[float, ...] = ()
+    periods: int = 8
+    ramp_periods: float = 3.0
+    rows_per_period: int = 40
+    frames: int = 120
+    stretching: Stretching = "wheeler"
+    slack_share: float = 0.05
+    snap_factor: float = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleCageProblem:
+    """A flexible cage with its site, seas and settings.
+
+    Parameters
+    ----------
+    title : str
+    cage : FlexibleCage
+        At the depth of the chart datum; :meth:`at_level` moves it.
+    environment : Environment
+        Water levels and current.
+    seas : tuple of RegularWaves or IrregularSea
+    settings : FlexibleSettings
+    case_text, case_hash : str
+        Kept with the result.
+    """
+
+    title: str
+    cage: FlexibleCage
+    environment: Environment
+    seas: tuple[RegularWaves | IrregularSea, ...]
+    settings: FlexibleSettings
+    case_text: str = ""
+    case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()
+    model: ClassVar[str] = "flexible"
+
+    def __post_init__(self) -> None:
+        if self.settings.current_speeds and self.environment.current is None:
+            raise InputError(
+                "speeds of a current without a current",
+                path="settings.flexible.current_speeds",
+                remedy="give `current`, whose profile and heading they scale",
+            )
+
+    def at_level(self, level: float) -> FlexibleCage:
+        """Return the cage in the water of a level [m above datum]."""
+        water: Water = self.environment.water_at(level)
+        return replace(self.cage, water=water, bed=replace(self.cage.bed, level=-water.depth))

@@ -1,0 +1,183 @@
+"""Run a flexible cage: every water level, its rest in each current, every sea, and what the peaks are worth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.collected import STOPPED, Collected
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result
+from moyai.flexible.flow import Current
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.checks import problem_notices, rest_checks, rest_notices, run_checks, run_notices
+from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
+from moyai.structures.cage.flexible.laws import laws_dataset
+from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.flexible.problem import FlexibleCageProblem
+from moyai.structures.cage.flexible.sensitivity import sensitivity_dataset
+from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
+from moyai.structures.cage.flexible.time import run_cage, time_dataset
+from moyai.structures.cage.flexible.wake import ScaledCurrent
+from moyai.structures.cage.headlines import flexible_headlines
+from moyai.structures.cage.rigid.model import RegularWaves
+from moyai.structures.cage.rigid.waves import Wave, regular_wave, sea_components
+
+if TYPE_CHECKING:
+    pass
+
+
+def run(problem: FlexibleCageProblem, progress: Progress = silent) -> Result:
+    """Run all analyses of a flexible cage.
+
+    Parameters
+    ----------
+    problem : FlexibleCageProblem
+    progress : Progress
+        KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        For a cage that does not float or does not come to rest.
+    """
+    collected = Collected()
+    try:
+        for _ in _steps(problem, collected, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = STOPPED
+    return _result(problem, collected)
+
+
+def surface_current(current: Current | None) -> tuple[float, float]:
+    """Return speed and heading of a current at the surface [m/s], [rad]."""
+    if current is None:
+        return 0.0, 0.0
+    east, north = (float(value) for value in np.asarray(current.velocity(np.zeros(1)))[0])
+    return math.hypot(east, north), math.atan2(north, east) if east or north else 0.0
+
+
+def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
+    """Return every wave of a sea state at a water depth, on the current of the site."""
+    current = problem.environment.current
+    profile = None if current is None else current.in_depth(water.depth)
+    mean = np.zeros(2) if profile is None else np.asarray(profile.depth_mean(-water.depth, 0.0))
+    if isinstance(sea, RegularWaves):
+        along = float(mean @ [math.cos(sea.heading), math.sin(sea.heading)])
+        return tuple(
+            regular_wave(height, period, sea.heading, water, along, problem.settings.periods)
+            for height, period in sea.waves()
+        )
+    period = float(sea.spectrum.peak_period)
+    parts = sea_components(sea, water, (float(mean[0]), float(mean[1])))
+    number = float(np.interp(2.0 * math.pi / period, np.sort(parts.omega), parts.wave_number[np.argsort(parts.omega)]))
+    height = float(sea.spectrum.significant_height)
+    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
+
+
+def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progress) -> Iterator[None]:
+    import xarray as xr
+
+    levels = problem.environment.water_levels
+    collected.notices.extend(problem_notices(problem))
+    for index, (name, level) in enumerate(levels):
+        progress("water levels", index, len(levels))
+        model = problem.at_level(level)
+        built = build_cage(model)
+        root = f"/{name}"
+        current = problem.environment.current
+        profile = None if current is None else current.in_depth(model.water.depth)
+        speed, heading = surface_current(profile)
+        collected.groups[root] = xr.Dataset(
+            attrs={"water_level": level, "water_depth": model.water.depth, "current": speed, "heading": heading}
+        )
+        collected.groups[f"{root}/cage"] = cage_dataset(model, built)
+        rest: CageRest | None = None
+        if "statics" in problem.settings.analyses:
+            rests: list[CageRest] = []
+            speeds = _speeds(problem, speed)
+            for number, value in enumerate(speeds):
+                progress("rest in the current", number, len(speeds))
+                flow = ScaledCurrent(profile, value / speed) if profile is not None and value > 0.0 else None
+                found = solve_rest(model, built, flow, start=rests[-1].state if rests else None)
+                rests.append(found)
+                collected.groups[f"{root}/statics"] = statics_dataset(model, speeds[: number + 1], heading, rests)
+                yield
+            progress("rest in the current", len(speeds), len(speeds))
+            statics = collected.groups[f"{root}/statics"]
+            collected.checks.extend(rest_checks(name, statics))
+            collected.notices.extend(rest_notices(name, model, statics, speed))
+            close = [rest for rest, value in zip(rests, speeds, strict=True) if abs(value - speed) < 1e-9]
+            rest = close[0] if close else None
+            if rest is not None and speed > 0.0:
+                collected.groups[f"{root}/laws"] = laws_dataset(model, rest, rests[0], speed, heading, progress)
+                yield
+        if problem.seas and {"time", "sensitivity"} & set(problem.settings.analyses):
+            rest = rest or solve_rest(model, built, profile)
+            for sea in problem.seas:
+                yield from _sea_steps(problem, model, rest, sea, collected, root, progress)
+    progress("water levels", len(levels), len(levels))
+
+
+def _speeds(problem: FlexibleCageProblem, speed: float) -> list[float]:
+    """Return still water, the speeds asked for and that of the site, rising [m/s]."""
+    return sorted({0.0, *problem.settings.current_speeds, speed})
+
+
+def _sea_steps(
+    problem: FlexibleCageProblem,
+    model: FlexibleCage,
+    rest: CageRest,
+    sea: RegularWaves | IrregularSea,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    waves = waves_of(problem, sea, model.water)
+    for number, wave in enumerate(waves):
+        progress(f"time, {sea.name}", number, len(waves))
+        label = f"wave {number + 1}" if wave.regular else "sea"
+        if "time" in problem.settings.analyses:
+            found = run_cage(model, rest, wave, problem.settings, progress=progress)
+            collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(model, found, problem.settings)
+            collected.checks.extend(run_checks(sea.name, found))
+            collected.notices.extend(run_notices(sea.name, found, problem.settings))
+            if found.history.status == "interrupted":
+                raise KeyboardInterrupt
+            if found.history.status == "not_converged":
+                collected.failures.append(f"{sea.name}, {wave.name}: {found.history.message}")
+            yield
+        if "sensitivity" in problem.settings.analyses and number == 0:
+            collected.groups[f"{root}/sensitivity/{sea.name}"] = sensitivity_dataset(
+                model, rest, replace(wave, duration=min(wave.duration, 6.0 * wave.period)), problem.settings, progress
+            )
+            yield
+    progress(f"time, {sea.name}", len(waves), len(waves))
+
+
+def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
+    attributes = {
+        "title": problem.title,
+        "structure": "cage",
+        "cage_model": "flexible",
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        headlines=flexible_headlines(problem, collected.groups),
+        criteria=problem.criteria,
+    )

@@ -1,0 +1,97 @@
+"""What the peaks of a flexible cage are worth: the same sea with another step, mesh and damping."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.progress import Progress, silent
+from moyai.structures.cage.flexible.build import build_cage
+from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, solve_rest
+from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage, GridMooring
+from moyai.structures.cage.flexible.problem import FlexibleSettings
+from moyai.structures.cage.flexible.time import CageRun, run_cage
+from moyai.structures.cage.rigid.waves import Wave
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: What is changed, in the order of the result.
+VARIANTS = ("as given", "half the step", "coarser mesh", "twice the damping of the mesh")
+
+
+def _coarser(mesh: CageMesh) -> CageMesh:
+    around = max(8, 4 * round(mesh.around * 2.0 / 3.0 / 4.0))
+    return CageMesh(
+        around, max(1, round(mesh.down * 2 / 3)), max(1, round(mesh.bottom * 2 / 3)), 1.5 * mesh.rope_length
+    )
+
+
+def _damped(model: FlexibleCage) -> FlexibleCage:
+    net = replace(model.design.net, damping=2.0 * model.design.net.damping)
+    mooring = model.mooring
+    if isinstance(mooring, GridMooring):
+        mooring = replace(mooring, damping=2.0 * mooring.damping)
+    return replace(model, design=replace(model.design, net=net), mooring=mooring)
+
+
+def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
+    """Return the highest tension of each kind of line, the smallest volume and the highest stress."""
+    history, built = run.history, run.rest.built
+    steady = history.time >= run.ramp - 1e-9
+    out = {}
+    for kind in ("anchor", "bridle", "frame", "buoy"):
+        bars = [built.network.strands[part.strand].bars for part in built.lines if part.kind == kind]
+        if bars:
+            out[f"highest tension, {kind} [N]"] = float(history.tension_peak[steady][:, np.concatenate(bars)].max())
+    volume = [cage.volume(history.position[steady]) / cage.rest_volume for cage in built.cages]
+    out["smallest volume share [-]"] = float(np.min(volume))
+    if built.cages[0].collar_bars and not model.design.collar.rigid:
+        rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // 100)]
+        out["highest stress of the collar [Pa]"] = float(
+            max(
+                ring["stress"].max()
+                for row in rows
+                for rings in collar_forces(model, run.rest, history.position[row], history.tension[row])
+                for ring in rings
+            )
+        )
+    return out
+
+
+def sensitivity_dataset(
+    model: FlexibleCage, rest: CageRest, wave: Wave, settings: FlexibleSettings, progress: Progress = silent
+) -> xr.Dataset:
+    """Run one wave with half the step, a coarser mesh and more damping; return peaks of each run.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    rest : CageRest
+        In the current of the site.
+    wave : Wave
+    settings : FlexibleSettings
+    progress : Progress
+    """
+    import xarray as xr
+
+    short = replace(settings, ramp_periods=min(settings.ramp_periods, 2.0))
+    found: list[dict[str, float]] = []
+    first = run_cage(model, rest, wave, short)
+    found.append(_numbers(model, first))
+    progress("sensitivity", 1, len(VARIANTS))
+    found.append(_numbers(model, run_cage(model, rest, wave, short, step=0.5 * first.history.step)))
+    for number, other in enumerate((replace(model, mesh=_coarser(model.mesh)), _damped(model))):
+        progress("sensitivity", 2 + number, len(VARIANTS))
+        start = solve_rest(other, build_cage(other), rest.current)
+        found.append(_numbers(other, run_cage(other, start, wave, short)))
+    progress("sensitivity", len(VARIANTS), len(VARIANTS))
+    names = list(found[0])
+    values = np.array([[numbers[name] for name in names] for numbers in found])
+    return xr.Dataset(
+        {"value": (("variant", "quantity"), values, {"units": "1", "long_name": "see the quantity"})},
+        coords={"variant": list(VARIANTS), "quantity": names},
+        attrs={"wave": wave.name, "step": first.history.step},
+    )

@@ -1,0 +1,219 @@
+"""A flexible cage in waves and current through time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.progress import Progress, silent
+from moyai.flexible.flow import Flow
+from moyai.flexible.result import History
+from moyai.flexible.simulate import simulate
+from moyai.flexible.snap import find_snaps
+from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, ring_shape
+from moyai.structures.cage.flexible.loads import PARTS, drag_split
+from moyai.structures.cage.flexible.model import FlexibleCage
+from moyai.structures.cage.flexible.problem import FlexibleSettings
+from moyai.structures.cage.flexible.variables import described
+from moyai.structures.cage.rigid.waves import Wave
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+#: Rows at which the split of the drag is told, at most.
+_DRAG_ROWS = 200
+
+
+@dataclass(frozen=True, eq=False)
+class CageRun:
+    """A run through time.
+
+    Parameters
+    ----------
+    wave : Wave
+    rest : CageRest
+        Where it started.
+    flow : Flow
+    ramp : float
+        Until which the waves grew [s].
+    history : History
+    """
+
+    wave: Wave
+    rest: CageRest
+    flow: Flow
+    ramp: float
+    history: History
+
+
+def run_cage(
+    model: FlexibleCage,
+    rest: CageRest,
+    wave: Wave,
+    settings: FlexibleSettings,
+    *,
+    step: float | None = None,
+    progress: Progress = silent,
+) -> CageRun:
+    """Run a cage from its rest in the current through waves that grow.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    rest : CageRest
+    wave : Wave
+    settings : FlexibleSettings
+    step : float, optional
+        Time step, at most [s].
+    progress : Progress
+    """
+    ramp = settings.ramp_periods * wave.period
+    flow = Flow(current=rest.current, waves=wave.components, stretching=settings.stretching, wave_ramp=ramp)
+    history = simulate(
+        rest.network,
+        duration=ramp + wave.duration,
+        output_step=wave.period / settings.rows_per_period,
+        flow=flow,
+        start=rest.state,
+        step=step,
+        progress=progress,
+    )
+    return CageRun(wave, rest, flow, ramp, history)
+
+
+def _drag_rows(run: CageRun, rows: NDArray[np.int64]) -> Array:
+    """Return the split of the drag at some rows, (rows, parts, 2) [N]."""
+    history = run.history
+    last = len(history.time) - 1
+    out = np.empty((rows.size, len(PARTS), 2))
+    for k, row in enumerate(rows):
+        a, b = max(int(row) - 1, 0), min(int(row) + 1, last)
+        velocity = (history.position[b] - history.position[a]) / max(history.time[b] - history.time[a], 1e-300)
+        place = history.position[row]
+        water = run.flow.at(float(history.time[row]), place.T)
+        out[k] = drag_split(run.rest.built, run.rest.network, place, velocity, water)[:, :2]
+    return out
+
+
+def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) -> xr.Dataset:
+    """Return the run of a cage as a dataset."""
+    import xarray as xr
+
+    history, built = run.history, run.rest.built
+    time = history.time
+    steady = time >= run.ramp - 1e-9
+    if steady.sum() < 4:
+        steady = np.ones_like(steady)
+    shapes = np.array(
+        [
+            [ring_shape(cage, place, built.network.nodes.position)[0] for cage in built.cages]
+            for place in history.position
+        ]
+    )
+    volume = np.stack([cage.volume(history.position) / cage.rest_volume for cage in built.cages], axis=1)
+    rows = np.unique(np.linspace(int(np.argmax(steady)), len(time) - 1, _DRAG_ROWS).astype(np.int64))
+    drag = _drag_rows(run, rows)
+    kept = np.unique(np.linspace(0, len(time) - 1, settings.frames).astype(np.int64))
+    middle = np.array([[0.0], [0.0], [0.0]])
+    surface = np.array([float(run.flow.at(float(now), middle)[6, 0]) for now in time])
+    size = np.linalg.norm(drag, axis=2)
+    variables = {
+        "volume_share": (("time", "cage"), volume),
+        "volume_mean": ("cage", volume[steady].mean(axis=0)),
+        "volume_minimum": ("cage", volume[steady].min(axis=0)),
+        "collar_place": (("time", "cage", "axis"), shapes),
+        "collar_range": (("cage", "axis"), np.ptp(shapes[steady], axis=0)),
+        "wave_elevation": ("time", surface),
+        "drag": (("drag_time", "part", "horizontal"), drag),
+        "drag_mean": (("part", "horizontal"), drag.mean(axis=0)),
+        "drag_largest": ("part", size.max(axis=0)),
+        "position": (("frame", "node", "axis"), history.position[kept]),
+        "tension": (("frame", "bar"), history.tension[kept]),
+        **_line_series(run, settings, steady),
+    }
+    if built.cages[0].collar_bars and not model.design.collar.rigid:
+        stress = np.array(
+            [
+                [max(ring["stress"].max() for ring in rings) for rings in collar_forces(model, run.rest, place, pull)]
+                for place, pull in zip(history.position, history.tension, strict=True)
+            ]
+        )
+        worst = int(np.argmax(np.where(steady, stress.max(axis=1), -1.0)))
+        there = collar_forces(model, run.rest, history.position[worst], history.tension[worst])
+        variables["collar_stress_largest"] = (("time", "cage"), stress)
+        variables["collar_stress"] = (
+            ("cage", "ring", "around"), np.array([[ring["stress"] for ring in rings] for rings in there])
+        )  # fmt: skip
+    return described(
+        xr.Dataset(
+            variables,
+            coords={
+                "time": ("time", time, {"units": "s", "long_name": "time"}),
+                "drag_time": ("drag_time", time[rows], {"units": "s", "long_name": "time"}),
+                "frame_time": ("frame", time[kept], {"units": "s", "long_name": "time"}),
+                "part": list(PARTS), "axis": ["x", "y", "z"], "horizontal": ["x", "y"],
+                "cage": [cage.name for cage in built.cages], "line": [part.name for part in built.lines],
+            },
+            attrs={
+                "wave": run.wave.name, "wave_height": run.wave.height, "period": run.wave.period,
+                "wavelength": run.wave.wavelength, "ramp": run.ramp, "step": history.step, "steps": history.steps,
+                "status": history.status, "regular": int(run.wave.regular),
+                "realised_height": 4.0 * float(surface[steady].std()), **wave_attributes(run.wave),
+            },
+        )
+    )  # fmt: skip
+
+
+def wave_attributes(wave: Wave) -> dict[str, Array]:
+    """Return the components of a sea as attributes, so that a report can draw its surface."""
+    parts = wave.components
+    return {
+        "component_omega": np.asarray(parts.omega), "component_amplitude": np.asarray(parts.amplitude),
+        "component_phase": np.asarray(parts.phase), "component_heading": np.asarray(parts.heading),
+        "component_wave_number": np.asarray(parts.wave_number),
+    }  # fmt: skip
+
+
+def _line_series(
+    run: CageRun, settings: FlexibleSettings, steady: NDArray[np.bool_]
+) -> dict[str, tuple[object, Array]]:
+    """Return tensions of the lines over time, their extremes, and their snaps."""
+    history, built = run.history, run.rest.built
+    if not built.lines:
+        return {}
+    bars = [run.rest.network.strands[part.strand].bars for part in built.lines]
+    upper = np.stack([history.tension[:, own[-1]] for own in bars], axis=1)
+    lower = np.stack([history.tension[:, own[0]] for own in bars], axis=1)
+    lower_peak = np.stack([history.tension_peak[:, own[0]] for own in bars], axis=1)
+    peak = np.stack([history.tension_peak[:, own].max(axis=1) for own in bars], axis=1)
+    mean = upper[steady].mean(axis=0)
+    slack, count, highest = [], [], []
+    for k in range(len(bars)):
+        record = find_snaps(
+            history.time[steady], np.maximum(upper[steady, k], 0.0),
+            slack_level=settings.slack_share * max(mean[k], 0.0), threshold=settings.snap_factor * max(mean[k], 0.0),
+            peaks=peak[steady, k],
+        )  # fmt: skip
+        slack.append(record.slack_time / max(float(np.ptp(history.time[steady])), 1e-300))
+        count.append(len(record.snaps))
+        highest.append(max((snap.peak for snap in record.snaps), default=0.0))
+    broken = np.array([part.breaking_load for part in built.lines])
+    largest = peak[steady].max(axis=0)
+    return {
+        "line_tension": (("time", "line"), upper),
+        "line_tension_lower": (("time", "line"), lower),
+        "line_peak": (("time", "line"), peak),
+        "tension_maximum_lower": ("line", lower_peak[steady].max(axis=0)),
+        "tension_mean": ("line", mean),
+        "tension_minimum": ("line", upper[steady].min(axis=0)),
+        "tension_maximum": ("line", largest),
+        "utilisation": ("line", largest / broken),
+        "slack_share": ("line", np.array(slack)),
+        "snaps": ("line", np.array(count)),
+        "snap_peak": ("line", np.array(highest)),
+    }

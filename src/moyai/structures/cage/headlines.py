@@ -1,0 +1,382 @@
+"""The numbers of a cage's first page: volume, drag, tensions, offset, anchors, stress, with the band of the net law.
+
+A sweep of currents never decides one of them: the design state does, which is the current of the site and its seas.
+How the answer is made: docs/answer/cage.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.headline import Band, Headline
+from moyai.core.maxima import maximum_of
+from moyai.structures.cage.flexible.problem import FlexibleCageProblem
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STATICS, DYNAMIC = "rest in the current of the site", "run through time"
+RIGID = "rigid cage, run through time"
+Groups = Mapping[str, "xr.Dataset"]
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """The rest in the current of the site at one water level."""
+
+    level: str
+    speed: float
+    row: int
+    statics: xr.Dataset
+    laws: xr.Dataset | None
+
+    @property
+    def where(self) -> str:
+        """Current and level."""
+        return f"current {self.speed:.3g} m/s, {self.level}"
+
+    def band(self, name: str) -> Band | None:
+        """Return the range of a number over the laws valid for this net."""
+        if self.laws is None or self.laws.sizes["law"] < 2:
+            return None
+        values = self.laws[f"law_{name}"].values
+        return Band(float(np.min(values)), float(np.max(values)), _laws_text(self.laws))
+
+
+def _laws_text(laws: xr.Dataset) -> str:
+    return f"law of the case and those valid for this net: {laws.attrs['valid']}"
+
+
+def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[Headline, ...]:
+    """Return the first page's numbers of a flexible cage.
+
+    Parameters
+    ----------
+    problem : FlexibleCageProblem
+    groups : mapping of str to xarray.Dataset
+        What was run, by its place in the result.
+    """
+    levels = [path[1:] for path in groups if path.count("/") == 1]
+    states = [state for level in levels if (state := _state(level, groups)) is not None]
+    runs = [item for level in levels for item in _runs(level, groups)]
+    tension, utilisation = _tension(states, runs)
+    items = [
+        *_volume(states, runs),
+        *_drag(states, runs),
+        *tension,
+        *utilisation,
+        *_offset(states, runs),
+        *_anchor(states, runs),
+        *_stress(states, runs),
+    ]
+    return tuple(items)
+
+
+def _state(level: str, groups: Groups) -> _State | None:
+    """Return the rest in the current of the site, not the fastest of the sweep."""
+    statics = groups.get(f"/{level}/statics")
+    if statics is None:
+        return None
+    speed = float(groups[f"/{level}"].attrs["current"])
+    speeds = statics["current_speed"].values
+    row = int(np.argmin(np.abs(speeds - speed)))
+    if abs(float(speeds[row]) - speed) > 1e-6 * max(1.0, speed):
+        return None
+    return _State(level, speed, row, statics, groups.get(f"/{level}/laws"))
+
+
+def _runs(level: str, groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
+    """Yield level, words and series of every run through time."""
+    for path, run in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) == 4 and parts[0] == level and parts[1] == "time":
+            label = "" if parts[3] == "sea" else f", {run.attrs['wave']}"
+            yield level, f"{parts[2]}{label}, {level}", run
+
+
+Runs = list[tuple[str, str, "xr.Dataset"]]
+
+
+def _volume(states: list[_State], runs: Runs) -> list[Headline]:
+    if not states:
+        return []
+    worst = min(states, key=lambda state: float(state.statics["volume_share"].values[state.row].min()))
+    value = float(worst.statics["volume_share"].values[worst.row].min())
+    least = min((float(run["volume_minimum"].min()) for _, _, run in runs), default=math.nan)
+    detail = f"down to {least:.3g} for moments in the sea" if math.isfinite(least) else ""
+    return [
+        Headline(
+            "volume_left", "volume left", value, "1", worst.where, STATICS, worst.band("volume_share"), detail=detail,
+        )
+    ]  # fmt: skip
+
+
+def _drag(states: list[_State], runs: Runs) -> list[Headline]:
+    if not states:
+        return []
+    worst = max(states, key=lambda state: float(state.statics["total_drag"].values[state.row]))
+    value = float(worst.statics["total_drag"].values[worst.row])
+    detail = ""
+    largest = [(float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()), where) for _, where, run in runs]
+    if largest:
+        most, where = max(largest)
+        detail = f"up to {most / 1e3:.3g} kN for moments in {where}"
+    band = worst.band("drag")
+    return [Headline("drag", "drag in the current", value, "N", worst.where, STATICS, band, detail=detail)]
+
+
+def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Headline]]:
+    """Return the governing tension and its utilisation: of the seas where they were run, else of the current."""
+    found: list[tuple[float, float, Headline, _State | None]] = []
+    by_level = {state.level: state for state in states}
+    for level, where, run in runs:
+        if "utilisation" not in run or not run["utilisation"].size:
+            continue
+        line = int(np.argmax(run["utilisation"].values))
+        state = by_level.get(level)
+        item = _dynamic_tension(run, line, where, state)
+        found.append((float(run["utilisation"].values[line]), item.value, item, state))
+    for state in [] if found else states:
+        used = state.statics["utilisation"].values[state.row]
+        if not used.size:
+            continue
+        line = int(np.argmax(used))
+        value = float(state.statics["tension_largest"].values[state.row, line])
+        name = str(state.statics["line"].values[line])
+        item = Headline(
+            "line_tension", "tension of the governing line", value, "N", f"{name}, {state.where}", STATICS,
+            state.band("tension"), detail="no sea was run: waves are not in it",
+        )  # fmt: skip
+        found.append((float(used[line]), value, item, state))
+    if not found:
+        return [], []
+    share, value, item, state = max(found, key=lambda entry: entry[0])
+    ratio = share / value
+    band = item.band if item.band is None else replace(
+        item.band, low=item.band.low * ratio, high=item.band.high * ratio
+    )  # fmt: skip
+    utilisation = Headline(
+        "line_utilisation", "tension over breaking load", share, "1", item.where, item.model, band,
+        detail=f"breaking load of new rope {value / share / 1e3:.4g} kN, without a safety factor",
+    )  # fmt: skip
+    return [item], [utilisation]
+
+
+def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | None) -> Headline:
+    """Return the highest tension of a run with its band: chance of the seed, and the law of the net."""
+    value = float(run["tension_maximum"].values[line])
+    low = high = value
+    words, details = [], []
+    everything = run["tension_maximum"].values
+    if float(everything.max()) > 1.01 * value:
+        name = str(run["line"].values[int(np.argmax(everything))])
+        details.append(f"most of its breaking load; {name} bears {float(everything.max()) / 1e3:.3g} kN")
+    if not int(run.attrs["regular"]):
+        details.append(
+            f"realised Hs {float(run.attrs['realised_height']):.2f} m of {float(run.attrs['wave_height']):.2f} m asked"
+        )
+        late = run["time"].values >= float(run.attrs["ramp"])
+        chance = maximum_of(
+            run["time"].values[late], run["line_peak"].values[late, line], float(run.attrs["period"])
+        )  # fmt: skip
+        if chance is not None:
+            low, high = min(value, chance.mean - chance.deviation), max(value, chance.mean + chance.deviation)
+            words.append(
+                f"one seed, scatter of its maximum estimated from {chance.blocks} blocks of the record, "
+                f"mean {chance.mean / 1e3:.3g} kN"
+            )
+        else:
+            details.append("one seed, too short to tell the scatter of its maximum")
+    laws = None if state is None else state.laws
+    if laws is not None and laws.sizes["law"] > 1:
+        # the sea moves the cage about its rest: what the law changes there is added
+        moved = laws["law_tension"].values - float(laws["law_tension"].values[0])
+        low, high = low + float(moved.min()), high + float(moved.max())
+        words.append(f"{_laws_text(laws)}, by their change at rest")
+    name = str(run["line"].values[line])
+    band = Band(max(low, 0.0), high, "; ".join(words)) if words else None
+    return Headline(
+        "line_tension", "tension of the governing line", value, "N", f"{name}, {where}", DYNAMIC, band,
+        detail="; ".join(details),
+    )  # fmt: skip
+
+
+def _offset(states: list[_State], runs: Runs) -> list[Headline]:
+    """Return the largest way of a collar from its place in still water."""
+    found: list[tuple[float, str, str, _State]] = []
+    for state in states:
+        calm = state.statics["collar_place"].values[0]
+        away = state.statics["collar_place"].values[state.row] - calm
+        found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state))
+        for level, where, run in runs:
+            if level != state.level:
+                continue
+            late = run["time"].values >= float(run.attrs["ramp"])
+            moved = run["collar_place"].values[late] - calm
+            found.append((float(np.linalg.norm(moved[..., :2], axis=-1).max()), where, DYNAMIC, state))
+    if not found or max(item[0] for item in found) < 1e-9:
+        return []
+    value, where, model, state = max(found, key=lambda item: item[0])
+    band = state.band("offset") if model == STATICS else None
+    detail = "" if band is not None or state.band("offset") is None else (
+        f"in the current alone {state.band('offset').low:.3g} to {state.band('offset').high:.3g} m by net law"  # type: ignore[union-attr]
+    )  # fmt: skip
+    return [Headline("offset", "largest offset of a collar", value, "m", where, model, band, detail=detail)]
+
+
+def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
+    found: list[tuple[float, str, str, str, Band | None]] = []
+    for _, where, run in runs:
+        if "tension_maximum_lower" not in run:
+            continue
+        names = [str(name) for name in run["line"].values]
+        anchors = [k for k, name in enumerate(names) if "anchor" in name]
+        if anchors:
+            pulls = run["tension_maximum_lower"].values[anchors]
+            at = int(np.argmax(pulls))
+            found.append((float(pulls[at]), f"{names[anchors[at]]}, {where}", DYNAMIC, "", None))
+    for state in [] if found else states:
+        if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
+            pulls = state.statics["anchor_pull"].values[state.row]
+            at = int(np.argmax(pulls))
+            up = float(state.statics["anchor_uplift"].values[state.row, at])
+            name = str(state.statics["anchor"].values[at])
+            detail = f"upwards {up / 1e3:.3g} kN; no sea was run"
+            found.append((float(pulls[at]), f"{name}, {state.where}", STATICS, detail, state.band("anchor_pull")))
+    if not found:
+        return []
+    value, where, model, detail, band = max(found, key=lambda item: item[0])
+    return [Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)]
+
+
+def _stress(states: list[_State], runs: Runs) -> list[Headline]:
+    found = [
+        (float(state.statics["collar_stress_largest"].values[state.row].max()), state.where, STATICS)
+        for state in states if "collar_stress_largest" in state.statics
+    ]  # fmt: skip
+    for _, where, run in runs:
+        if "collar_stress_largest" in run:
+            late = run["time"].values >= float(run.attrs["ramp"])
+            found.append((float(run["collar_stress_largest"].values[late].max()), where, DYNAMIC))
+    if not found:
+        return []
+    value, where, model = max(found)
+    return [
+        Headline(
+            "collar_stress", "largest stress of the collar", value, "Pa", where, model, text=f"{value / 1e6:.3g} MPa"
+        )
+    ]
+
+
+def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
+    """Return the first page's numbers of a rigid cage.
+
+    Parameters
+    ----------
+    groups : mapping of str to xarray.Dataset
+        What was run, by its place in the result.
+    """
+    seas = [
+        (parts[0], parts[2], group)
+        for path, group in groups.items()
+        if len(parts := path.strip("/").split("/")) == 3 and parts[1] == "waves"
+    ]
+    return (*_rigid_tension(seas, groups), *_rigid_motions(seas), *_rigid_rest(groups))
+
+
+Seas = list[tuple[str, str, "xr.Dataset"]]
+
+
+def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
+    best: tuple[float, str, str, int, int, xr.Dataset] | None = None
+    for level, name, sea in seas:
+        values = sea["peak_tension"].values
+        if values.size and (best is None or float(values.max()) > best[0]):
+            at = np.unravel_index(int(np.argmax(values)), values.shape)
+            best = (float(values.max()), level, name, int(at[0]), int(at[1]), sea)
+    if best is None:
+        return []
+    value, level, name, wave, line, sea = best
+    line_name, label = str(sea["line"].values[line]), str(sea["wave"].values[wave])
+    where = ", ".join(part for part in (line_name, name, "" if label == "sea" else label, level) if part)
+    laws, band, details = groups.get(f"/{level}/laws"), None, []
+    if laws is not None and laws.sizes["law"] > 1 and laws.attrs["sea"] == name:
+        peaks = laws["law_peak_tension"].values
+        band = Band(float(peaks.min()), float(peaks.max()), _laws_text(laws))
+    elif laws is not None:
+        details.append("no second net law is valid for this net: no band")
+    if sea.attrs["kind"] != "regular":
+        details += _rigid_chance(groups[f"/{level}/time/{name}/sea"], line)
+    items = [
+        Headline("line_tension", "highest line tension", value, "N", where, RIGID, band, detail="; ".join(details))
+    ]
+    breaking = float(groups[f"/{level}/statics"]["breaking_load"].values[line])
+    if math.isfinite(breaking):
+        scaled = None if band is None else replace(band, low=band.low / breaking, high=band.high / breaking)
+        items.append(
+            Headline(
+                "line_utilisation", "tension over breaking load", value / breaking, "1", where, RIGID, scaled,
+                detail=f"breaking load {breaking / 1e3:.4g} kN, without a safety factor",
+            )
+        )  # fmt: skip
+    return items
+
+
+def _rigid_chance(run: xr.Dataset, line: int) -> list[str]:
+    late = run["time"].values >= float(run.attrs["ramp"])
+    time = run["time"].values[late]
+    said = [
+        f"realised Hs {4.0 * float(run['surface_elevation'].values[late].std()):.3g} m of "
+        f"{float(run.attrs['wave_height']):.3g} m asked"
+    ]
+    chance = maximum_of(time, run["tension_peak"].values[late, line], float(run.attrs["period"]))
+    if chance is not None:
+        said.append(
+            f"one seed: largest of others about {chance.mean:.3g} ± {chance.deviation:.2g} N, from {chance.blocks} "
+            "blocks of the record"
+        )
+    return said
+
+
+def _rigid_motions(seas: Seas) -> list[Headline]:
+    best: dict[str, tuple[float, str, str, str]] = {}
+    for level, name, sea in seas:
+        regular = sea.attrs["kind"] == "regular"
+        for number, mode in enumerate(("sway", "heave")):
+            values = sea["range_ratio"].values[:, number]
+            at = int(np.argmax(values))
+            words = f"{mode} range over wave height" if regular else f"{mode}: 4 standard deviations over Hs"
+            entry = (float(values[at]), f"{name}, {sea['wave'].values[at]}, {level}", "1", words)
+            best[words] = max(best.get(words, entry), entry)
+        turned = 0.5 * sea["range"].values[:, 2]
+        at = int(np.argmax(turned))
+        entry = (float(turned[at]), f"{name}, {sea['wave'].values[at]}, {level}", "rad", "rotation, half its range")
+        best["rotation"] = max(best.get("rotation", entry), entry)
+    return [
+        Headline(f"{words.split()[0].strip(':,')}_range", words, value, unit, where, RIGID)
+        for value, where, unit, words in best.values()
+    ]
+
+
+def _rigid_rest(groups: Groups) -> list[Headline]:
+    for path, statics in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) != 2 or parts[1] != "statics":
+            continue
+        items = []
+        tension = statics["tension_at_rest"].values
+        if tension.size:
+            items.append(Headline("tension_at_rest", "tension at rest", float(tension.max()), "N", parts[0], "rest"))
+        share = float(statics["immersion"].sel(situation="moored"))
+        items.append(
+            Headline(
+                "floats_immersed", "floats in water at rest", share, "1", parts[0], "rest", text=f"{100 * share:.3g} %"
+            )
+        )
+        return items
+    return []

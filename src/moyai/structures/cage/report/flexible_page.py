@@ -1,0 +1,115 @@
+"""Compose the report of a flexible cage: volume, drag and tensions first, then what they rest on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from moyai.core.results import Result
+from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.formatting import format_quantity
+from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.headlines import headline_figures
+from moyai.report.reading import Group
+from moyai.structures.cage.report import flexible_figures as figures
+from moyai.structures.cage.report import flexible_tables as tables
+from moyai.structures.cage.report.flexible_scene import rest_views, run_view
+from moyai.structures.cage.report.rigid_reading import Level, levels_of
+
+
+def compose(result: Result) -> Document:
+    """Compose the report of a flexible cage.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = Group("", result.tree)
+    levels = levels_of(root)
+
+    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
+        if all(isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        if len(options) == 1:
+            return options[0].blocks
+        return (Choice("water-level", "Water level", tuple(options)),)
+
+    sections = [
+        Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
+        Section(
+            "shape", "Shape at rest", at_each_level(lambda level: [rest_views(level), figures.volume_figure(level)])
+        ),
+        Section(
+            "loads",
+            "Drag and loads at rest",
+            at_each_level(
+                lambda level: [
+                    figures.drag_figure(level),
+                    tables.law_table(level),
+                    tables.current_table(level),
+                    tables.split_table(level),
+                    tables.lines_table(level),
+                ]
+            ),
+        ),
+        Section("collar", "Collar", at_each_level(lambda level: [figures.collar_figure(level)])),
+        Section("time", "In waves", at_each_level(_time)),
+        Section("cage", "The cage", at_each_level(lambda level: [tables.cage_table(level)])),
+        Section("input", "Input", (case_listing(root),)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _subtitle(levels: tuple[Level, ...]) -> str:
+    if not levels:
+        return "Flexible net cage"
+    cage = levels[0].part("cage")
+    count = len(cage.labels("cage"))
+    words = f"{cage.attributes.get('shape', '')}, {format_quantity(float(cage.attributes.get('size', 0.0)), 'm')}"
+    return f"Flexible net cage, {words}" if count == 1 else f"{count} flexible net cages, {words} each"
+
+
+def _summary(result: Result) -> tuple[Block, ...]:
+    found = headline_figures(result)
+    return () if found is None else (found,)
+
+
+def _runs(level: Level) -> list[tuple[str, Group]]:
+    return [(sea.name, run) for sea in level.part("time").children() for run in sea.children()]
+
+
+def _time(level: Level) -> list[Block | None]:
+    options: list[Option] = []
+    for sea, run in _runs(level):
+        blocks: list[Block | None] = [
+            run_view(level, sea, run),
+            *figures.run_figures(level, sea, run),
+            tables.run_table(level, sea, run),
+            tables.drag_table(level, sea, run),
+        ]
+        shown = tuple(block for block in blocks if block is not None)
+        if shown:
+            options.append(Option(f"{sea}: {run.attributes.get('wave', run.name)}", shown))
+    found: list[Block | None] = []
+    if len(options) == 1:
+        found.extend(options[0].blocks)
+    elif options:
+        found.append(Choice(f"run-{level.name}", "Wave", tuple(options), print_all=False))
+    for sea_group in level.part("sensitivity").children():
+        found.append(tables.sensitivity_table(level, sea_group))
+    return found

@@ -1,0 +1,140 @@
+"""Compose the report of a rigid cage: governing motions and tensions first, then what they rest on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from moyai.core.results import Result
+from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.formatting import format_quantity
+from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.headlines import headline_figures
+from moyai.report.reading import Group
+from moyai.structures.cage.report import rigid_figures as figures
+from moyai.structures.cage.report import rigid_tables as tables
+from moyai.structures.cage.report.rigid_drawing import elevation_drawing, orbit_drawing
+from moyai.structures.cage.report.rigid_reading import Level, Record, levels_of, read_record
+from moyai.structures.cage.report.rigid_time import run_blocks
+
+MOST_RUNS = 12
+MOST_ANIMATIONS = 6
+BINS = 1200
+
+
+def compose(result: Result) -> Document:
+    """Compose the report of a rigid cage.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = Group("", result.tree)
+    levels = levels_of(root)
+
+    def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
+        if all(isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        if len(options) == 1:
+            return options[0].blocks
+        return (Choice("water-level", "Water level", tuple(options)),)
+
+    literal = str(root.attributes.get("equations", "")) == "literal"
+    sections = [
+        Section("summary", "Summary", (*_summary(result, literal), *notice_blocks(result))),
+        Section("cage", "Cage and mooring", at_each_level(_cage)),
+        Section("motions", "Motions", at_each_level(_motions)),
+        Section("tensions", "Line tensions", at_each_level(_tensions)),
+        Section("stiffness", "Line stiffness", at_each_level(_stiffness)),
+        Section("time", "Motion over time", at_each_level(_time)),
+        Section("input", "Input", (case_listing(root),)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels, literal),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _subtitle(levels: tuple[Level, ...], literal: bool) -> str:
+    parts = ["Rigid net cage"]
+    if levels:
+        cage = levels[0].part("cage")
+        x, z = cage.array("outline_x", "corner"), cage.array("outline_z", "corner")
+        if x is not None and z is not None:
+            parts.append(f"{format_quantity(float(np.ptp(x)), 'm')} × {format_quantity(float(np.ptp(z)), 'm')}")
+    if literal:
+        parts.append("equations as printed")
+    return ", ".join(parts)
+
+
+def _summary(result: Result, literal: bool) -> tuple[Block, ...]:
+    found = headline_figures(result)
+    blocks: list[Block] = [] if found is None else [found]
+    if literal:
+        blocks.append(Paragraph("The equations are those in print, faults included: no result to design by."))
+    return tuple(blocks)
+
+
+def _cage(level: Level) -> list[Block | None]:
+    return [
+        elevation_drawing(level),
+        tables.rest_table(level),
+        tables.line_table(level),
+        tables.cage_table(level),
+        tables.modes_table(level),
+    ]
+
+
+def _records(level: Level, sea: Group) -> list[Record]:
+    runs = level.part(f"time/{sea.name}").children()
+    return [record for run in runs if (record := read_record(run)) is not None]
+
+
+def _motions(level: Level) -> list[Block | None]:
+    blocks: list[Block | None] = []
+    for sea in level.part("waves").children():
+        blocks += [
+            tables.motion_table(level, sea),
+            figures.response_figure(level, sea),
+            orbit_drawing(level, sea.name, _records(level, sea)),
+        ]
+    return blocks
+
+
+def _tensions(level: Level) -> list[Block | None]:
+    return [tables.tension_table(level, sea) for sea in level.part("waves").children()]
+
+
+def _stiffness(level: Level) -> list[Block | None]:
+    return [block for sea in level.part("sensitivity").children() for block in figures.sensitivity_blocks(level, sea)]
+
+
+def _time(level: Level) -> list[Block | None]:
+    options: list[Option] = []
+    largest: list[float] = []
+    for sea in level.part("waves").children():
+        records = _records(level, sea)
+        step = max(1, math.ceil(len(records) / MOST_RUNS))
+        for number, record in enumerate(records[::-1][::step][::-1]):
+            blocks = run_blocks(level, sea.name, record, number < MOST_ANIMATIONS, BINS)
+            options.append(Option(f"{sea.name}: {record.label}", blocks))
+            value = float(record.peak.max()) if record.peak.size else float(np.abs(record.pose[:, 2]).max())
+            largest.append(value)
+    if not options:
+        return []
+    return [Choice(f"run-{level.name}", "Wave", tuple(options), largest.index(max(largest)), print_all=False)]

@@ -1,0 +1,1 @@
+"""Rigid net cages of small models: floats, net panels and lines as one body."""

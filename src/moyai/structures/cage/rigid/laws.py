@@ -1,0 +1,86 @@
+"""The governing wave of a rigid cage under the laws of nets that were measured on nets like its own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import Notice
+from moyai.morison.net_law_base import NetLaw
+from moyai.morison.net_law_choice import METAL, choice_notice, law_choice
+from moyai.sea.water import Water
+from moyai.structures.cage.rigid.lines import CageLine
+from moyai.structures.cage.rigid.model import RigidCageProblem
+from moyai.structures.cage.rigid.runs import run_wave
+from moyai.structures.cage.rigid.statics import Rest, rest_with_lines
+from moyai.structures.cage.rigid.variables import labelled
+from moyai.structures.cage.rigid.waves import Wave, current_along
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def is_metal(problem: RigidCageProblem) -> bool:
+    """Whether the twines of the net are of metal, by their mass over their volume."""
+    cage = problem.cage
+    return cage.net_volume > 0.0 and cage.net_mass / cage.net_volume > METAL
+
+
+def laws_dataset(
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    rest: Rest,
+    water: Water,
+    wave: Wave,
+    peak: float,
+    progress: Progress = silent,
+) -> tuple[xr.Dataset, Notice]:
+    """Return the highest tension of one wave under the law of the case and under every other valid one.
+
+    Parameters
+    ----------
+    problem : RigidCageProblem
+    lines : tuple of CageLine
+        At this water level.
+    rest : Rest
+        Under the law of the case.
+    water : Water
+    wave : Wave
+    peak : float
+        Highest tension under the law of the case [N].
+    progress : Progress
+    """
+    import xarray as xr
+
+    cage = problem.cage
+    speed = math.pi * wave.height / wave.period + abs(current_along(problem, water))
+    choice = law_choice(cage.law, cage.net, speed, problem.kinematic_viscosity, metal=is_metal(problem))
+    laws: tuple[NetLaw, ...] = (choice.chosen, *choice.others)
+    peaks = [peak]
+    for number, law in enumerate(laws[1:], start=1):
+        progress("laws of nets", number, len(laws))
+        other = replace(problem, cage=replace(cage, law=law))
+        begin = rest
+        if problem.environment.current is not None:
+            begin = rest_with_lines(
+                other.cage, lines, water, problem.kinematic_viscosity, problem.environment.current
+            )  # fmt: skip
+        numbers = run_wave(other, lines, begin, water, wave).numbers
+        peaks.append(float(np.max(numbers.peak_tension)))
+    progress("laws of nets", len(laws), len(laws))
+    coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in laws]
+    found = labelled(
+        xr.Dataset(
+            {
+                "normal_drag_coefficient": ("law", np.array(coefficients)),
+                "law_peak_tension": ("law", np.array(peaks)),
+            },
+            coords={"law": [law.name for law in laws]},
+            attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},
+        )
+    )
+    return found, choice_notice(choice, cage.net)

@@ -1,0 +1,228 @@
+"""Run a rigid cage: every water level, every sea, the analyses that the case names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.collected import STOPPED, Collected
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result
+from moyai.core.validity import Notice
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+from moyai.structures.cage.headlines import rigid_headlines
+from moyai.structures.cage.rigid.checks import (
+    cage_notices,
+    level_notices,
+    mass_checks,
+    rest_checks,
+    run_checks,
+    run_notices,
+)
+from moyai.structures.cage.rigid.datasets import cage_dataset, sea_dataset, statics_dataset, time_dataset
+from moyai.structures.cage.rigid.laws import laws_dataset
+from moyai.structures.cage.rigid.lines import CageLine
+from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
+from moyai.structures.cage.rigid.modes import natural_modes
+from moyai.structures.cage.rigid.pack import pack
+from moyai.structures.cage.rigid.runs import Run, run_wave
+from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
+from moyai.structures.cage.rigid.setup import at_level, lines_of
+from moyai.structures.cage.rigid.statics import Rest, free_floating, rest_with_lines, size_of
+from moyai.structures.cage.rigid.waves import current_along, waves_of
+
+if TYPE_CHECKING:
+    pass
+
+
+def run(problem: RigidCageProblem, progress: Progress = silent) -> Result:
+    """Run all analyses of a rigid cage.
+
+    Parameters
+    ----------
+    problem : RigidCageProblem
+    progress : Progress
+        Told of every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the cage sinks, its lines cannot reach, or a current would carry it away.
+    """
+    collected = Collected()
+    lines = lines_of(problem)
+    try:
+        for _ in _steps(problem, lines, collected, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = STOPPED
+    return _result(problem, collected)
+
+
+def rest_at(problem: RigidCageProblem, lines: tuple[CageLine, ...], water: Water) -> tuple[Rest, Rest]:
+    """Return the cage floating freely and as moored; without lines in a current both float freely in still water."""
+    viscosity = problem.kinematic_viscosity
+    free = free_floating(problem.cage, water, viscosity)
+    if not lines:
+        return free, free
+    return free, rest_with_lines(problem.cage, lines, water, viscosity, problem.environment.current)
+
+
+def _steps(
+    problem: RigidCageProblem, lines: tuple[CageLine, ...], collected: Collected, progress: Progress
+) -> Iterator[None]:
+    import xarray as xr
+
+    levels = problem.environment.water_levels
+    collected.checks.extend(mass_checks(problem.cage))
+    collected.notices.extend(cage_notices(problem))
+    for index, (name, level) in enumerate(levels):
+        progress("water levels", index, len(levels))
+        water = problem.environment.water_at(level)
+        here = at_level(lines, level)
+        root = f"/{name}"
+        collected.groups[root] = xr.Dataset(
+            attrs={"water_level": level, "water_depth": water.depth, "current": current_along(problem, water)}
+        )
+        collected.groups[f"{root}/cage"] = cage_dataset(problem, water)
+        free, rest = rest_at(problem, here, water)
+        packed = pack(problem.cage, here, water, problem.kinematic_viscosity)
+        modes = natural_modes(packed, rest, size_of(problem.cage))
+        collected.groups[f"{root}/statics"] = statics_dataset(problem, here, free, rest, modes)
+        collected.checks.extend(rest_checks(name, problem, here, water, free, rest))
+        collected.notices.extend(level_notices(name, problem, here, water, free, rest))
+        yield
+        for sea in problem.seas:
+            if "time" in problem.settings.analyses:
+                yield from _sea_steps(problem, here, rest, water, sea, collected, root, progress)
+            if "sensitivity" in problem.settings.analyses and here:
+                yield from _sensitivity_steps(problem, here, water, sea, collected, root, progress)
+        if here and "time" in problem.settings.analyses and problem.equations == "sound":
+            yield from _law_steps(problem, here, rest, water, collected, root, progress)
+    progress("water levels", len(levels), len(levels))
+
+
+def _law_steps(
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    rest: Rest,
+    water: Water,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    """Run the wave of the highest tension under every law of nets that is valid for this net."""
+    best: tuple[float, CageSea, int] | None = None
+    for sea in problem.seas:
+        known = collected.groups.get(f"{root}/waves/{sea.name}")
+        if known is None or not known["peak_tension"].size:
+            continue
+        peaks = known["peak_tension"].values.reshape(known.sizes["wave"], -1).max(axis=1)
+        if best is None or float(peaks.max()) > best[0]:
+            best = (float(peaks.max()), sea, int(np.argmax(peaks)))
+    if best is None:
+        return
+    peak, sea, number = best
+    wave = waves_of(problem, sea, water)[number]
+    found, notice = laws_dataset(problem, lines, rest, water, wave, peak, progress)
+    found.attrs["sea"] = sea.name
+    collected.groups[f"{root}/laws"] = found
+    collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
+    yield
+
+
+def _sea_steps(
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    rest: Rest,
+    water: Water,
+    sea: CageSea,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    waves = waves_of(problem, sea, water)
+    runs: list[Run] = []
+    told: list[Notice] = []
+    for number, wave in enumerate(waves):
+        progress(f"time, {sea.name}", number, len(waves))
+        found = run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else progress)
+        runs.append(found)
+        label = f"wave {number + 1}" if wave.regular else "sea"
+        collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(problem, found, lines)
+        collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, water, runs, lines)
+        told.extend(run_notices(problem, found))
+        collected.checks.extend(run_checks(sea.name, problem, found, lines))
+        if found.march.status == "interrupted":
+            collected.interrupted = STOPPED
+            raise KeyboardInterrupt
+        if found.march.status == "not_converged":
+            collected.failures.append(
+                f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
+            )
+        yield
+    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in _gravest(told))
+    progress(f"time, {sea.name}", len(waves), len(waves))
+
+
+def _sensitivity_steps(
+    problem: RigidCageProblem,
+    lines: tuple[CageLine, ...],
+    water: Water,
+    sea: CageSea,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    """Run the wave of the largest peak (the last one without `time`) with other line stiffnesses."""
+    waves = waves_of(problem, sea, water)
+    at = len(waves) - 1
+    known = collected.groups.get(f"{root}/waves/{sea.name}")
+    if known is not None and known["peak_tension"].size:
+        at = int(np.argmax(known["peak_tension"].values.reshape(len(known["wave"]), -1).max(axis=1)))
+    wave = waves[at]
+    if not isinstance(sea, RegularWaves):
+        wave = replace(wave, duration=min(wave.duration, 100.0 * wave.period))
+    found = sensitivity_dataset(problem, lines, water, wave, progress)
+    if found is not None:
+        collected.groups[f"{root}/sensitivity/{sea.name}"] = found
+    yield
+
+
+def _gravest(notices: list[Notice]) -> list[Notice]:
+    """Keep of each kind the first notice: one message a sea, not one a wave."""
+    kept: dict[str, Notice] = {}
+    for notice in notices:
+        known = kept.get(notice.code)
+        if known is None or abs(notice.value) > abs(known.value):
+            kept[notice.code] = notice
+    return list(kept.values())
+
+
+def _result(problem: RigidCageProblem, collected: Collected) -> Result:
+    attributes = {
+        "structure": "cage",
+        "cage_model": "rigid",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+        "equations": problem.equations,
+    }
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        headlines=rigid_headlines(collected.groups),
+        criteria=problem.criteria,
+    )
+
+
+__all__ = ["rest_at", "run"]

@@ -1,0 +1,115 @@
+"""From the seas of a case to wave components along the plane of motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.sea.components import WaveComponents
+from moyai.sea.dispersion import wave_number_in_current
+from moyai.sea.irregular import synthesise
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+from moyai.structures.cage.rigid.model import CageSea, RegularWaves, RigidCageProblem
+
+#: Components of equal energy that stand for an irregular sea; it never repeats itself
+COMPONENTS = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Wave:
+    """One wave or irregular sea, ready to be run.
+
+    Parameters
+    ----------
+    name : str
+    components : WaveComponents
+    height, period : float
+        H and T, or significant height and peak period [m], [s].
+    wavelength : float
+        Of that period [m].
+    duration : float
+        [s].
+    regular : bool
+    """
+
+    name: str
+    components: WaveComponents
+    height: float
+    period: float
+    wavelength: float
+    duration: float
+    regular: bool
+
+
+def current_along(problem: RigidCageProblem, water: Water) -> float:
+    """Return the current along x averaged over the depth (at the surface of infinite depth) [m/s]."""
+    if problem.environment.current is None:
+        return 0.0
+    profile = problem.environment.current.in_depth(water.depth)
+    found = profile.velocity(0.0) if math.isinf(water.depth) else profile.depth_mean(-water.depth, 0.0)
+    if abs(float(found[1])) > 1e-9 * max(abs(float(found[0])), 1e-300):
+        raise InputError(
+            "the current does not flow along x",
+            path="current.heading_deg",
+            allowed="0 or 180 degrees: the rigid cage moves in one plane",
+            remedy="turn the x axis, or use 'model: flexible'",
+        )
+    return float(found[0])
+
+
+def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wave, ...]:
+    """Return every wave of a sea state at a water depth."""
+    flow = current_along(problem, water)
+    sense = 1.0 if math.cos(sea.heading) > 0.0 else -1.0
+    if isinstance(sea, RegularWaves):
+        return tuple(
+            regular_wave(height, period, sea.heading, water, flow * sense, problem.settings.periods)
+            for height, period in sea.waves()
+        )
+    period = float(sea.spectrum.peak_period)
+    parts = sea_components(sea, water, (flow, 0.0))
+    number = float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, flow * sense))
+    height = float(sea.spectrum.significant_height)
+    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
+
+
+def sea_components(sea: IrregularSea, water: Water, current: tuple[float, float]) -> WaveComponents:
+    """Return the components of an irregular sea on a current.
+
+    A sea of whole multiples of its lowest frequency has its significant height over its duration exactly; where that
+    would take more than twice ``COMPONENTS``, that many of equal energy, whose height over the duration is a chance
+    [eq:sea-equal-energy].
+    """
+    parts = synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        current=current,
+    )  # fmt: skip
+    if parts.omega.size <= 2 * COMPONENTS:
+        return parts
+    return synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, heading=sea.heading, spreading=sea.spreading,
+        method="equal_energy", count=COMPONENTS, current=current,
+    )  # fmt: skip
+
+
+def regular_wave(
+    height: float, period: float, heading: float, water: Water, current_along_wave: float, periods: int
+) -> Wave:
+    """Return a linear wave whose crest passes the middle of the cage at t = 0."""
+    omega = 2.0 * math.pi / period
+    number = float(wave_number_in_current(omega, water.depth, water.gravity, current_along_wave))
+    parts = WaveComponents(
+        omega=np.array([omega]),
+        amplitude=np.array([0.5 * height]),
+        phase=np.zeros(1),
+        heading=np.array([heading]),
+        wave_number=np.array([number]),
+        water=water,
+        intrinsic_omega=np.array([omega - number * current_along_wave]),
+    )
+    name = f"H {height:.4g} m, T {period:.4g} s"
+    return Wave(name, parts, height, period, 2.0 * math.pi / number, periods * period, True)

@@ -1,0 +1,51 @@
+"""Silt curtains: statics, impact tension, waves, anchor loads, limits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from moyai.core.kinds import StructureKind
+from moyai.core.progress import Progress
+from moyai.core.results import Result
+
+
+class CurtainKind(StructureKind):
+    """The parts of this folder, each imported when it is asked for."""
+
+    name = "curtain"
+    package = __name__
+    templates = (("curtain", "template.yaml"),)
+
+    def schema(self) -> Any:
+        from moyai.structures.curtain.case.schema import CurtainCase
+
+        return CurtainCase
+
+    def check(self, model: Any, findings: Any, folder: Path) -> None:
+        from moyai.structures.curtain.case.check import check
+
+        check(model, findings, folder)
+
+    def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
+        from moyai.structures.curtain.case.build import build_problem
+
+        return build_problem(model, folder, case_text=case_text, case_hash=case_hash)
+
+    def derived(self, case: Any) -> Any:
+        from moyai.structures.curtain.case.derived import derived_numbers
+
+        return derived_numbers(case)
+
+    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
+        from moyai.structures.curtain.run import run
+
+        return run(problem, progress)
+
+    def compose(self, result: Result) -> Any:
+        from moyai.structures.curtain.report.page import compose
+
+        return compose(result)
+
+
+KIND = CurtainKind()

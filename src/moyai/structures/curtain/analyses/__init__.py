@@ -1,0 +1,1 @@
+"""The analyses of a curtain case, one file each."""

@@ -1,0 +1,195 @@
+"""The dynamic analysis of a curtain case: every sea state, or the snap in the current alone, on the whole span."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from moyai.core.progress import Progress
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.sea.states import SeaState
+from moyai.structures.curtain.analyses.impact import impact_of
+from moyai.structures.curtain.assembly import LevelCurtain
+from moyai.structures.curtain.dynamic.checks import crumples, run_checks, run_notices, still_rises
+from moyai.structures.curtain.dynamic.groups import run_dataset, run_frames
+from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.peak_uncertainty import Worth, span_worth
+from moyai.structures.curtain.dynamic.plans import Plan, plans_of
+from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
+from moyai.structures.curtain.dynamic.span import span_of
+from moyai.structures.curtain.impact.cable import edge_impact, peak_by_energy
+from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Over the skirt's length, to either side of a section: what waves fold more finely than this turns no added mass.
+_NORMAL_REACH = 1.0 / 3.0
+#: Times that the run of a snap is doubled while the tension still rises at its end.
+_LONGER = 4
+
+
+@dataclass(frozen=True)
+class DynamicAnswer:
+    """Groups of one run, what must be told, its checks, the highest tensions, and whether the user stopped it."""
+
+    groups: dict[str, xr.Dataset]
+    checks: tuple[IdentityCheck, ...]
+    notices: tuple[Notice, ...]
+    loads: Mapping[str, tuple[float, str]]
+    interrupted: bool = False
+
+
+def dynamic_answer(
+    unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...], progress: Progress
+) -> DynamicAnswer:
+    """Run the span of a level through every sea state, or through the snap in its current.
+
+    Raises
+    ------
+    InputError
+        As :func:`span_of`, and where there is neither a sea nor a current.
+    """
+    import xarray as xr
+
+    given = settings.dynamic
+    assert given is not None
+    span = span_of(unit, given)
+    groups: dict[str, xr.Dataset] = {}
+    checks: list[IdentityCheck] = []
+    notices: list[Notice] = []
+    rows: list[dict[str, float]] = []
+    plans = plans_of(unit, settings, seas, span)
+    interrupted = False
+    for number, plan in enumerate(plans):
+        progress(f"dynamic, {plan.name}", number, len(plans))
+        place = f"dynamic, {plan.name}"
+        plan, run, told = _through(span, given.mesh, plan, progress, place)
+        notices.extend(told)
+        worth: Worth | None = None
+        interrupted = run.history.status == "interrupted"
+        if run.history.status == "not_converged":
+            notices.append(
+                Notice("dynamic-stopped", f"{place}: {run.history.message}; its last instants are no motion of the "
+                       "curtain, and no peak of it is given", math.nan, math.nan, "error",
+                       "take a finer mesh or more viscosity", "guard on the energy of the run")
+            )  # fmt: skip
+        elif given.sensitivity and not interrupted:
+            try:
+                worth = span_worth(run, progress=progress, **plan.arguments)
+                notices.extend(worth.notices(place))
+            except KeyboardInterrupt:
+                interrupted = True
+        checks.extend(run_checks(run, place))
+        data, row = run_dataset(run, given, worth, plan)
+        groups[plan.name] = data
+        groups[f"{plan.name}/frames"] = run_frames(run, plan)
+        rows.append(row)
+        notices.extend(run_notices(run, place, plan.period, plan.regular))
+        if interrupted:
+            end = float(run.history.time[-1])
+            notices.append(
+                Notice("dynamic-interrupted", f"{place}: stopped by the user, the run reaches {end:.4g} s of "
+                       f"{float(plan.arguments['duration']):.4g} s", math.nan, math.nan, "warning")
+            )  # fmt: skip
+            break
+    else:
+        progress("dynamic", len(plans), len(plans))
+    table = {key: ("run", [row[key] for row in rows]) for key in rows[0]}
+    groups[""] = labelled(xr.Dataset(table, coords={"run": [plan.name for plan in plans[: len(rows)]]}))
+    models = _models(unit, settings)
+    if models is not None:
+        groups[""] = groups[""].merge(models)
+    return DynamicAnswer(groups, tuple(checks), tuple(notices), _loads(plans, rows), interrupted)
+
+
+def _loads(plans: list[Plan], rows: list[dict[str, float]]) -> dict[str, tuple[float, str]]:
+    """Return the highest tension of each component over the runs, and the run in which it stands."""
+    keys = {"upper cable": "upper_peak", "lower cable": "lower_peak", "skirt": "skirt_peak",
+            "anchor line": "anchor_peak"}  # fmt: skip
+    found: dict[str, tuple[float, str]] = {}
+    for component, key in keys.items():
+        known = [(row[key], plan.name) for row, plan in zip(rows, plans, strict=False) if row[key] > 0.0]
+        if known:
+            found[component] = max(known)
+    return found
+
+
+def _through(
+    span: CurtainSpan, mesh: Mesh, plan: Plan, progress: Progress, place: str
+) -> tuple[Plan, DynamicRun, tuple[Notice, ...]]:
+    """Run a plan, a snap until it is past its peak.
+
+    In waves folds of the cloth do not turn the normals of sections; a snap has none at first and takes the normals
+    between neighbours. What stops, or feeds viscosity more than the span ever holds, is run again with steadier
+    normals, in the end with those of the just-taut span.
+    """
+    wide = replace(mesh, normal_reach=mesh.normal_reach or _NORMAL_REACH * span.skirt_length)
+    held = replace(wide, turning=False)
+    trials = [mesh, wide, held] if plan.arguments["flow"].waves is None else [wide, held]
+    first: tuple[Plan, DynamicRun] | None = None
+    for trial in trials:
+        plan_run = _until_peak(span, trial, plan, progress)
+        if first is None:
+            first = plan_run
+        if not crumples(plan_run[1]):
+            return *plan_run, _steadied(first[1], plan_run[1], place)
+    assert first is not None
+    return *first, ()
+
+
+def _until_peak(span: CurtainSpan, mesh: Mesh, plan: Plan, progress: Progress) -> tuple[Plan, DynamicRun]:
+    run = run_span(span, mesh, progress=progress, **plan.arguments)
+    for _ in range(_LONGER if plan.open else 0):
+        if run.history.status != "converged" or not still_rises(run):
+            break
+        plan = replace(plan, arguments={**plan.arguments, "duration": 2.0 * plan.arguments["duration"]})
+        run = run_span(span, mesh, progress=progress, **plan.arguments)
+    return plan, run
+
+
+def _steadied(first: DynamicRun, run: DynamicRun, place: str) -> tuple[Notice, ...]:
+    """Tell that a run was made again with steadier normals of its sections."""
+    if run is first:
+        return ()
+    way = (
+        "taken over a third of the skirt's length to either side"
+        if run.built.mesh.turning
+        else "held as in the just-taut span, whose high peaks lay within a seventh of the others where both ran, weak "
+        "ones within a half"
+    )
+    end = float(first.history.time[-1])
+    why = f"the run stopped at {end:.4g} s"
+    if first.history.status == "converged":
+        gained, taken = run_checks(first, "")
+        why = (
+            f"{100 * gained.value:.3g} % of the energy that went through the span came from nowhere"
+            if taken.passed
+            else f"viscosity took {taken.value:.3g} times per period what the span ever held"
+        )
+    return (
+        Notice(
+            "dynamic-turning",
+            f"{place}: the cloth gathers, and {why}; it is made again with normals of the added mass {way}",
+            math.nan, math.nan, "warning", "take another mesh, or more viscosity", "guard on the energy of the run",
+        ),
+    )  # fmt: skip
+
+
+def _models(unit: LevelCurtain, settings: Settings) -> xr.Dataset | None:
+    """Return the peaks of models A and A2 at the start speed, to hold the dynamic peak against."""
+    import xarray as xr
+
+    speed = settings.impact.start_speed or unit.normal_speed
+    if not speed > 0.0 or unit.curtain.length <= unit.curtain.span:
+        return None
+    impact = impact_of(unit, settings.impact, speed)
+    names = ["A", "A2"]
+    peaks = [peak_by_energy(impact).tension, edge_impact(impact, finite_depth=True).simultaneous_peak]
+    return labelled(xr.Dataset({"dynamic_model_tension": ("dynamic_model", peaks)}, coords={"dynamic_model": names}))
+
+
+__all__ = ["DynamicAnswer", "dynamic_answer"]

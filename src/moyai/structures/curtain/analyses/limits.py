@@ -1,0 +1,357 @@
+"""Up to which current and wave height a curtain holds, and what governs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.headline import Bound
+from moyai.core.progress import Progress
+from moyai.sea.breaking import breaking_limit
+from moyai.structures.curtain.analyses.impact import ImpactAnswer
+from moyai.structures.curtain.assembly import LevelCurtain
+from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, Role, hierarchy, role_of
+from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
+from moyai.structures.curtain.limits.search import Limit
+from moyai.structures.curtain.limits.utilisation import height_limit, speed_limit, utilisation
+from moyai.structures.curtain.model import Settings
+from moyai.structures.curtain.seas.loads import DragCurve, SeaLoads
+from moyai.structures.curtain.statics.hanging import CurtainStatics
+from moyai.structures.curtain.statics.steady_load import drag_factors
+from moyai.structures.curtain.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+PARTS = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor", "floats", "effective depth")
+_SPEED_COUNT, _HEIGHT_COUNT = 9, 11
+
+
+def limits_dataset(
+    unit: LevelCurtain,
+    settings: Settings,
+    answer: ImpactAnswer | None,
+    curve: DragCurve,
+    progress: Progress,
+) -> xr.Dataset:
+    """Return the group ``limits``: largest height for currents up to each speed, and the utilisation over both.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+    settings : Settings
+    answer : ImpactAnswer or None
+        None where the impact was not asked for.
+    curve : DragCurve
+        Loads at rest, up to :func:`fastest_water`.
+    progress : Progress
+        An interrupt is handed on.
+    """
+    loads = sea_loads(unit, settings, answer, curve)
+    counted = _Counted(unit, settings, loads)
+    most, most_bound = counted.speed()
+    speeds = _speeds(unit, settings, most)
+    rows = []
+    for count, speed in enumerate(speeds):
+        progress(f"operating limits, {unit.name}", count, len(speeds))
+        rows.append(counted.height(speed))
+    progress(f"operating limits, {unit.name}", len(speeds), len(speeds))
+    heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
+    parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
+    return _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Limits that were searched: of the current, and of the height in each current of the table with its bound."""
+
+    most: Limit
+    most_bound: Bound
+    speeds: tuple[float, ...]
+    rows: tuple[tuple[Limit, Bound], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Counted:
+    """Limits by the models that count: one out of its range sets none, a bound of the load gives a limit 'at least'."""
+
+    unit: LevelCurtain
+    settings: Settings
+    loads: SeaLoads
+    solved: dict[float, CurtainStatics | None] = field(default_factory=dict)
+
+    @property
+    def sure(self) -> SeaLoads:
+        """Loads without the upright plate."""
+        return replace(self.loads, impact=None, snaps=None)
+
+    @property
+    def with_plate(self) -> bool:
+        """Whether an upright plate was run for the limits at all."""
+        return self.loads.impact is not None or self.loads.snaps is not None
+
+    def role(self, speed: float) -> Role:
+        """Return what the upright plate counts for in a current [m/s]."""
+        roles = hierarchy(self.unit, self.settings, speed=speed)
+        found = {role_of(roles, model) for model in (IMPACT, CYCLES)}
+        return next((role for role in _ROLES if role in found), "out of range")
+
+    def loads_in(self, speed: float) -> SeaLoads:
+        """Return the loads that count in a current [m/s]."""
+        return self.loads if self.with_plate and self.role(speed) in ("governs", "bound") else self.sure
+
+    def speed(self) -> tuple[Limit, Bound]:
+        """Return the largest current without waves, and whether it is a bound."""
+        unit, highest = self.unit, self.settings.limits.highest_speed
+
+        def find(loads: SeaLoads) -> Limit:
+            return speed_limit(
+                unit.hanging, unit.site, unit.requirements, highest=highest, waves=loads, solved=self.solved
+            )
+
+        return self._judged(find, lambda limit: limit.value, self.loads.impact is not None)
+
+    def height(self, speed: float) -> tuple[Limit, Bound]:
+        """Return the largest significant height in a current [m/s], and whether it is a bound."""
+        limit, bound = self._judged(lambda loads: self._height(loads, speed), lambda _: speed, self.with_plate)
+        steady = ("effective depth", "floats", "no equilibrium", "breaking")
+        if self.loads_in(speed).snaps is None and limit.governing not in steady:
+            # a steady drag knows no snap: the limit can only be lower
+            return limit, "at most"
+        return limit, bound
+
+    def _height(self, loads: SeaLoads, speed: float) -> Limit:
+        unit, highest = self.unit, self.settings.limits.highest_height
+        return height_limit(unit.hanging, unit.site, unit.requirements, loads, speed=speed, highest=highest)
+
+    def _judged(
+        self, find: Callable[[SeaLoads], Limit], place: Callable[[Limit], float], plate: bool
+    ) -> tuple[Limit, Bound]:
+        plain = find(self.sure)
+        if not plate:
+            return plain, ""
+        struck = find(self.loads)
+        role = self.role(place(struck))
+        if role == "governs":
+            return struck, ""
+        if role == "bound":
+            # where the sure loads already set the same limit, they are what sets it
+            return (struck, "at least") if struck.value < plain.value else (plain, "")
+        return plain, ""
+
+
+#: Roles of the plate, the strongest first
+_ROLES: tuple[Role, ...] = ("governs", "bound", "comparison", "out of range")
+
+
+def _limits_group(
+    unit: LevelCurtain, settings: Settings, counted: _Counted, found: _Found, heights: Array, parts: Array
+) -> xr.Dataset:
+    import xarray as xr
+
+    limits, loads, most = settings.limits, counted.loads, found.most
+    alone = np.array([row.value for row, _ in found.rows])
+    # a site with this current has every weaker one as well, twice a tide
+    source = [int(np.argmin(alone[: n + 1])) for n in range(alone.size)]
+    low, high = _drag_band(unit, counted, most)
+    data: dict[str, Any] = {
+        "limit_height": ("speed", alone[source]),
+        "limit_governing": ("speed", [found.rows[n][0].governing for n in source]),
+        "limit_bound": ("speed", [found.rows[n][1] for n in source]),
+        "limit_height_alone": ("speed", alone),
+        "limit_note": ("speed", [height_note(row, limits.highest_height) for row, _ in found.rows]),
+        "limit_utilisation": (("speed", "height"), np.nanmax(parts, axis=2)),
+        "limit_component": (("speed", "height"), _governing(parts)),
+        "component_utilisation": (("speed", "height", "component"), parts),
+        "surface_speed": ((), unit.surface_speed),
+        "speed_limit": ((), most.value),
+        "speed_limit_low": ((), low),
+        "speed_limit_high": ((), high),
+        "speed_limit_ratio": ((), most.value / unit.surface_speed if unit.surface_speed > 0.0 else math.nan),
+        "drowning_speed": ((), unit.drowning_speed),
+    }
+    attributes = _design_height(unit, counted, found, alone, data)
+    return labelled(
+        xr.Dataset(
+            data,
+            coords={
+                "speed": (
+                    "speed",
+                    np.asarray(found.speeds),
+                    {"units": "m/s", "long_name": "surface speed of the current"},
+                ),
+                "height": heights,
+                "component": list(PARTS),
+            },
+            attrs={
+                **attributes,
+                "speed_limit_governing": most.governing,
+                "speed_limit_bound": found.most_bound,
+                "speed_limit_text": speed_text(most),
+                "limit_not_monotone": _not_monotone(found, alone, alone[source]),
+                "wave_angle": limits.wave_angle,
+                "with_impact": int(loads.impact is not None),
+                "with_snaps": int(loads.snaps is not None),
+                "with_energy_model": int(loads.energy is not None),
+                "plate_role": counted.role(unit.surface_speed) if counted.with_plate else "",
+            },
+        )
+    )
+
+
+def _design_height(
+    unit: LevelCurtain, counted: _Counted, found: _Found, alone: Array, data: dict[str, Any]
+) -> dict[str, str]:
+    """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
+    own = unit.surface_speed
+    if own <= 0.0:
+        data["design_limit_height"] = ((), math.nan)
+        return {"design_limit_governing": "", "design_limit_bound": "", "design_limit_note": ""}
+    rows = [row for speed, row in zip(found.speeds, found.rows) if speed <= own * (1.0 + 1e-9)]
+    if not any(abs(speed - own) <= 1e-9 * own for speed in found.speeds):
+        rows.append(counted.height(own))
+    # where several are alike, the one nearest to the current of the case
+    limit, bound = min(reversed(rows), key=lambda row: row[0].value)
+    data["design_limit_height"] = ((), limit.value)
+    return {
+        "design_limit_governing": limit.governing,
+        "design_limit_bound": bound,
+        "design_limit_note": height_note(limit, counted.settings.limits.highest_height),
+    }
+
+
+def _drag_band(unit: LevelCurtain, counted: _Counted, most: Limit) -> tuple[float, float]:
+    """Return the largest current at the upper and lower end of the drag coefficient; NaN where an impact sets it.
+
+    The load goes with C_D U^2 alone, so that a factor on one is the root of a factor on the other.
+    """
+    if not most.reached or (counted.loads.impact is not None and most.governing not in ("effective depth", "floats")):
+        return math.nan, math.nan
+    low, high = drag_factors(unit.hanging.drag)
+    return most.value / math.sqrt(high), most.value / math.sqrt(low)
+
+
+def speed_text(limit: Limit) -> str:
+    """Return what to say in place of a largest current that is none; empty where the number says it."""
+    if not limit.reached:
+        return f"no limit within the range searched (up to {limit.highest:.3g} m/s)"
+    return _fails_at_once(limit, "m/s") if limit.value <= 0.0 else ""
+
+
+def height_note(limit: Limit, highest: float) -> str:
+    """Return what to say of a largest height besides its number: none found, fails at once, or holds again above."""
+    if not limit.reached:
+        return f"no limit within the range searched (up to {highest:.3g} m)"
+    if limit.value <= 0.0:
+        return _fails_at_once(limit, "m")
+    again = limit.crossings[1::2]
+    if not again:
+        return ""
+    return "holds again from " + ", ".join(f"{value:.3g} m" for value in again) + "; the smallest limit counts"
+
+
+def _fails_at_once(limit: Limit, unit: str) -> str:
+    if limit.governing == "no equilibrium":
+        return f"0 {unit}: no equilibrium in this current"
+    return f"0 {unit}: the current alone is too much for the {limit.governing} ({100.0 * limit.ratio:.0f} %)"
+
+
+def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
+    """Say where a stronger current alone would allow a higher wave, and why."""
+    risen = np.flatnonzero(alone > least * (1.0 + 1e-6) + 1e-9)
+    if not risen.size:
+        return ""
+    n = int(risen[np.argmax(alone[risen] - least[risen])])
+    return (
+        f"a current of {found.speeds[n]:.3g} m/s alone would allow {alone[n]:.3g} m, more than the {least[n]:.3g} m "
+        "of a weaker one: a stronger current keeps the curtain taut, and it snaps less. Weaker currents come with "
+        "every stronger one, so that the least of them all counts"
+    )
+
+
+def _speeds(unit: LevelCurtain, settings: Settings, limit: Limit) -> tuple[float, ...]:
+    """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
+    if settings.limits.speeds is not None:
+        # a table begins at a current: without one there is no shape to speak of
+        return tuple(max(speed, 1e-3) for speed in settings.limits.speeds)
+    top = max(1.2 * limit.value, unit.surface_speed, 0.1)
+    top = min(top, settings.limits.highest_speed)
+    even = np.linspace(0.0, _round_up(top), _SPEED_COUNT)[1:]
+    values = [float(value) for value in even]
+    if unit.surface_speed > 0.0 and min(abs(unit.surface_speed - value) for value in values) > 1e-9:
+        values.append(unit.surface_speed)
+    if limit.reached and limit.value > 0.0:
+        # just held: the height does not fall to nothing on the way to the next current of the table
+        values = [
+            value for value in values if abs(value - limit.value) > 0.02 * limit.value or value == unit.surface_speed
+        ]
+        values.append(limit.value * (1.0 - 1e-6))
+    return tuple(sorted(values))
+
+
+def _heights(settings: Settings, limit: float) -> Array:
+    if settings.limits.heights is not None:
+        return np.array(settings.limits.heights)
+    top = min(max(1.3 * limit, 0.5), settings.limits.highest_height)
+    return np.linspace(0.0, _round_up(top), _HEIGHT_COUNT)
+
+
+def _round_up(value: float) -> float:
+    size = 10.0 ** math.floor(math.log10(value))
+    return float(
+        next(step * size for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 8.0, 10.0) if step * size >= value * 0.999)
+    )
+
+
+def _grid(unit: LevelCurtain, by_speed: list[SeaLoads], speeds: tuple[float, ...], heights: Array) -> Array:
+    """Return the utilisation of each part at each speed and height; infinite beyond equilibrium or breaking."""
+    required = unit.requirements
+    out = np.full((len(speeds), heights.size, len(PARTS)), math.nan)
+    for i, speed in enumerate(speeds):
+        statics, loads = _statics(unit, speed), by_speed[i]
+        for j, height in enumerate(heights):
+            if statics is None or _breaks(unit, loads, float(height)):
+                out[i, j] = math.inf
+                continue
+            try:
+                more = loads.added(statics, float(height), speed, unit.water)
+            except InputError:
+                out[i, j] = math.inf
+                continue
+            parts = utilisation(statics, required, 0.0, more)
+            out[i, j] = [parts.get(name, math.nan) for name in PARTS]
+    return out
+
+
+def _statics(unit: LevelCurtain, speed: float) -> CurtainStatics | None:
+    try:
+        return unit.site.statics(unit.hanging, speed)
+    except (InputError, ConvergenceError):
+        return None
+
+
+def _breaks(unit: LevelCurtain, loads: SeaLoads, height: float) -> bool:
+    if height <= 0.0:
+        return False
+    return loads.height_ratio * height > breaking_limit(loads.period(height), unit.water).height
+
+
+def _governing(parts: Array) -> NDArray[Any]:
+    out = np.empty(parts.shape[:2], dtype=object)
+    for place in np.ndindex(out.shape):
+        row = parts[place]
+        if np.isinf(row).all():
+            out[place] = "no equilibrium or breaking"
+        else:
+            out[place] = PARTS[int(np.nanargmax(row))]
+    return out
+
+
+__all__ = ["PARTS", "fastest_water", "height_note", "impact_load", "limits_dataset", "sea_loads", "speed_text"]

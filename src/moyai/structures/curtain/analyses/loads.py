@@ -1,0 +1,282 @@
+"""The load table: every component's load split into steady, wave, impact and governing, with its utilisation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.structures.curtain.analyses.anchor import rope_model, steady_tension
+from moyai.structures.curtain.analyses.impact import ImpactAnswer
+from moyai.structures.curtain.analyses.limits import impact_load
+from moyai.structures.curtain.assembly import LevelCurtain
+from moyai.structures.curtain.governing import governing_load
+from moyai.structures.curtain.hierarchy import ModelRole, hierarchy
+from moyai.structures.curtain.limits.utilisation import AddedLoads, Strength
+from moyai.structures.curtain.model import COMPONENTS, Settings
+from moyai.structures.curtain.seas.loads import DragCurve, increase
+from moyai.structures.curtain.seas.squared_velocity import squared_velocity
+from moyai.structures.curtain.seas.states import DesignWave
+from moyai.structures.curtain.statics.hanging import CurtainStatics
+from moyai.structures.curtain.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Highest tension of components in runs of the whole span [N, N/m], and the run in which each stands.
+DynamicLoads = Mapping[str, tuple[float, str]]
+NOT_MOVED: DynamicLoads = MappingProxyType({})
+_UNITS = {"skirt": "N/m", "float": "N/m"}
+_FIELDS = {
+    "upper cable": "upper_cable",
+    "lower cable": "lower_cable",
+    "skirt": "sheet",
+    "joint": "line_load",
+    "float": "anchor_line",
+    "anchor line": "anchor_line",
+    "anchor": "anchor_line",
+}
+
+
+@dataclass(frozen=True)
+class _Added:
+    """Loads that one source adds, with its name for each component that it loads."""
+
+    loads: AddedLoads
+    source: str
+
+
+def loads_dataset(
+    unit: LevelCurtain,
+    settings: Settings,
+    waves: tuple[DesignWave, ...],
+    oscillator: tuple[tuple[str, float], ...],
+    answer: ImpactAnswer | None,
+    proportions: ImpactAnswer | None,
+    curve: DragCurve,
+    moved: DynamicLoads = NOT_MOVED,
+    roles: tuple[ModelRole, ...] = (),
+) -> tuple[xr.Dataset, tuple[Notice, ...]]:
+    """Return the group ``loads`` and its notices.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+    settings : Settings
+    waves : tuple of DesignWave
+        All waves of the case.
+    oscillator : tuple of (str, float)
+        Sea state and largest sum of the cable tensions in it [N], where slack and taut cycles were run.
+    answer : ImpactAnswer or None
+        None where the impact was not asked for.
+    proportions : ImpactAnswer or None
+        By which the tension of slack and taut cycles goes to the components; None where they were not run.
+    curve : DragCurve
+        Loads at rest, up to :func:`moyai.structures.curtain.analyses.limits.fastest_water`.
+    moved : mapping
+        Highest tension of a component in runs of the whole span [N, N/m] and the run in which it stands.
+    roles : tuple of ModelRole
+        What each model counts for; the hierarchy of the case when left out.
+    """
+    statics = unit.statics if unit.surface_speed > 0.0 else None
+    sources, notices = _wave_sources(unit, settings, waves, statics, oscillator, proportions, curve)
+    struck = AddedLoads() if answer is None else impact_load(unit, answer, settings).of_tension(answer.design_tension)
+    name = "" if answer is None else f"impact, model {answer.design_model}"
+    rows = []
+    for component in COMPONENTS:
+        steady = _steady(unit, component)
+        field = _FIELDS[component]
+        best = max(sources, key=lambda item: getattr(item.loads, field), default=_Added(AddedLoads(), ""))
+        factor = _factor(unit, component)
+        wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
+        if component == "skirt" and proportions is not None and math.isnan(proportions.half_angle):
+            hit = math.nan
+        rows.append(_row(unit, component, steady, wave, hit, best.source, name))
+    return _table(unit, rows, moved, roles or hierarchy(unit, settings)), tuple(notices)
+
+
+def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
+    """Return the group ``loads`` where runs of the whole span are all there is."""
+    none = math.nan
+    rows = [_row(unit, component, (none,) * 3, none, none, "", "") for component in COMPONENTS]
+    return _table(unit, rows, moved, ())
+
+
+def _table(
+    unit: LevelCurtain, rows: list[dict[str, float | str]], moved: DynamicLoads, roles: tuple[ModelRole, ...]
+) -> xr.Dataset:
+    import xarray as xr
+
+    rows = [_decided(unit, row, moved, roles) for row in rows]
+    columns = {key: [row[key] for row in rows] for key in rows[0]}
+    known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
+    governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
+    data = xr.Dataset(
+        {key: ("component", values) for key, values in columns.items() if key != "component"},
+        coords={"component": list(COMPONENTS)},
+        attrs={"governing_component": "" if governing is None else str(governing["component"])},
+    )
+    return labelled(data)
+
+
+def _decided(
+    unit: LevelCurtain, row: dict[str, float | str], moved: DynamicLoads, roles: tuple[ModelRole, ...]
+) -> dict[str, float | str]:
+    """Return a row with the load of the moving span, the load that governs and its utilisation."""
+    component = str(row["component"])
+    line, run = moved.get("anchor line" if component == "anchor" else component, (math.nan, ""))
+    load = line * _factor(unit, component) if component == "anchor" else line
+    row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
+    row |= governing_load(row, roles)
+    governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
+    # the upper end of the steady load is added to what waves add; beside a moving span it counts where it alone is more
+    above = governing - steady + high
+    if row["governing"] == "dynamic":
+        above = max(governing, high) if math.isfinite(high) else governing
+    row |= {"governing_high": above}
+    judged = math.isfinite(float(row["capacity"])) and math.isfinite(governing)
+    strength = _strength(unit, component)
+    return row | {
+        "utilisation": strength.utilisation(governing) if judged else math.nan,
+        "utilisation_high": strength.utilisation(above) if judged else math.nan,
+    }
+
+
+def _wave_sources(
+    unit: LevelCurtain,
+    settings: Settings,
+    waves: tuple[DesignWave, ...],
+    statics: CurtainStatics | None,
+    oscillator: tuple[tuple[str, float], ...],
+    proportions: ImpactAnswer | None,
+    curve: DragCurve,
+) -> tuple[list[_Added], list[Notice]]:
+    """Return what each wave adds by each model."""
+    sources: list[_Added] = []
+    notices: list[Notice] = []
+    anchor = settings.anchor_loads
+    rule, ratio = settings.direction
+    speeds = []
+    for wave in waves:
+        acting = wave.effective_height(rule, ratio)
+        square = squared_velocity(acting, wave.period, unit.normal_speed, unit.depth, unit.water)
+        speeds.append(math.sqrt(float(square)))
+    for wave, speed in zip(waves, speeds):
+        try:
+            whole = curve.at(speed)
+        except InputError as error:
+            text = f"{unit.name}, {wave.name}: the drag under the crest is left out: {error.fault.message}"
+            notices.append(Notice("curtain-wave-drag", text, speed, remedy="give more toe weight"))
+            continue
+        sources.append(
+            _Added(whole if statics is None else increase(whole, statics), f"drag under the crest, {wave.name}")
+        )
+    if anchor is not None and unit.curtain.anchors is not None and "anchor_loads" in settings.analyses:
+        model, pull = rope_model(unit, anchor), steady_tension(unit, anchor)
+        for wave in waves:
+            acting = wave.effective_height(rule, ratio)
+            moving = model.float_speed(acting, wave.period, unit.normal_speed, unit.water)
+            rise = float(model.fluctuating_tension(moving, pull))
+            sources.append(_Added(AddedLoads(anchor_line=rise), f"energy model, {wave.name}"))
+    if proportions is not None:
+        turned = impact_load(unit, proportions, settings)
+        with_energy = any(item.source.startswith("energy model") for item in sources)
+        for name, tension in oscillator:
+            whole = turned.of_tension(tension)
+            if with_energy:
+                # the energy model was fitted to anchor lines; fixed supports would overload them
+                whole = replace(whole, anchor_line=0.0)
+            more = whole if statics is None else increase(whole, statics)
+            sources.append(_Added(more, f"slack and taut cycles, {name}"))
+    return sources, notices
+
+
+def _factor(unit: LevelCurtain, component: str) -> float:
+    """Return what turns the load of a field into that of a component."""
+    slope = unit.hanging.anchor_slope
+    return {
+        "joint": unit.curtain.joint_distance,
+        "float": math.sin(slope) / unit.curtain.span,
+        "anchor": math.cos(slope),
+    }.get(component, 1.0)
+
+
+#: Quantity of the steady state that loads a component
+_STEADY = {
+    "upper cable": "upper_tension",
+    "lower cable": "lower_tension",
+    "skirt": "sheet_tension",
+    "joint": "line_load",
+    "float": "float_load",
+    "anchor line": "anchor_line_tension",
+    "anchor": "anchor_force",
+}
+
+
+def _steady(unit: LevelCurtain, component: str) -> tuple[float, float, float]:
+    """Return the steady load of a component with the lower and upper end of its band."""
+    skirt, floats = unit.curtain.skirt, unit.curtain.floats
+    pulled = 0.0
+    if component in ("anchor line", "anchor") and unit.curtain.anchors is not None:
+        pulled = (unit.curtain.anchors.pretension or 0.0) * (_factor(unit, "anchor") if component == "anchor" else 1.0)
+    if unit.surface_speed == 0.0:
+        hanging = skirt.toe_load + skirt.submerged_weight * skirt.length
+        still = {
+            "skirt": skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length,
+            "float": floats.weight + hanging,
+        }
+        return (max(still.get(component, 0.0), pulled),) * 3
+    steady, name = unit.steady, _STEADY[component]
+    per = unit.curtain.joint_distance if component == "joint" else 1.0
+    low, high = steady.band(name)
+    given, low, high = (max(per * value, pulled) for value in (steady.governing.quantity(name), low, high))
+    return given, low, high
+
+
+def _strength(unit: LevelCurtain, component: str) -> Strength:
+    known = unit.curtain.strengths
+    if component == "float":
+        share = 1.0 - known.least_reserve
+        return Strength(unit.curtain.floats.buoyancy, 1.0 / share)
+    return {
+        "upper cable": known.upper_cable,
+        "lower cable": known.lower_cable,
+        "skirt": known.sheet,
+        "joint": known.joint,
+        "anchor line": known.anchor_line,
+        "anchor": known.anchor,
+    }[component]
+
+
+def _row(
+    unit: LevelCurtain,
+    component: str,
+    band: tuple[float, float, float],
+    wave: float,
+    hit: float,
+    source: str,
+    struck: str,
+) -> dict[str, float | str]:
+    strength = _strength(unit, component)
+    steady, low, high = band
+    judged = math.isfinite(strength.capacity)
+    there = not (component in ("anchor line", "anchor") and unit.curtain.anchors is None) and not (
+        component == "lower cable" and unit.curtain.lower_stiffness == 0.0
+    )
+    return {
+        "component": component,
+        "steady_load": steady if there else math.nan,
+        "steady_low": low if there else math.nan,
+        "steady_high": high if there else math.nan,
+        "wave_load": wave if there else math.nan,
+        "impact_load": hit if there else math.nan,
+        "capacity": strength.capacity if judged and there else math.nan,
+        "safety_factor": strength.safety_factor if judged and there else math.nan,
+        "load_unit": _UNITS.get(component, "N"),
+        "wave_source": source if there and wave > 0.0 else "",
+        "impact_source": struck if there and hit > 0.0 else "",
+    }

@@ -1,0 +1,373 @@
+"""Slack and taut cycles in the sea states of a case: regular waves by period, irregular seas with their snaps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress
+from moyai.core.validity import Notice
+from moyai.core.wording import spoken
+from moyai.sea import dispersion
+from moyai.sea.breaking import linear_wavelength
+from moyai.sea.states import IrregularSea, RegularSea, SeaState
+from moyai.structures.curtain.analyses.impact import drag_coefficient, impact_of
+from moyai.structures.curtain.assembly import LevelCurtain
+from moyai.structures.curtain.impact.cable import Impact, speed_factor
+from moyai.structures.curtain.impact.cycles import Contact, SlackTautMotion, slack_sag
+from moyai.structures.curtain.impact.settling import SettledCycles, settled_cycles
+from moyai.structures.curtain.model import Settings, WaveSettings
+from moyai.structures.curtain.snaps.events import SeaSnaps, snaps_in_sea, suggested_time_step
+from moyai.structures.curtain.snaps.flow import SkirtFlow, check_samples, depth_mean_factor, flow_over_skirt
+from moyai.structures.curtain.snaps.statistics import SnapFit, fit_snaps
+from moyai.structures.curtain.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+_TRANSIENT = 10  # peak periods left out of an irregular sea
+_WINDOW = 6.0  # peak periods on each side of the largest snap that are kept
+_MOST_POINTS = 6000
+#: Start speed of the Impact object, which the oscillator does not use [m/s]
+_NO_SPEED = 1.0
+
+
+@dataclass(frozen=True)
+class WaveAnswer:
+    """Groups of one sea state, the largest tension in it, and what must be told.
+
+    Parameters
+    ----------
+    groups : dict
+        Name under the sea's group ("" is that group itself) and dataset.
+    maximum_tension : float
+        Of both cables together [N].
+    notices : tuple of Notice
+    """
+
+    groups: dict[str, xr.Dataset]
+    maximum_tension: float
+    notices: tuple[Notice, ...]
+
+
+def wave_answer(unit: LevelCurtain, settings: Settings, sea: SeaState, progress: Progress) -> WaveAnswer:
+    """Run the slack and taut curtain through a sea state.
+
+    Parameters
+    ----------
+    unit : LevelCurtain
+    settings : Settings
+    sea : RegularSea or IrregularSea
+    progress : Progress
+
+    Raises
+    ------
+    InputError
+        When the curtain is shorter than its span.
+    """
+    impact = impact_of(unit, settings.impact, unit.normal_speed or _NO_SPEED)
+    if isinstance(sea, RegularSea):
+        return _regular(unit, settings.waves, sea, impact, progress)
+    progress(f"slack and taut, {sea.name}", 0, 1)
+    answer = _irregular(unit, settings.waves, sea, impact)
+    progress(f"slack and taut, {sea.name}", 1, 1)
+    return answer
+
+
+def velocity_amplitude(unit: LevelCurtain, sea: RegularSea, period: float, settings: WaveSettings) -> float:
+    """Return the amplitude of the water's speed along the normal [m/s], mean over the skirt or at the surface."""
+    omega = 2.0 * math.pi / period
+    k = float(dispersion.wave_number(omega, unit.water.depth, unit.water.gravity))
+    if settings.velocity == "surface":
+        factor = 1.0 / math.tanh(k * unit.water.depth)
+    else:
+        factor = float(depth_mean_factor(k, unit.depth, unit.water))
+    angle = sea.heading - unit.curtain.normal
+    return abs(0.5 * sea.height * omega * factor * math.cos(angle))
+
+
+def _regular(
+    unit: LevelCurtain, settings: WaveSettings, sea: RegularSea, impact: Impact, progress: Progress
+) -> WaveAnswer:
+    import xarray as xr
+
+    rows: list[dict[str, float]] = []
+    groups: dict[str, xr.Dataset] = {}
+    notices: list[Notice] = []
+    drag = drag_coefficient(unit, impact.draught)
+    for index, period in enumerate(sea.periods):
+        progress(f"slack and taut, {sea.name}", index, len(sea.periods))
+        amplitude = velocity_amplitude(unit, sea, period, settings)
+        found = settled_cycles(
+            impact,
+            drag_coefficient=drag,
+            current=unit.normal_speed,
+            velocity_amplitude=amplitude,
+            period=period,
+            least_settled=settings.settled_periods,
+            least_analysed=settings.analysed_periods,
+            time_step=settings.time_step,
+        )
+        counted = [c for c in found.motion.contacts if c.time >= found.begin and abs(c.speed) >= settings.slowest]
+        rows.append(_row(impact, found, counted, amplitude))
+        groups[f"T {period:g} s"] = _series(
+            found.motion,
+            counted,
+            unit.normal_speed + amplitude * np.sin(2.0 * math.pi / period * found.motion.time),
+            _shown(found),
+            {"period": period, "duration": found.end, "counted_from": found.begin},
+        )
+        place = f"{unit.name}, {sea.name}, T = {period:g} s"
+        if rows[-1]["contact_count"] == 0.0:
+            notices.append(_never_taut(place, unit, rows[-1]))
+        elif found.kind != "repeating":
+            notices.append(_not_repeating(place, found))
+    progress(f"slack and taut, {sea.name}", len(sea.periods), len(sea.periods))
+    data = {name: ("period", [row[name] for row in rows]) for name in rows[0]}
+    groups[""] = labelled(
+        xr.Dataset(data, coords={"period": list(sea.periods)}, attrs={"kind": "regular", "height": sea.height})
+    )
+    return WaveAnswer(groups, max(row["maximum_tension"] for row in rows), tuple(notices))
+
+
+def _shown(found: SettledCycles) -> tuple[float, float]:
+    """Return the stretch that is kept: six periods, or one repetition, about the period whose peak is the number."""
+    width = max(6, found.multiple)
+    first = min(max(found.typical - width // 2, found.first), found.first + found.count - width)
+    first = max(first, found.first)
+    return first * found.period, min(first + width, found.first + found.count) * found.period
+
+
+def _row(impact: Impact, found: SettledCycles, contacts: list[Contact], amplitude: float) -> dict[str, float]:
+    first = [contact for contact in contacts if contact.first]
+    largest = max(first, key=lambda contact: contact.tension, default=None)
+    tension = found.motion.tension[found.motion.time >= found.begin]
+    factor = float(speed_factor(impact.span_ratio)) * math.sqrt(impact.deep_mass * impact.stiffness)
+    low, high = found.scatter
+    return {
+        "velocity_amplitude": amplitude,
+        "excursion": amplitude * found.period / math.pi,
+        "threshold_excursion": 2.0 * slack_sag(impact),
+        "maximum_tension": found.tension,
+        "maximum_tension_low": low,
+        "maximum_tension_high": high,
+        "mean_tension": float(tension.mean()),
+        "first_contact_tension": found.of_contacts(first),
+        "later_contact_tension": found.of_contacts(contact for contact in contacts if not contact.first),
+        "largest_contact_speed": abs(largest.speed) if largest else 0.0,
+        "contact_count": float(len(contacts)),
+        "first_contact_count": float(len(first)),
+        "closed_form_tension": factor * abs(largest.speed) if largest else 0.0,
+        "periods_left_out": float(found.first),
+        "periods_analysed": float(found.count),
+        "repeats_after": float(found.multiple) if found.kind == "repeating" else math.nan,
+    }
+
+
+def _not_repeating(place: str, found: SettledCycles) -> Notice:
+    low, high = found.scatter
+    steady = found.kind == "chaotic"
+    state = "are steady in the mean" if steady else "are not steady in the mean either"
+    return Notice(
+        "curtain-chaotic-cycles" if steady else "curtain-unsteady-cycles",
+        f"{place}: periods do not repeat but {state}: the tension is the mean of the largest of 100 periods, "
+        f"{spoken(low, 'N')} to {spoken(high, 'N')} of {found.count} periods after {found.first}",
+        math.nan,
+        math.nan,
+        "information" if steady else "warning",
+        "",
+        "slack and taut cycles; repetition within 1 %, over at most 16 periods",
+    )
+
+
+def _never_taut(place: str, unit: LevelCurtain, row: dict[str, float]) -> Notice:
+    if row["mean_tension"] > 0.0:
+        text = f"{place}: the current keeps it taut, the waves do not slacken it"
+        return Notice("curtain-always-taut", text, row["velocity_amplitude"], unit.normal_speed, "information")
+    text = (
+        f"{place}: the water travels {row['excursion']:.3g} m to and fro and never "
+        f"draws the curtain taut, which takes {row['threshold_excursion']:.3g} m"
+    )
+    return Notice("curtain-never-taut", text, row["excursion"], row["threshold_excursion"], "information")
+
+
+def _series(
+    motion: SlackTautMotion,
+    contacts: Sequence[Contact],
+    flow: Array,
+    window: tuple[float, float],
+    attrs: dict[str, float],
+) -> xr.Dataset:
+    """Return a series within a window, thinned between contacts but not in them, and the contacts that count."""
+    import xarray as xr
+
+    inside = np.flatnonzero((motion.time >= window[0]) & (motion.time <= window[1]))
+    stride = max(1, inside.size // _MOST_POINTS)
+    taut = inside[motion.tension[inside] > 0.0]
+    keep = np.unique(np.concatenate([inside[::stride], taut[:: max(1, taut.size // _MOST_POINTS)]]))
+    data: dict[str, Any] = {
+        "flow_speed": ("time", flow[keep]),
+        **{name: ("time", getattr(motion, name)[keep]) for name in ("position", "speed", "tension")},
+        "contact_time": ("contact", [contact.time for contact in contacts]),
+        "contact_speed": ("contact", [contact.speed for contact in contacts]),
+        "contact_tension": ("contact", [contact.tension for contact in contacts]),
+        "contact_side": ("contact", [float(contact.side) for contact in contacts]),
+        "contact_first": ("contact", [float(contact.first) for contact in contacts]),
+    }
+    step = float(motion.time[1] - motion.time[0])
+    return labelled(xr.Dataset(data, coords={"time": motion.time[keep]}, attrs={**attrs, "time_step": step}))
+
+
+def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact) -> WaveAnswer:
+    """Run several realisations of a sea: their mean largest tension counts, and all their snaps make the law."""
+    import xarray as xr
+
+    peak = sea.spectrum.peak_period
+    transient = min(_TRANSIENT * peak, 0.2 * sea.duration)
+    runs = [
+        _realisation(unit, settings, replace(sea, seed=sea.seed + number), impact, transient)
+        for number in range(settings.realisations)
+    ]
+    snaps = [found for found, _ in runs]
+    tops = np.array([_largest(found, transient) for found in snaps])
+    tensions = np.concatenate([found.snap_tension for found in snaps])
+    hours = sum(found.hours for found in snaps)
+    fit, notices = _fit(unit, sea, tensions, hours, settings)
+    peaks = np.sort(tensions)[::-1]
+    count = sum(found.time.size for found in snaps)
+    later = np.array([found.later_tension.max() if found.later_tension.size else 0.0 for found in snaps])
+    scalars = {
+        "significant_height": sea.spectrum.significant_height,
+        "maximum_tension": float(tops.mean()),
+        "maximum_tension_low": float(tops.min()),
+        "maximum_tension_high": float(tops.max()),
+        "realisations": float(tops.size),
+        "mean_tension": float(
+            np.mean([found.motion.tension[found.motion.time >= transient].mean() for found in snaps])
+        ),
+        "contact_count": float(count),
+        "first_contact_count": float(peaks.size),
+        "contacts_per_hour": count / hours,
+        "snaps_per_hour": peaks.size / hours,
+        "taut_share": float(np.mean([found.taut_share for found in snaps])),
+        "later_contact_tension": float(later.mean()),
+        "weibull_shape": fit.shape.value if fit and fit.law == "weibull" else math.nan,
+        "weibull_scale": fit.scale.value if fit and fit.law == "weibull" else math.nan,
+        "weibull_threshold": fit.threshold if fit and fit.law == "weibull" else math.nan,
+        "analysed_hours": hours,
+        "left_out": transient,
+        **_maximum(fit, settings.hours),
+    }
+    data: dict[str, Any] = {name: ((), value) for name, value in scalars.items()}
+    data["contact_tension_sorted"] = ("snap", peaks)
+    data["exceedance"] = ("snap", np.arange(1, peaks.size + 1) / (peaks.size + 1.0))
+    fitted = np.full(peaks.size, math.nan) if fit is None else fit.exceedance(peaks)
+    data["fitted_exceedance"] = ("snap", fitted)
+    data["realisation_tension"] = ("seed", tops)
+    attrs = {"kind": "irregular", "law": settings.law, "seed": sea.seed, "peak_period": peak}
+    # shown is the realisation whose largest tension is nearest to the mean
+    typical = int(np.argmin(np.abs(tops - tops.mean())))
+    shown, flow = runs[typical]
+    after = shown.motion.time >= transient
+    top = float(shown.motion.time[after][int(np.argmax(shown.motion.tension[after]))])
+    window = (max(top - _WINDOW * peak, transient), top + _WINDOW * peak)
+    coords = {"seed": [sea.seed + number for number in range(tops.size)]}
+    groups = {
+        "": labelled(xr.Dataset(data, coords=coords, attrs=attrs)),
+        "largest": _series(
+            shown.motion,
+            [contact for contact in shown.motion.contacts if contact.time >= transient],
+            flow.speed,
+            window,
+            {"period": peak, "duration": sea.duration, "counted_from": transient, "seed": sea.seed + typical},
+        ),
+    }
+    told = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in shown.notices)
+    return WaveAnswer(groups, float(tops.mean()), (*told, *notices))
+
+
+def _realisation(
+    unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, impact: Impact, transient: float
+) -> tuple[SeaSnaps, SkirtFlow]:
+    """Run one realisation; it starts just taut downstream where a current holds it there."""
+    from moyai.sea.irregular import synthesise
+
+    peak = sea.spectrum.peak_period
+    step = settings.time_step if settings.time_step is not None else suggested_time_step(peak)
+    check_samples(sea.duration, step)
+    waves = synthesise(
+        sea.spectrum,
+        unit.water,
+        duration=sea.duration,
+        seed=sea.seed,
+        heading=sea.heading,
+        spreading=sea.spreading,
+        time_step=step,
+    )
+    flow = flow_over_skirt(
+        waves,
+        unit.water,
+        draught=unit.depth,
+        normal_heading=unit.curtain.normal,
+        current=unit.normal_speed,
+        duration=sea.duration,
+        time_step=step,
+        velocity=settings.velocity,
+        span=unit.curtain.span if sea.spreading is not None or _oblique(unit, sea) else 0.0,
+    )
+    start = None
+    if unit.normal_speed != 0.0:
+        start = (math.copysign(slack_sag(impact), unit.normal_speed), 0.0)
+    snaps = snaps_in_sea(
+        impact,
+        flow,
+        drag_coefficient=drag_coefficient(unit, impact.draught),
+        slowest=settings.slowest,
+        transient=transient,
+        start=start,
+    )
+    return snaps, flow
+
+
+def _largest(snaps: SeaSnaps, transient: float) -> float:
+    after = snaps.motion.time >= transient
+    return max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()])
+
+
+def _oblique(unit: LevelCurtain, sea: IrregularSea) -> bool:
+    """Whether crests lie across the span so that the waves along it differ."""
+    length = linear_wavelength(sea.spectrum.peak_period, unit.water)
+    return abs(math.sin(sea.heading - unit.curtain.normal)) * unit.curtain.span > 0.02 * length
+
+
+def _fit(
+    unit: LevelCurtain, sea: IrregularSea, peaks: Array, hours: float, settings: WaveSettings
+) -> tuple[SnapFit | None, tuple[Notice, ...]]:
+    """Fit the law above a tenth of the largest snap; weak contacts follow no law of extremes."""
+    if peaks.size == 0:
+        return None, ()
+    try:
+        fit = fit_snaps(peaks, hours, threshold=0.1 * float(peaks.max()), law=settings.law, seed=sea.seed)
+    except InputError as error:
+        text = f"{unit.name}, {sea.name}: no law was fitted to the snaps: {error.fault.message}"
+        return None, (Notice("snap-no-fit", text, severity="information", remedy=error.fault.remedy),)
+    return fit, fit.notices
+
+
+def _maximum(fit: SnapFit | None, hours: float) -> dict[str, float]:
+    names = ("most_probable_maximum", "most_probable_maximum_low", "most_probable_maximum_high")
+    try:
+        found = None if fit is None else fit.most_probable_maximum(hours)
+    except InputError:
+        found = None
+    if found is None:
+        return dict.fromkeys(names, math.nan)
+    return dict(zip(names, (found.value, found.low, found.high)))

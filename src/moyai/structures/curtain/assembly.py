@@ -1,0 +1,245 @@
+"""A curtain in the water of one level: the problem of the case file made ready for the solvers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.sea import current as currents
+from moyai.sea.current import CurrentProfile, PowerLawCurrent, TabulatedCurrent, UniformCurrent
+from moyai.sea.water import Water
+from moyai.structures.curtain.limits.utilisation import Requirements, Site, drowning_speed
+from moyai.structures.curtain.model import UNJUDGED, Curtain, CurtainProblem
+from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain
+from moyai.structures.curtain.statics.on_bed import lies_on_bed
+from moyai.structures.curtain.statics.steady_load import SteadyLoad, steady_load
+
+#: Speed up to which a drowning current is sought [m/s]; no tidal stream on record is faster
+_FASTEST = 10.0
+
+
+@dataclass(frozen=True)
+class LevelCurtain:
+    """A curtain at one water level.
+
+    Parameters
+    ----------
+    name : str
+        Of the water level.
+    level : float
+        Above datum [m].
+    water : Water
+        At this level.
+    curtain : Curtain
+        As the case file has it.
+    hanging : HangingCurtain
+        For the solvers.
+    site : Site
+        Water and the currents of the profile at any surface speed.
+    surface_speed : float
+        Of the current of the case [m/s]; 0 without one.
+    """
+
+    name: str
+    level: float
+    water: Water
+    curtain: Curtain
+    hanging: HangingCurtain
+    site: Site
+    surface_speed: float
+
+    @property
+    def flow_angle(self) -> float:
+        """Of the current from the normal of the span [rad]."""
+        return math.remainder(self.site.flow_heading - self.curtain.normal, 2.0 * math.pi)
+
+    @property
+    def depth(self) -> float:
+        """Depth that the skirt reaches when it hangs straight [m]."""
+        return min(self.curtain.skirt.length, self.water.depth)
+
+    @cached_property
+    def unit_normal_speed(self) -> float:
+        """Root mean square over the skirt of the normal component, per surface speed of the profile [-]."""
+        square = self.site.current(1.0).depth_mean_squared(-self.depth, 0.0, self.curtain.normal)
+        return math.sqrt(square)
+
+    @property
+    def normal_speed(self) -> float:
+        """Mean over the skirt of the current's component along the normal [m/s]."""
+        if self.surface_speed == 0.0:
+            return 0.0
+        mean = self.site.current(self.surface_speed).depth_mean(-self.depth, 0.0)
+        return float(mean @ np.array([math.cos(self.curtain.normal), math.sin(self.curtain.normal)]))
+
+    @cached_property
+    def statics(self) -> CurtainStatics:
+        """The curtain at rest in the current of the case."""
+        return self.site.statics(self.hanging, self.surface_speed)
+
+    @cached_property
+    def steady(self) -> SteadyLoad:
+        """The governing steady load in the current of the case, with its band."""
+        surface = self.site.current(self.surface_speed).component(np.zeros(1), self.curtain.normal)
+        hanging = self.hanging
+        return steady_load(
+            hanging,
+            lambda curtain: self.statics if curtain is hanging else self.site.statics(curtain, self.surface_speed),
+            self.water,
+            toe_range=self.curtain.toe_range,
+            passing_fraction=self.curtain.passing_fraction,
+            surface_speed=float(surface[0]),
+        )
+
+    def turned(self, angle: float) -> Site:
+        """Return the site with the current turned to an angle from the normal of the span [rad]."""
+        site, by = self.site, angle - self.flow_angle
+        return replace(
+            site, current=lambda speed: _turned(site.current(speed), by), flow_heading=site.flow_heading + by
+        )
+
+    @cached_property
+    def facing(self) -> Site:
+        """The site with what of its currents goes along the normal: so the water of waves loads an oblique curtain."""
+        site, normal = self.site, self.curtain.normal
+        return replace(site, current=lambda speed: _across(site.current(speed), normal), flow_heading=normal)
+
+    @cached_property
+    def drowning_speed(self) -> float:
+        """Surface speed that uses up the float reserve [m/s], infinite where none up to 10 m/s does."""
+        return drowning_speed(self.hanging, self.site, highest=_FASTEST)
+
+    @property
+    def rests_on_bed(self) -> bool:
+        """Whether part of the skirt lies on the bed in the current of the case."""
+        current = self.site.current(self.surface_speed)
+        return self.site.on_bed and lies_on_bed(self.hanging, current, self.site.flow_heading, self.water)
+
+    @property
+    def requirements(self) -> Requirements:
+        """Strengths of the components."""
+        known = self.curtain.strengths
+        return Requirements(
+            known.upper_cable,
+            known.lower_cable,
+            known.sheet,
+            known.anchor_line,
+            known.anchor,
+            known.least_reserve,
+            known.least_depth,
+            known.joint if known.joint is not UNJUDGED else None,
+            self.curtain.joint_distance,
+        )
+
+
+def assemble(problem: CurtainProblem, name: str, level: float) -> LevelCurtain:
+    """Return the curtain of a problem at a water level.
+
+    Raises
+    ------
+    InputError
+        When the skirt is longer than the water is deep and may not lie on the bed, or an anchor line is too short.
+    """
+    curtain, water = problem.curtain, problem.environment.water_at(level)
+    long = curtain.skirt.length > water.depth
+    if long and not curtain.may_lie_on_bed:
+        raise InputError(
+            f"the skirt of {curtain.skirt.length:g} m is longer than the water is deep at {name}, {water.depth:g} m",
+            path="structure.skirt.length",
+            allowed=f"at most {water.depth:g} m",
+            remedy="shorten the skirt, or set 'may_lie_on_bed: true' in 'structure'",
+        )
+    anchors = curtain.anchors
+    hanging = HangingCurtain(
+        span=curtain.span,
+        length=curtain.length,
+        skirt=curtain.skirt,
+        floats=curtain.floats,
+        upper_stiffness=curtain.upper_stiffness,
+        lower_stiffness=curtain.lower_stiffness,
+        toe=curtain.toe,
+        anchor_slope=0.0 if anchors is None else anchors.slope_in(water.depth),
+        drag=curtain.drag,
+        law=curtain.law,
+    )
+    given = problem.environment.current
+    profile = currents.uniform(1.0, curtain.normal) if given is None else _in_water(given, water)
+    reference = _reference_speed(profile, min(curtain.skirt.length, water.depth))
+    heading = _heading(profile, min(curtain.skirt.length, water.depth), curtain.normal)
+
+    def family(speed: float) -> CurrentProfile:
+        return scaled_current(profile, speed / reference)
+
+    return LevelCurtain(
+        name=name,
+        level=level,
+        water=water,
+        curtain=curtain,
+        hanging=hanging,
+        site=Site(water, family, heading, curtain.normal, curtain.passing_fraction, on_bed=long),
+        surface_speed=0.0 if given is None else reference,
+    )
+
+
+def scaled_current(profile: CurrentProfile, factor: float) -> CurrentProfile:
+    """Return a current with all its speeds times a factor."""
+    if isinstance(profile, UniformCurrent):
+        return replace(profile, current_speed=factor * profile.current_speed)
+    if isinstance(profile, PowerLawCurrent):
+        return replace(profile, surface_speed=factor * profile.surface_speed)
+    if isinstance(profile, TabulatedCurrent):
+        return replace(profile, components=factor * profile.components)
+    raise TypeError(f"a current of kind {type(profile).__name__} cannot be scaled")
+
+
+def _across(profile: CurrentProfile, normal: float) -> CurrentProfile:
+    """Return the part of a current along a heading."""
+    if isinstance(profile, TabulatedCurrent):
+        direction = np.array([math.cos(normal), math.sin(normal)])
+        return replace(profile, components=np.outer(profile.components @ direction, direction))
+    if isinstance(profile, UniformCurrent):
+        share = math.cos(profile.heading - normal)
+        return replace(profile, current_speed=share * profile.current_speed, heading=normal)
+    if isinstance(profile, PowerLawCurrent):
+        share = math.cos(profile.heading - normal)
+        return replace(profile, surface_speed=share * profile.surface_speed, heading=normal)
+    raise TypeError(f"a current of kind {type(profile).__name__} has no part along a heading")
+
+
+def _turned(profile: CurrentProfile, by: float) -> CurrentProfile:
+    """Return a current turned by an angle [rad]."""
+    if isinstance(profile, TabulatedCurrent):
+        c, s = math.cos(by), math.sin(by)
+        return replace(profile, components=profile.components @ np.array([[c, s], [-s, c]]))
+    if isinstance(profile, UniformCurrent | PowerLawCurrent):
+        return replace(profile, heading=profile.heading + by)
+    raise TypeError(f"a current of kind {type(profile).__name__} cannot be turned")
+
+
+def _in_water(profile: CurrentProfile, water: Water) -> CurrentProfile:
+    """Return a power law with its foot on the bed of this water level."""
+    return replace(profile, water_depth=water.depth) if isinstance(profile, PowerLawCurrent) else profile
+
+
+def _reference_speed(profile: CurrentProfile, depth: float) -> float:
+    """Return the surface speed, or the largest over the skirt where the surface stands still."""
+    surface = float(profile.speed(0.0))
+    largest = float(np.max(profile.speed(np.linspace(-depth, 0.0, 101))))
+    speed = surface if surface > 1e-3 * largest else largest
+    if speed <= 0.0:
+        raise InputError(
+            "the current stands still over the depth of the skirt",
+            path="current",
+            remedy="give its speed, or leave 'current' out",
+        )
+    return speed
+
+
+def _heading(profile: CurrentProfile, depth: float, otherwise: float) -> float:
+    """Return the heading of the mean flow over the skirt [rad]."""
+    mean = profile.depth_mean(-depth, 0.0)
+    return math.atan2(mean[1], mean[0]) if float(np.hypot(*mean)) > 0.0 else otherwise

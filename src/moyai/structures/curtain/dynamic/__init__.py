@@ -1,0 +1,1 @@
+"""The whole span through time, as a network of cables and sheets."""

@@ -1,0 +1,231 @@
+"""A span of a curtain for dynamics: what it is made of, its mesh, and the network that stands for it.
+
+Axes of the span: x downstream, y along the span from support to support, z up from still water. The span is turned to
+the site by the headings of waves and current, not the other way round.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.flexible.network import Network
+from moyai.flexible.result import State
+from moyai.structures.curtain.dynamic.section import SectionMesh
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+_TIGHT = 1e-9
+
+
+@dataclass(frozen=True)
+class AnchoredSupport:
+    """What holds both ends of the span when they are buoys: an anchor line upstream and one downstream of each.
+
+    The neighbours of the span are alike, so that each buoy and its lines belong to two spans by halves.
+
+    Parameters
+    ----------
+    line_length, slope : float
+        Of one straight line [m], angle from the horizontal [rad].
+    stiffness : float
+        EA of a line [N].
+    pretension : float
+        Of both lines in still water [N].
+    mass : float
+        Of the buoy with its added mass [kg].
+    """
+
+    line_length: float
+    slope: float
+    stiffness: float
+    pretension: float
+    mass: float
+
+
+@checks_words
+@dataclass(frozen=True)
+class CurtainSpan:
+    """One span of a curtain for dynamics.
+
+    Parameters
+    ----------
+    span, length : float
+        Distance of the supports and unstretched length of cables and skirt between them [m].
+    skirt_length : float
+        Of the skirt along itself, unstretched [m].
+    chord : float
+        Straight distance of its edges when the cables come taut [m]; ``skirt_length`` for a flat one.
+    upper_stiffness, lower_stiffness : float
+        EA [N]; 0 for no lower cable.
+    upper_mass, lower_mass : float
+        Per length, of the upper cable with floats and fittings and of the lower one with ballast [kg/m].
+    lower_volume : float
+        Displaced by lower cable and ballast per length [m2].
+    sheet_stiffness, span_stiffness, shear_stiffness : float
+        Of the sheet along its depth, along the span and in shear [N/m]; the last two 0 for a sheet that is slack along
+        the span (a ten-thousandth of the first then keeps its columns in order).
+    sheet_mass, sheet_volume : float
+        Per area [kg/m2], [m].
+    drag_coefficient : float
+        On the normal velocity.
+    float_volume, float_height : float
+        Of the floats per length [m2], and their height [m]; 0 volume: the upper edge stays at its level.
+    edges : {"held", "risen", "free"}
+        Whether the lower cable is held at its level, may rise but ends at the supports, or ends freely.
+    support : AnchoredSupport or None
+        None: fixed.
+
+    Raises
+    ------
+    InputError
+        For numbers that are not positive, a curtain without slack, or a skirt that does not bulge.
+    """
+
+    span: float
+    length: float
+    skirt_length: float
+    chord: float
+    upper_stiffness: float
+    lower_stiffness: float
+    upper_mass: float
+    lower_mass: float
+    sheet_stiffness: float
+    sheet_mass: float
+    lower_volume: float = 0.0
+    span_stiffness: float = 0.0
+    shear_stiffness: float = 0.0
+    sheet_volume: float = 0.0
+    drag_coefficient: float = 0.0
+    float_volume: float = 0.0
+    float_height: float = 0.0
+    edges: Literal["held", "risen", "free"] = "held"
+    support: AnchoredSupport | None = None
+
+    def __post_init__(self) -> None:
+        positive = (
+            "span", "length", "skirt_length", "chord", "upper_stiffness", "upper_mass", "lower_mass", "sheet_stiffness",
+            "sheet_mass",
+        )  # fmt: skip
+        for name in positive:
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"{name} is {value:g}", path=f"span.{name}", allowed="greater than 0, finite")
+        rest = (
+            "lower_stiffness", "lower_volume", "span_stiffness", "shear_stiffness", "sheet_volume", "drag_coefficient",
+            "float_volume", "float_height",
+        )  # fmt: skip
+        for name in rest:
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise InputError(f"{name} is {value:g}", path=f"span.{name}", allowed="0 or more, finite")
+        if self.length <= self.span:
+            raise InputError(
+                f"the curtain of {self.length:g} m is not longer than its span of {self.span:g} m",
+                path="span.length",
+                allowed=f"more than {self.span:g} m",
+                remedy="a curtain without slack does not snap; statics takes it",
+            )
+        if self.chord > self.skirt_length * (1.0 + _TIGHT):
+            raise InputError(
+                f"the chord of {self.chord:g} m is longer than the skirt of {self.skirt_length:g} m",
+                path="span.chord",
+                allowed=f"at most {self.skirt_length:g} m",
+            )
+        if self.float_volume > 0.0 and self.float_height <= 0.0:
+            raise InputError("floats without height", path="span.float_height", allowed="greater than 0")
+        if (self.span_stiffness > 0.0) != (self.shear_stiffness > 0.0) and self.shear_stiffness > 0.0:
+            raise InputError(
+                "a shear stiffness without span stiffness", path="span.shear_stiffness", remedy="give both, or neither"
+            )
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Cells along the span and over the skirt, and the viscosity.
+
+    Parameters
+    ----------
+    along, down : int
+        Cells.
+    cable_viscosity : float or None
+        BA of the cables [N s]; None: 5 % of critical on the mesh.
+    skirt_damping_time : float or None
+        [s]; None: the same of the skirt.
+    convective : bool
+        Whether turning and stretching sections keep the energy of the water (:class:`MassBlocks`). In waves the cloth
+        gathers, and these forces, which act on the light cloth itself, blow it up unless ``normal_reach`` spans its
+        folds.
+    normal_reach : float
+        Distance along the cable, to either side of a section, over which its normal is taken [m]; 0: to the neighbours.
+        Folds shorter than a part of the draught move no water of their own, but they turn the normals between
+        neighbours at every step, and with them the added mass.
+    """
+
+    along: int
+    down: int
+    cable_viscosity: float | None = None
+    skirt_damping_time: float | None = None
+    convective: bool = True
+    normal_reach: float = 0.0
+    turning: bool = True
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.normal_reach) and self.normal_reach >= 0.0):
+            raise InputError(f"normal_reach is {self.normal_reach:g}", path="mesh.normal_reach", allowed="0 or more")
+        if self.along < 4 or self.down < 2:
+            raise InputError(
+                f"a mesh of {self.along} x {self.down} cells",
+                path="mesh",
+                allowed="at least 4 along the span and 2 over the skirt",
+            )
+        for name in ("cable_viscosity", "skirt_damping_time"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value >= 0.0):
+                raise InputError(f"{name} is {value:g}", path=f"mesh.{name}", allowed="0 or more")
+
+
+@dataclass(frozen=True, eq=False)
+class CurtainNetwork:
+    """A span ready to run.
+
+    Parameters
+    ----------
+    span : CurtainSpan
+    mesh : Mesh
+    network : Network
+        Strands ``upper cable``, ``lower cable`` and ``anchor line ...``.
+    state : State
+        Where it starts.
+    grid : ndarray of int, shape (along + 1, down + 1)
+        Nodes, from support to support and from top to toe.
+    section : SectionMesh
+        The skirt's section.
+    """
+
+    span: CurtainSpan
+    mesh: Mesh
+    network: Network
+    state: State
+    grid: IntArray
+    section: SectionMesh
+
+    def bars(self, name: str) -> IntArray:
+        """Return the bars of a strand; none where there is no such strand."""
+        found = [strand.bars for strand in self.network.strands if strand.name == name]
+        return found[0] if found else np.zeros(0, dtype=np.int64)
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """Names of the anchor lines."""
+        return tuple(s.name for s in self.network.strands if s.name.startswith("anchor line"))
+
+
+__all__ = ["AnchoredSupport", "CurtainNetwork", "CurtainSpan", "Mesh"]

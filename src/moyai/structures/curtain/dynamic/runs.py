@@ -1,0 +1,206 @@
+"""Runs of a whole span through a snap, waves and current: tensions over time, snaps, and what the peaks are worth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.options import checks_words
+from moyai.core.progress import Progress, silent
+from moyai.flexible.flow import Flow
+from moyai.flexible.result import History
+from moyai.flexible.sheets import sheet_stress
+from moyai.flexible.simulate import simulate
+from moyai.flexible.snap import SnapRecord, find_snaps
+from moyai.sea.water import Water
+from moyai.structures.curtain.dynamic.assembly import build_span
+from moyai.structures.curtain.dynamic.model import CurtainNetwork, CurtainSpan, Mesh
+
+Array = NDArray[np.float64]
+
+#: Rows of a result, at most.
+MOST_ROWS = 20000
+#: Slack level and threshold of a snap where none is given, over the highest tension and the mean of what is taut.
+_SLACK_SHARE, _SNAP_FACTOR = 0.01, 2.0
+
+
+@checks_words
+@dataclass(frozen=True)
+class DynamicSettings:
+    """How the dynamic analysis of a case is run.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    sheet_mass : float or None
+        Mass per area of the sheet [kg/m2]; None: as the case gives it elsewhere.
+    sheet_volume : float
+        Displaced volume per area [m]; NaN: from mass and weight in water.
+    span_stiffness, shear_stiffness : float
+        Of the sheet along the span and in shear [N/m].
+    ballast_density : float
+        Of lower cable and ballast [kg/m3].
+    float_height : float or None
+        [m]; None: of a round float with the buoyancy given.
+    support_mass : float or None
+        Of a buoy at a support with its added mass [kg]; needed with anchors.
+    profile : {"uniform", "sag"}
+        Speed of a drifting start over the span.
+    settled_periods, analysed_periods : int
+        Periods left out after the ramp of one period, and periods of regular waves that count.
+    wave_count : int
+        Peak periods that count around the highest crest of an irregular sea.
+    duration : float or None
+        Of the run in a current alone [s]; None: four rises of model A, longer while the tension still rises.
+    start : {"auto", "at_rest", "drifting"}
+        Curtain at rest in water that begins to move, or drifting and just taut; auto: at rest in waves.
+    sensitivity : bool
+        Whether runs with half the step, a mesh of half as many cells and twice the viscosity follow.
+    slack_level, threshold : float or None
+        Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of the taut times.
+    """
+
+    mesh: Mesh
+    sheet_mass: float | None = None
+    sheet_volume: float = math.nan
+    span_stiffness: float = 0.0
+    shear_stiffness: float = 0.0
+    ballast_density: float = 7850.0
+    float_height: float | None = None
+    support_mass: float | None = None
+    profile: Literal["uniform", "sag"] = "uniform"
+    settled_periods: int = 6
+    analysed_periods: int = 10
+    wave_count: int = 8
+    duration: float | None = None
+    start: Literal["auto", "at_rest", "drifting"] = "auto"
+    sensitivity: bool = True
+    slack_level: float | None = None
+    threshold: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class DynamicRun:
+    """One run of a span.
+
+    Parameters
+    ----------
+    built : CurtainNetwork
+    history : History
+    flow : Flow
+    from_time : float
+        Peaks before this are not counted [s].
+    """
+
+    built: CurtainNetwork
+    history: History
+    flow: Flow
+    from_time: float = 0.0
+
+    @property
+    def counted(self) -> NDArray[np.bool_]:
+        """Rows that count."""
+        late = np.asarray(self.history.time >= self.from_time - 1e-12)
+        # a run that stopped early counts whole, so that what it found can be seen
+        return late if np.count_nonzero(late) > 2 else np.ones_like(late)
+
+    def tension(self, name: str) -> Array:
+        """Return the highest tension of a cable over the span, or of an anchor line, since the row before [N].
+
+        Anchor lines carry two spans by halves: what is returned is that of the whole line.
+        """
+        bars = self.built.bars(name)
+        if bars.size == 0:
+            return np.zeros(self.history.time.size)
+        factor = 2.0 if name.startswith("anchor line") else 1.0
+        return np.asarray(factor * self.history.tension_peak[:, bars].max(axis=1))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the cables and anchor lines."""
+        return tuple(n for n in ("upper cable", "lower cable", *self.built.lines) if self.built.bars(n).size)
+
+    @property
+    def both(self) -> Array:
+        """Sum of the highest tensions of both cables [N]."""
+        return self.tension("upper cable") + self.tension("lower cable")
+
+    def peak(self, name: str) -> tuple[float, float]:
+        """Return the highest tension that counts [N] and when [s]; ``both`` for the sum of the cables."""
+        values = np.where(self.counted, self.both if name == "both" else self.tension(name), -1.0)
+        row = int(np.argmax(values))
+        return float(values[row]), float(self.history.time[row])
+
+    def skirt_tension(self, rows: NDArray[np.int64] | None = None) -> Array:
+        """Return the highest principal tension of the skirt at rows [N/m]."""
+        sheets = self.built.network.sheets
+        assert sheets is not None
+        chosen = np.arange(self.history.time.size) if rows is None else rows
+        return np.array([float(sheet_stress(sheets, self.history.position[row]).first.max()) for row in chosen])
+
+    def snaps(self, name: str, slack_level: float | None, threshold: float | None) -> SnapRecord:
+        """Return slack times and snaps of a cable or line at its support."""
+        bars = self.built.bars(name)
+        factor = 2.0 if name.startswith("anchor line") else 1.0
+        rows = self.counted
+        pull = factor * self.history.tension[rows][:, bars[0]]
+        peaks = factor * self.history.tension_peak[rows][:, bars[0]]
+        level = _SLACK_SHARE * float(peaks.max()) if slack_level is None else slack_level
+        taut = pull[pull > level]
+        limit = _SNAP_FACTOR * float(taut.mean()) if threshold is None and taut.size else threshold or level
+        return find_snaps(self.history.time[rows], pull, slack_level=level, threshold=max(limit, level), peaks=peaks)
+
+
+@checks_words
+def run_span(
+    span: CurtainSpan,
+    mesh: Mesh,
+    water: Water,
+    *,
+    flow: Flow | None = None,
+    duration: float,
+    output_step: float,
+    speed: float = 0.0,
+    profile: Literal["uniform", "sag"] = "uniform",
+    weight: bool = True,
+    deep: bool = False,
+    from_time: float = 0.0,
+    step: float | None = None,
+    progress: Progress = silent,
+) -> DynamicRun:
+    """Run a span through time.
+
+    Parameters
+    ----------
+    span, mesh, water
+        As :func:`moyai.structures.curtain.dynamic.model.build_span`, with ``speed``, ``profile``, ``weight``
+        and ``deep``.
+    flow : Flow, optional
+        Motion of the water in the axes of the span; still water when left out.
+    duration, output_step : float
+        [s].
+    from_time : float
+        Peaks before this are not counted [s].
+    step : float, optional
+        Time step [s]; chosen by the program when left out.
+
+    Returns
+    -------
+    DynamicRun
+        Its history has the status ``not_converged`` where the run had to stop.
+    """
+    built = build_span(span, mesh, water, speed=speed, profile=profile, weight=weight, deep=deep)
+    chosen = flow or Flow()
+    rows = min(MOST_ROWS, max(2, round(duration / output_step)))
+    history = simulate(
+        built.network, duration=duration, output_step=duration / rows, flow=chosen, start=built.state, step=step,
+        progress=progress,
+    )  # fmt: skip
+    return DynamicRun(built, history, chosen, from_time)
+
+
+__all__ = ["DynamicRun", "DynamicSettings", "run_span"]

@@ -1,0 +1,392 @@
+"""The numbers of the first page of a curtain, each from the model that governs it, the most used component first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.headline import Band, Bound, Headline
+from moyai.core.wording import spoken
+from moyai.structures.curtain.governing import model_of
+from moyai.structures.curtain.hierarchy import SPAN, STATICS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Groups = Mapping[str, "xr.Dataset"]
+
+#: Headlines of loads: name, words, components of which the most loaded one counts, in the order of the page
+_LOADS = (("cable_tension", "cable", ("upper cable", "lower cable")), ("anchor_load", "anchor line", ("anchor line",)))
+#: Headlines of utilisations: load over strength, the safety factor left to the criterion
+_USED = (
+    ("cable_utilisation", "Cables, load over strength", ("upper cable", "lower cable")),
+    ("anchor_line_utilisation", "Anchor lines, load over strength", ("anchor line",)),
+    ("anchor_utilisation", "Anchors, load over holding force", ("anchor",)),
+    ("joint_utilisation", "Joints, load over strength", ("joint",)),
+    ("fabric_utilisation", "Sheet, load over strength", ("skirt",)),
+)
+_REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
+_MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
+
+
+@dataclass(frozen=True)
+class _Load:
+    """The governing load of a component at a level."""
+
+    level: str
+    component: str
+    row: xr.Dataset
+    band: Band | None
+
+    def number(self, name: str) -> float:
+        return float(self.row[name])
+
+    def words(self, name: str) -> str:
+        return str(self.row[name].values)
+
+    @property
+    def used(self) -> float:
+        """Load over strength; NaN without a strength."""
+        return self.number("governing_load") / self.number("capacity")
+
+    @property
+    def bound(self) -> Bound:
+        words = self.words("load_bound")
+        return "at most" if words == "at most" else "at least" if words else ""
+
+    @property
+    def model(self) -> str:
+        how = self.words("governing")
+        if how == "dynamic":
+            return SPAN
+        what = how.rpartition(" ")[2]
+        return STATICS if what == "steady" else f"{STATICS} with {model_of(self.words(f'{what}_source'))}"
+
+    @property
+    def source(self) -> str:
+        """What the load comes from: sea, run or impact."""
+        how = self.words("governing").rpartition(" ")[2]
+        return self.words(f"{how}_source") if how in ("wave", "impact", "dynamic") else "in the current alone"
+
+
+def curtain_headlines(groups: Groups, levels: Sequence[str]) -> tuple[Headline, ...]:
+    """Return the headlines of a run, the most used component first.
+
+    Parameters
+    ----------
+    groups : mapping
+        Datasets of the run by their path, as docs/result_layout.md has them; what is absent gives no headline.
+    levels : sequence of str
+        Water levels; of each number the least favourable one counts and is named.
+    """
+    loads = [load for level in levels for load in _loads_of(groups, level)]
+    # by use of the strength with its safety factor; what is only a bound does not govern and stands behind the values
+    ranked = sorted(_used(loads), key=lambda item: (math.isnan(item[1].value), item[1].bound != "", -item[0]))
+    used = [headline for _, headline in ranked]
+    found = [*_tensions(loads), *used, *_steady(groups, levels), *_depths(groups, levels), *_limits(groups, levels)]
+    if used and not math.isnan(used[0].value):
+        # the load behind the most used component stands beside it
+        first = used[0]
+        behind = "anchor_load" if first.name.startswith("anchor") else "cable_tension"
+        found.sort(key=lambda item: (item.name != first.name, item.name != behind))
+    return tuple(found)
+
+
+def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
+    table = groups.get(f"/{level}/loads")
+    if table is None:
+        return
+    for component in table["component"].values:
+        row = table.sel(component=component)
+        if math.isfinite(float(row["governing_load"])):
+            load = _Load(level, str(component), row, None)
+            yield replace(load, band=_band(groups, load))
+
+
+def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
+    for name, words, components in _LOADS:
+        load = max(
+            (one for one in loads if one.component in components), key=lambda one: one.number("governing_load"),
+            default=None,
+        )  # fmt: skip
+        if load is None:
+            continue
+        steady = load.number("steady_load")
+        detail = f"steady {_kilo(steady)}" if math.isfinite(steady) else ""
+        label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
+        yield Headline(
+            name, label, load.number("governing_load"), "N",
+            where=f"{load.component}, {load.source}: {load.level}",
+            model=load.model, band=_bounded(load), bound=load.bound,
+            detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
+        )  # fmt: skip
+
+
+def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
+    """Return each load over its strength, with its utilisation, the safety factor included."""
+    for name, label, components in _USED:
+        load = max(
+            (one for one in loads if one.component in components and math.isfinite(one.used)),
+            key=lambda one: one.number("utilisation"),
+            default=None,
+        )
+        if load is None:
+            continue
+        strength = load.number("capacity")
+        unit = load.words("load_unit")
+        of = f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}"
+        where = f"{load.component}, {load.source}: {load.level}"
+        if load.bound == "at least":
+            # what only waits for its snap is no number to design with
+            said = f"{of} without its snap, which needs {_MISSING}"
+            headline = Headline(
+                name, label, math.nan, "1", where=where, model=load.model, detail=said, text="not known"
+            )
+            yield load.number("utilisation"), headline
+            continue
+        band = _bounded(load)
+        if band is not None:
+            band = Band(band.low / strength, band.high / strength, band.of, band.decides)
+        yield (
+            load.number("utilisation"),
+            Headline(
+                name, label, load.used, "1", where=where, model=load.model, band=band, bound=load.bound, detail=of
+            ),
+        )
+
+
+def _bounded(load: _Load) -> Band | None:
+    """Return the band of a load; that of a bound is judged at its upper end, since a mean bounds nothing."""
+    if load.bound != "at most" or load.band is None:
+        return load.band
+    return replace(load.band, decides=True)
+
+
+def _band(groups: Groups, load: _Load) -> Band | None:
+    """Return what the governing load of a component varies with: mesh, realisations, or the drag coefficient."""
+    how, value = load.words("governing"), load.number("governing_load")
+    if how == "dynamic":
+        return _moving_band(groups, load, value)
+    if how == "steady and wave":
+        return _scatter(groups, load)
+    if how == "steady":
+        return _steady_band(groups, load)
+    return None
+
+
+def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
+    """Return the change with mesh and step of the run, where these runs were made, else the scatter of its periods."""
+    run = groups.get(f"/{load.level}/dynamic/{load.words('dynamic_source')}")
+    if run is None or "line_peak" not in run:
+        return None
+    # the load of an anchor is that of its line, turned to the horizontal
+    line = "anchor line" if load.component == "anchor" else load.component
+    mine = [row for row, name in enumerate(run["line"].values) if str(name).startswith(line)]
+    if not mine:
+        return None
+    row = max(mine, key=lambda number: float(run["line_peak"].values[number]))
+    factor = value / float(run["line_peak"].values[row])
+    others = [factor * float(run[name].values[row]) for name in ("line_half_mesh", "line_half_step")]
+    known = [other for other in others if math.isfinite(other)]
+    if known:
+        return Band(min(value, *known), max(value, *known), "with half the cells and with half the step")
+    if not run.attrs.get("regular"):
+        return None
+    peaks = factor * _period_peaks(run, row)
+    if peaks.size < 2:
+        return None
+    return Band(float(peaks.mean()), value, f"{peaks.size} periods, mean to highest", decides=False)
+
+
+def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:
+    """Return the highest tension of a line in each period that counts [N]."""
+    time, period = run["time"].values, float(run.attrs["period"])
+    number = np.floor((time - float(run.attrs["counted_from"])) / period * (1.0 + 1e-9)).astype(int)
+    count = round((float(time[-1]) - float(run.attrs["counted_from"])) / period)
+    values = run["tension_peak"].values[row]
+    return np.array([values[number == one].max() for one in range(count) if np.any(number == one)])
+
+
+def _scatter(groups: Groups, load: _Load) -> Band | None:
+    """Return the scatter of the realisations, or of the hundreds of periods, of the sea that governs."""
+    kind, _, sea = load.words("wave_source").partition(", ")
+    table = groups.get(f"/{load.level}/waves/{sea}")
+    if kind != "slack and taut cycles" or table is None:
+        return None
+    ends = [f"maximum_tension{end}" for end in ("", "_low", "_high")]
+    tops = {name: np.atleast_1d(table[name].values) for name in ends}
+    row = int(np.argmax(tops["maximum_tension"]))
+    top, low, high = (float(tops[f"maximum_tension{end}"][row]) for end in ("", "_low", "_high"))
+    if not top > 0.0 or low == high:
+        return None
+    # the cycles give the whole of a component's load in proportion to the sum of the cables
+    whole = load.number("governing_load")
+    several = "realisations" in table
+    of = f"{int(table['realisations'])} realisations" if several else "largest of 100 periods"
+    return Band(whole * low / top, whole * high / top, of, decides=False)
+
+
+def _steady_band(groups: Groups, load: _Load) -> Band | None:
+    name = {
+        "upper cable": "upper_tension", "lower cable": "lower_tension", "skirt": "sheet_tension",
+        "anchor line": "anchor_line_tension", "anchor": "anchor_force",
+    }.get(load.component)  # fmt: skip
+    statics = groups.get(f"/{load.level}/statics")
+    if name is None or statics is None:
+        return None
+    return _statics_band(statics, name)
+
+
+def _statics_band(statics: xr.Dataset, name: str) -> Band | None:
+    """Return the band of a number at rest: that of the governing steady load, else that of the drag."""
+    ends = [f"steady_{name}_low", f"steady_{name}_high"]
+    if all(end in statics for end in ends):
+        low, high = (float(statics[end]) for end in ends)
+        return Band(low, high, "drag, weights and what the skirt's ends hold")
+    if name not in statics:
+        return None
+    values = statics[name].values
+    known = values[np.isfinite(values)]
+    return Band(float(known.min()), float(known.max()), "range of the drag coefficient") if known.size > 1 else None
+
+
+def _at_rest(statics: xr.Dataset, name: str) -> float:
+    """Return a number at rest, of the governing steady load where there is one."""
+    if f"steady_{name}" in statics:
+        return float(statics[f"steady_{name}"])
+    if name not in statics:
+        return math.nan
+    values = statics[name]
+    return float(values.sel(drag_case="given")) if "drag_case" in values.dims else float(values)
+
+
+def _steady(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
+    """Return the steady load of one span in the current, with its range."""
+    found = []
+    for level in levels:
+        statics = groups.get(f"/{level}/statics")
+        if statics is None:
+            continue
+        name = "span_load" if "steady_span_load" in statics else "anchor_force"
+        value = _at_rest(statics, name)
+        if math.isfinite(value):
+            found.append((value, level, statics, name))
+    if not found:
+        return
+    value, level, statics, name = max(found, key=lambda item: item[0])
+    line = _at_rest(statics, "line_load" if "steady_line_load" in statics else "section_load")
+    yield Headline(
+        "steady_load", "Steady load of one span", value, "N", where=level, model=STATICS,
+        band=_statics_band(statics, name), detail=f"{_kilo(line, 'N/m')} of length",
+    )  # fmt: skip
+
+
+def _depths(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
+    wanted: tuple[tuple[str, str, str, str], ...] = (
+        ("effective_depth", "Effective depth", "effective_depth", "m"),
+        ("toe_clearance", "Clearance of the toe from the bed", "toe_gap", "m"),
+        ("float_reserve", "Reserve of the floats, share of their buoyancy", "float_reserve_ratio", "1"),
+    )
+    for name, label, key, unit in wanted:
+        found = []
+        for level in levels:
+            statics = groups.get(f"/{level}/statics")
+            value = math.nan if statics is None else _at_rest(statics, key)
+            if statics is not None and math.isfinite(value):
+                found.append((value, level, statics))
+        if not found:
+            continue
+        value, level, statics = min(found, key=lambda item: item[0])
+        band, detail = _statics_band(statics, key), _beside(name, statics, value)
+        slack = float(statics[f"slack_{key}"]) if f"slack_{key}" in statics else math.nan
+        if slack < value:
+            # a curtain hangs lower and heavier at slack water than in its current
+            detail = f"at slack water; {_plain(value, unit)} in the current" + (f", {detail}" if detail else "")
+            value, band = slack, None
+        yield Headline(
+            name, label, value, unit, where=level, model=STATICS, band=band, detail=detail
+        )  # fmt: skip
+
+
+def _plain(value: float, unit: str) -> str:
+    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
+
+
+def _beside(name: str, statics: xr.Dataset, value: float) -> str:
+    """Return the one more fact that a depth needs."""
+    if name == "effective_depth":
+        return f"{100.0 * value / float(statics['skirt_length']):.0f} % of the skirt"
+    if name == "toe_clearance":
+        speed, ratio = _at_rest(statics, "toe_speed"), _at_rest(statics, "toe_speed_ratio")
+        if math.isfinite(speed) and math.isfinite(ratio):
+            return f"{speed:.3g} m/s under the toe, {ratio:.3g} times the current there"
+        return ""
+    drowning = float(statics["drowning_speed"])
+    return f"they drown at {drowning:.3g} m/s" if math.isfinite(drowning) else "no current up to 10 m/s drowns them"
+
+
+def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
+    """Return up to which current without waves, and up to which wave height in its own current, a curtain holds."""
+    for name, label, unit, where, value, key in (
+        ("limit_current", "Holds up to a current of", "m/s", "no waves", "speed_limit", "speed_limit"),
+        (
+            "limit_wave_height", "Holds up to a wave height of", "m", "significant, in currents up to that of the case",
+            "design_limit_height", "design_limit",
+        ),
+    ):  # fmt: skip
+        found = [
+            (float(table[value]), level, table)
+            for level in levels
+            if (table := groups.get(f"/{level}/limits")) is not None
+            and value in table
+            and math.isfinite(float(table[value]))
+        ]
+        if not found:
+            continue
+        limit, level, table = min(found, key=lambda item: item[0])
+        governing = str(table.attrs.get(f"{key}_governing", ""))
+        # the words for no limit at all, or for one of 0
+        said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
+        bound = str(table.attrs.get(f"{key}_bound", ""))
+        details = [said or f"{governing} sets it"]
+        if limit > 0.0 and governing != "not reached" and said:
+            details.insert(0, f"{governing} sets it")
+        if bound == "at most":
+            details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
+        if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
+            details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
+        band = _limit_band(table) if key == "speed_limit" else None
+        if limit <= 0.0 and bound == "at least":
+            # a bound that fails proves nothing about the curtain
+            words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
+            detail = f"{words}; {_REMEDY}"
+            yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
+            continue
+        yield Headline(
+            name, label, limit, unit, where=f"{where}: {level}", band=band,
+            bound="at least" if governing == "not reached" and not bound else bound,  # type: ignore[arg-type]
+            detail="; ".join(details),
+            text="" if limit > 0.0 else "none",
+        )  # fmt: skip
+
+
+def _number(table: xr.Dataset, name: str) -> float:
+    return float(table[name]) if name in table else math.nan
+
+
+def _limit_band(table: xr.Dataset) -> Band | None:
+    """Return the band of the largest current over the drag coefficient."""
+    low, high = _number(table, "speed_limit_low"), _number(table, "speed_limit_high")
+    return Band(low, high, "range of the drag coefficient") if low < high else None
+
+
+def _kilo(value: float, unit: str = "N") -> str:
+    return spoken(value, unit, 3)
+
+
+__all__ = ["curtain_headlines"]

@@ -1,0 +1,1 @@
+"""Up to which current and wave height a curtain holds."""

@@ -1,0 +1,214 @@
+"""Run a silt curtain: every water level, the analyses that the case names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from moyai.core.collected import STOPPED, Collected
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result
+from moyai.core.validity import Notice
+from moyai.sea.states import RegularSea
+from moyai.structures.curtain.analyses.anchor import anchor_checks, anchor_dataset, anchor_notices
+from moyai.structures.curtain.analyses.dynamic import dynamic_answer
+from moyai.structures.curtain.analyses.impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
+from moyai.structures.curtain.analyses.impact_groups import impact_groups
+from moyai.structures.curtain.analyses.limits import fastest_water, limits_dataset
+from moyai.structures.curtain.analyses.loads import NOT_MOVED, DynamicLoads, dynamic_loads_dataset, loads_dataset
+from moyai.structures.curtain.analyses.record import record_dataset, record_ratios
+from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
+from moyai.structures.curtain.analyses.waves import wave_answer
+from moyai.structures.curtain.assembly import LevelCurtain, assemble
+from moyai.structures.curtain.headlines import curtain_headlines
+from moyai.structures.curtain.hierarchy import hierarchy, hierarchy_dataset
+from moyai.structures.curtain.model import CurtainProblem
+from moyai.structures.curtain.seas.loads import drag_curve
+from moyai.structures.curtain.seas.states import DesignWave, design_waves, significant_height
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class _Collected(Collected):
+    """What a run has so far, and the water level of every notice."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.level_of: list[str] = []
+
+    def name_level(self, level: str) -> None:
+        """Note that the notices since the last call belong to a water level (empty: to the whole run)."""
+        self.level_of.extend([level] * (len(self.notices) - len(self.level_of)))
+
+
+def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
+    """Run all analyses of a curtain case.
+
+    Parameters
+    ----------
+    problem : CurtainProblem
+    progress : Progress
+        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the case is impossible: a skirt on the bed that may not lie there, a curtain without equilibrium, an
+        impact of a curtain that is never slack.
+    """
+    collected = _Collected()
+    try:
+        for _ in _steps(problem, collected, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = STOPPED
+    return _result(problem, collected)
+
+
+def _steps(problem: CurtainProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
+    levels = problem.environment.water_levels
+    # every level is assembled before any long work starts, so that an impossible one is told at once
+    units = [assemble(problem, name, level) for name, level in levels]
+    if problem.record is not None:
+        collected.groups["/record"] = record_dataset(problem.record)
+        collected.notices.extend(problem.record.notices)
+        collected.name_level("")
+    for index, unit in enumerate(units):
+        progress("water levels", index, len(units))
+        for _ in _level_steps(problem, unit, collected, progress):
+            collected.name_level(unit.name)
+            yield
+    progress("water levels", len(units), len(units))
+
+
+def _level_steps(
+    problem: CurtainProblem, unit: LevelCurtain, collected: _Collected, progress: Progress
+) -> Iterator[None]:
+    settings, seas = problem.settings, problem.environment.sea_states
+    root = f"/{unit.name}"
+    waves: tuple[DesignWave, ...] = tuple(wave for sea in seas for wave in design_waves(sea, unit.curtain.normal))
+    highest = max((significant_height(sea) for sea in seas), default=0.0)
+    roles = hierarchy(unit, settings)
+    collected.groups[root] = _header(unit)
+    collected.groups[f"{root}/models"] = hierarchy_dataset(roles)
+    if "statics" in settings.analyses:
+        require_current(unit)
+        collected.groups.update({f"{root}/{name}": data for name, data in statics_groups(unit, highest).items()})
+        collected.checks.extend(statics_checks(unit))
+        collected.notices.extend(statics_notices(unit, highest))
+        yield
+    answer: ImpactAnswer | None = None
+    if "impact" in settings.analyses:
+        progress(f"impact, {unit.name}", 0, 1)
+        answer = solve_impact(unit, settings.impact)
+        groups = impact_groups(unit, settings.impact, answer)
+        if problem.record is not None:
+            ratios, told = record_ratios(problem.record, answer)
+            groups["impact"] = groups["impact"].merge(ratios)
+            collected.notices.extend(told)
+        collected.groups.update({f"{root}/{name}": data for name, data in groups.items()})
+        collected.checks.extend(impact_checks(unit, answer))
+        collected.notices.extend(impact_notices(unit, settings.impact, answer))
+        progress(f"impact, {unit.name}", 1, 1)
+        yield
+    oscillator: list[tuple[str, float]] = []
+    if "waves" in settings.analyses:
+        for sea in seas:
+            found = wave_answer(unit, settings, sea, progress)
+            for name, data in found.groups.items():
+                collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
+            collected.notices.extend(found.notices)
+            oscillator.append((sea.name, found.maximum_tension))
+            yield
+    if "anchor_loads" in settings.analyses and settings.anchor_loads is not None and waves:
+        loads = anchor_dataset(unit, settings.anchor_loads, settings.limits, waves)
+        collected.groups[f"{root}/anchor_loads"] = loads
+        collected.checks.extend(anchor_checks(unit, loads))
+        collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
+        yield
+    tensions: DynamicLoads = NOT_MOVED
+    if "dynamic" in settings.analyses and settings.dynamic is not None:
+        moved = dynamic_answer(unit, settings, seas, progress)
+        collected.groups.update(
+            {f"{root}/dynamic" + (f"/{name}" if name else ""): data for name, data in moved.groups.items()}
+        )
+        collected.checks.extend(moved.checks)
+        collected.notices.extend(moved.notices)
+        if moved.interrupted:
+            raise KeyboardInterrupt
+        tensions = moved.loads
+        yield
+    if not {"statics", "impact", "waves", "anchor_loads", "limits"} & set(settings.analyses):
+        collected.groups[f"{root}/loads"] = dynamic_loads_dataset(unit, tensions)
+        yield
+        return
+    curve = drag_curve(unit, fastest_water(unit, settings, waves))
+    proportions = answer
+    if proportions is None and "waves" in settings.analyses:
+        # snaps in waves load the components in the proportions of an impact at the current's speed
+        proportions = solve_impact(unit, settings.impact, unit.normal_speed or 1.0)
+    table, notices = loads_dataset(
+        unit, settings, waves, tuple(oscillator), answer, proportions, curve, tensions, roles
+    )
+    collected.groups[f"{root}/loads"] = table
+    collected.notices.extend(notices)
+    yield
+    if "limits" in settings.analyses:
+        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress)
+        yield
+
+
+def _header(unit: LevelCurtain) -> xr.Dataset:
+    import xarray as xr
+
+    toe = unit.curtain.toe
+    resting = unit.surface_speed > 0.0 and unit.rests_on_bed
+    return xr.Dataset(
+        attrs={
+            "water_level": unit.level,
+            "water_depth": unit.water.depth,
+            "normal_heading": unit.curtain.normal,
+            "toe": "on the bed" if resting else toe,
+        }
+    )
+
+
+def _result(problem: CurtainProblem, collected: _Collected) -> Result:
+    attributes = {
+        "structure": "curtain",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
+        notices=_placed(collected, len(problem.environment.water_levels)),
+        headlines=curtain_headlines(collected.groups, [name for name, _ in problem.environment.water_levels]),
+        fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
+        criteria=problem.criteria,
+    )
+
+
+def _placed(collected: _Collected, levels: int) -> list[Notice]:
+    """Say at which water level a notice holds, where it does not hold at all of them."""
+    collected.name_level("")
+    holding: dict[str, set[str]] = {}
+    for notice, level in zip(collected.notices, collected.level_of):
+        holding.setdefault(notice.message, set()).add(level)
+    placed = []
+    for notice, level in zip(collected.notices, collected.level_of):
+        alone = level and levels > 1 and len(holding[notice.message]) < levels
+        said = notice.message.startswith(f"{level}:") or notice.message.startswith(f"{level},")
+        placed.append(replace(notice, message=f"{level}: {notice.message}") if alone and not said else notice)
+    return placed
+
+
+__all__ = ["run"]

@@ -1,0 +1,1 @@
+"""What sea states mean for a curtain: squared velocity, anchor energy, wave loads."""

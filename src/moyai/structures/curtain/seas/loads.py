@@ -1,0 +1,251 @@
+"""What waves and an impact add to the steady loads of every component, for load table and operating limits.
+
+Three answers to waves stand side by side: the energy model of the anchor line, the drag at the speed whose square is
+the squared velocity under the crest, and slack and taut cycles. The largest of each component counts, an impact in the
+current beside them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.options import checks_words
+from moyai.sea.water import Water
+from moyai.structures.curtain.assembly import LevelCurtain
+from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
+from moyai.structures.curtain.impact.cycle_table import CycleTable
+from moyai.structures.curtain.impact.kernels import taut_shape
+from moyai.structures.curtain.limits.utilisation import AddedLoads
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel
+from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
+from moyai.structures.curtain.statics.hanging import CurtainStatics
+
+Array = NDArray[np.float64]
+
+_CURVE_POINTS = 31
+
+
+@dataclass(frozen=True, eq=False)
+class DragCurve:
+    """Loads of the curtain at rest against the speed of the water along its normal.
+
+    Parameters
+    ----------
+    speed : ndarray
+        Root mean square over the skirt along the normal [m/s], rising from 0; up to where there is equilibrium.
+    loads : ndarray, shape (speed, 5)
+        Upper cable, lower cable [N], skirt [N/m], anchor line [N], line load [N/m].
+    """
+
+    speed: Array
+    loads: Array
+
+    def at(self, speed: float) -> AddedLoads:
+        """Return the whole loads at a speed [m/s].
+
+        Raises
+        ------
+        InputError
+            Where the curtain has no equilibrium.
+        """
+        if speed > self.speed[-1]:
+            raise InputError(
+                f"the curtain has no equilibrium in water that moves with {speed:.3g} m/s",
+                path="current",
+                allowed=f"at most {self.speed[-1]:.3g} m/s",
+            )
+        return AddedLoads(*(float(value) for value in self._curve(speed)))
+
+    @cached_property
+    def _curve(self) -> Callable[[float], Array]:
+        from scipy.interpolate import PchipInterpolator
+
+        if self.speed.size == 1:
+            return lambda speed: self.loads[0]
+        # even steps of the square root of the speed carry both the rise with its square and the bend of a flaring skirt
+        shaped = PchipInterpolator(np.sqrt(self.speed), self.loads)
+        return lambda speed: np.asarray(shaped(math.sqrt(speed)))
+
+
+def drag_curve(unit: LevelCurtain, highest: float) -> DragCurve:
+    """Return the loads at rest up to a speed of the water along the normal [m/s], or as far as there is equilibrium."""
+    speeds, rows = [0.0], [_still(unit)]
+    for speed in highest * (np.arange(1, _CURVE_POINTS) / (_CURVE_POINTS - 1.0)) ** 2:
+        try:
+            statics = unit.facing.statics(unit.hanging, float(speed) / unit.unit_normal_speed)
+        except (InputError, ConvergenceError):
+            break
+        speeds.append(float(speed))
+        rows.append(_loads(statics))
+    return DragCurve(np.array(speeds), np.array(rows))
+
+
+def _still(unit: LevelCurtain) -> tuple[float, float, float, float, float]:
+    skirt = unit.curtain.skirt
+    return 0.0, 0.0, skirt.toe_load + max(skirt.submerged_weight, 0.0) * unit.depth, 0.0, 0.0
+
+
+def _loads(statics: CurtainStatics) -> tuple[float, float, float, float, float]:
+    return (
+        statics.upper_tension,
+        statics.lower_tension,
+        statics.section.sheet_tension,
+        statics.anchor_line_tension,
+        statics.section.load,
+    )
+
+
+def increase(whole: AddedLoads, statics: CurtainStatics) -> AddedLoads:
+    """Return what loads have beyond those of a curtain at rest, at least 0."""
+    upper, lower, sheet, line, load = _loads(statics)
+    return AddedLoads(
+        max(whole.upper_cable - upper, 0.0),
+        max(whole.lower_cable - lower, 0.0),
+        max(whole.sheet - sheet, 0.0),
+        max(whole.anchor_line - line, 0.0),
+        max(whole.line_load - load, 0.0),
+    )
+
+
+@dataclass(frozen=True)
+class ImpactLoad:
+    """Loads of an impact at any start speed, in the proportions of the case.
+
+    Parameters
+    ----------
+    impact : Impact
+        The span.
+    factor : float
+        Tension of the design model over that of model A [-].
+    shares : tuple of float
+        Of the upper and of the lower cable in the sum [-].
+    start_ratio : float
+        Start speed over the speed of the water [-].
+    half_angle : float
+        Of the skirt's arc [rad]; NaN: the skirt's share is not known and left out.
+    anchor_slope : float
+        Of the anchor line [rad].
+    """
+
+    impact: Impact
+    factor: float
+    shares: tuple[float, float]
+    start_ratio: float
+    half_angle: float
+    anchor_slope: float
+
+    def at(self, speed: float) -> AddedLoads:
+        """Return the loads when the water moves with a speed [m/s] along the normal."""
+        start = self.start_ratio * speed
+        if start <= 0.0:
+            return AddedLoads()
+        impact = replace(self.impact, speed=start)
+        return self.of_tension(self.factor * peak_by_energy(impact).tension)
+
+    def of_tension(self, tension: float) -> AddedLoads:
+        """Return the loads that go with a sum of the cable tensions [N]; both spans of a support act at once."""
+        b = taut_shape(self.impact.span_ratio)
+        load = 2.0 * b * tension / self.impact.span
+        known = math.isfinite(self.half_angle)
+        return AddedLoads(
+            self.shares[0] * tension,
+            self.shares[1] * tension,
+            0.5 * load / math.sin(self.half_angle) if known else 0.0,
+            2.0 * tension * math.tanh(b) / math.cos(self.anchor_slope),
+            load,
+        )
+
+
+@checks_words
+@dataclass(frozen=True)
+class SeaLoads:
+    """What a significant height in a current adds to the steady loads, by all models that the case has data for.
+
+    Parameters
+    ----------
+    period : callable
+        [s] of a significant height [m].
+    angle : float
+        Of the waves from the normal [rad].
+    rule : {"paper", "normal", "none"}
+        Direction rule.
+    height_ratio : float
+        H_max/H_1/3 [-].
+    depth : float
+        Of the skirt [m].
+    normal_ratio : float
+        Speed of the water along the normal, root mean square over the skirt, per surface speed of the current [-].
+    drag : DragCurve
+    energy : EnergyModel or None
+        Anchor lines.
+    pretension : float or None
+        Steady tension that the energy model takes [N]; None: that of the statics.
+    steady : float
+        Tension that the anchor line has at least [N], where the case gives a pretension.
+    impact : ImpactLoad or None
+        An impact in the current, without waves.
+    snaps : (CycleTable, ImpactLoad) or None
+        Slack and taut cycles, and how their tension goes to the components.
+    """
+
+    period: Callable[[float], float]
+    angle: float
+    rule: DirectionRule
+    height_ratio: float
+    depth: float
+    normal_ratio: float
+    drag: DragCurve
+    energy: EnergyModel | None = None
+    pretension: float | None = None
+    steady: float = 0.0
+    impact: ImpactLoad | None = None
+    snaps: tuple[CycleTable, ImpactLoad] | None = None
+
+    def water_speed(self, significant_height: float, speed: float, water: Water) -> float:
+        """Return the root of the squared velocity under the crest of the highest wave [m/s] [eq:curtain-wave-drag]."""
+        current = self.normal_ratio * speed
+        if significant_height <= 0.0:
+            return current
+        height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
+        period = self.period(significant_height)
+        return math.sqrt(float(squared_velocity(height, period, current, self.depth, water)))
+
+    def waves(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
+        """Return what waves of a significant height [m] add at a surface speed [m/s]."""
+        if significant_height <= 0.0:
+            return AddedLoads()
+        moving, current = self.water_speed(significant_height, speed, water), self.normal_ratio * speed
+        found = increase(self.drag.at(moving), statics)
+        if self.snaps is not None:
+            table, proportions = self.snaps
+            struck = proportions.of_tension(table.tension(speed, significant_height))
+            if self.energy is not None:
+                # the energy model was fitted to anchor lines; fixed supports would overload them
+                struck = replace(struck, anchor_line=0.0)
+            found = found.larger(increase(struck, statics))
+        if self.energy is None:
+            return found
+        height = effective_height(significant_height, self.angle, self.rule, self.height_ratio)
+        float_speed = self.energy.float_speed(height, self.period(significant_height), current, water)
+        steady = statics.anchor_line_tension if self.pretension is None else self.pretension
+        rise = float(self.energy.fluctuating_tension(float_speed, steady))
+        return found.larger(AddedLoads(anchor_line=self._lacking(statics) + rise))
+
+    def _lacking(self, statics: CurtainStatics) -> float:
+        """Return what a given pretension has beyond the tension in the current alone [N]."""
+        return max(self.steady - statics.anchor_line_tension, 0.0)
+
+    def added(self, statics: CurtainStatics, significant_height: float, speed: float, water: Water) -> AddedLoads:
+        """Return what waves and impact add at a surface speed [m/s], the larger for each component."""
+        found = self.waves(statics, significant_height, speed, water)
+        found = found.larger(AddedLoads(anchor_line=self._lacking(statics)))
+        if self.impact is None:
+            return found
+        return found.larger(self.impact.at(self.normal_ratio * speed))

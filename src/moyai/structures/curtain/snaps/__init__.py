@@ -1,0 +1,1 @@
+"""Snaps in irregular seas: events, the flow that makes them, their statistics."""

@@ -1,0 +1,1 @@
+"""The curtain in a steady current: section, plan, drag, load laws and the governing steady load."""

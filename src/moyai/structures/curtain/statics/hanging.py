@@ -1,0 +1,302 @@
+"""A hanging curtain at rest: section, plan, cables and anchors, floats, flow under the toe, submerged state."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.core.options import checks_words
+from moyai.sea.current import CurrentProfile
+from moyai.sea.water import Water
+from moyai.structures.curtain.statics.drag import DragLaw, under_toe_flow
+from moyai.structures.curtain.statics.plan import PlanShape, section_load, solve_plan
+from moyai.structures.curtain.statics.section import LoadLaw, SectionShape, Skirt, solve_section
+
+
+@dataclass(frozen=True)
+class FloatLine:
+    """Floats, top cable and fittings per length of curtain.
+
+    Parameters
+    ----------
+    buoyancy : float
+        Upward force of the wholly submerged floats, before their weight [N/m].
+    weight : float
+        Of floats, top cable and fittings in air [N/m].
+    flooded_buoyancy : float
+        Upward force that is left when the floats are flooded (float-and-sink type) [N/m]; equal to ``buoyancy`` for
+        floats that cannot be flooded.
+    """
+
+    buoyancy: float
+    weight: float
+    flooded_buoyancy: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.flooded_buoyancy <= self.buoyancy < math.inf or not 0.0 <= self.weight < math.inf:
+            raise InputError(
+                f"buoyancy {self.buoyancy:g}, flooded {self.flooded_buoyancy:g}, weight {self.weight:g} N/m",
+                path="floats",
+                allowed="0 <= flooded <= buoyancy, weight at least 0",
+            )
+
+
+@checks_words
+@dataclass(frozen=True)
+class HangingCurtain:
+    """One span of a curtain between two anchored supports, its neighbours alike.
+
+    Parameters
+    ----------
+    span, length : float
+        Distance of the supports and unstretched length of curtain between them [m].
+    skirt : Skirt
+        Section.
+    floats : FloatLine
+        What carries it.
+    upper_stiffness, lower_stiffness : float
+        EA of the cables at top and toe [N]; the lower one counts only for a held toe.
+    toe : {"free", "held"}
+        Whether a lower cable as long as the upper one keeps the toe under the top.
+    anchor_slope : float
+        Angle of the anchor lines from the horizontal at the float [rad]; straight taut lines are assumed.
+    drag : DragLaw
+        Coefficient with range and blockage.
+    law : {"normal_velocity", "uniform_normal"}
+        Load law of the section.
+    friction : float
+        Coefficient of the load along the sheet, both faces together [-].
+    """
+
+    span: float
+    length: float
+    skirt: Skirt
+    floats: FloatLine
+    upper_stiffness: float
+    lower_stiffness: float
+    toe: Literal["free", "held"]
+    anchor_slope: float
+    drag: DragLaw
+    law: LoadLaw
+    friction: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.anchor_slope < 0.5 * math.pi:
+            raise InputError(
+                f"anchor slope is {math.degrees(self.anchor_slope):.4g} degrees", path="anchor_slope", allowed="0 to 90"
+            )
+
+    @property
+    def axial_stiffness(self) -> float:
+        """EA of the cables that carry the load [N]."""
+        return self.upper_stiffness + (self.lower_stiffness if self.toe == "held" else 0.0)
+
+    @property
+    def net_weight(self) -> float:
+        """Submerged weight of skirt and toe plus the weight of the float line [N/m]."""
+        return self.skirt.toe_load + self.skirt.submerged_weight * self.skirt.length + self.floats.weight
+
+
+@dataclass(frozen=True, eq=False)
+class CurtainStatics:
+    """A curtain at rest in a current.
+
+    Parameters
+    ----------
+    curtain : HangingCurtain
+        What was solved.
+    section : SectionShape
+        Where the curtain faces the current most: at the middle of the span in a current along its normal.
+    section_heading : float
+        Of the curtain's normal at that section [rad].
+    plan : PlanShape
+        Between the supports.
+    toe_gap : float
+        Clearance between toe and bed [m].
+    toe_speed : float
+        Mean speed under the toe [m/s], what flows along the curtain included; NaN in infinite depth.
+    toe_speed_ratio : float
+        Over that of the undisturbed current there [-]; NaN in infinite depth, or where nothing flows there.
+    upper_tension, lower_tension : float
+        Of the two cables [N].
+    anchor_force : float
+        Horizontal force on the anchor of an inner support, with an equal span on its other side [N].
+    end_anchor_force : float
+        Horizontal force on the more loaded support of a lone span [N].
+    anchor_line_tension : float
+        Of a straight line at the given slope that carries ``anchor_force`` [N].
+    float_reserve : float
+        Buoyancy left per length after weight, pull of the skirt and of the inner anchor lines [N/m]; negative drowns.
+    """
+
+    curtain: HangingCurtain
+    section: SectionShape
+    section_heading: float
+    plan: PlanShape
+    toe_gap: float
+    toe_speed: float
+    toe_speed_ratio: float
+    upper_tension: float
+    lower_tension: float
+    anchor_force: float
+    end_anchor_force: float
+    anchor_line_tension: float
+    float_reserve: float
+
+    @property
+    def reserve_ratio(self) -> float:
+        """Float reserve over buoyancy [-]."""
+        return self.float_reserve / self.curtain.floats.buoyancy
+
+
+def solve_statics(
+    curtain: HangingCurtain,
+    current: CurrentProfile,
+    flow_heading: float,
+    chord_normal: float,
+    water: Water,
+    *,
+    passing_fraction: float,
+    top_depth: float = 0.0,
+    below_bed: bool = False,
+) -> CurtainStatics:
+    """Return shape and forces of a curtain at rest.
+
+    Parameters
+    ----------
+    curtain : HangingCurtain
+        Span, skirt, floats, cables.
+    current : CurrentProfile
+        Undisturbed.
+    flow_heading, chord_normal : float
+        Heading of the flow and of the downstream normal of the span [rad], less than 90 degrees apart.
+    water : Water
+        Site.
+    passing_fraction : float
+        Share of the flow held up that goes under the toe [-], 1 from bank to bank.
+    top_depth : float
+        Depth of the top [m]; more than 0 for a curtain held under water.
+    below_bed : bool
+        As :func:`moyai.structures.curtain.statics.section.solve_section`: for a long skirt whose toe the current lifts.
+
+    Raises
+    ------
+    InputError
+        As the solvers of section and plan; and without any load, when there is no plan shape.
+
+    Notes
+    -----
+    Forces of the supports: [eq:curtain-anchor]; floats: [eq:curtain-float-reserve].
+    """
+    settings = {
+        "law": curtain.law,
+        "toe": curtain.toe,
+        "top_depth": top_depth,
+        "below_bed": below_bed,
+        "friction": curtain.friction,
+    }
+    section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, **settings)  # type: ignore[arg-type]
+    if section.load <= 0.0:
+        raise InputError(
+            f"the current loads the curtain with {section.load:g} N/m along its heading",
+            path="current",
+            remedy="give a current, and the heading in which it flows",
+        )
+    load = section_load(
+        curtain.skirt,
+        current,
+        flow_heading,
+        chord_normal,
+        water,
+        curtain.drag,
+        **settings,  # type: ignore[arg-type]
+    )
+    plan = solve_plan(curtain.span, curtain.length, curtain.axial_stiffness, load)
+    local = plan.angle + load.flow_angle
+    turn = float(np.clip(0.0, local.min(), local.max()))
+    if turn != 0.0:
+        # no part of the span lies across so oblique a current
+        section = solve_section(curtain.skirt, current, flow_heading - turn, water, curtain.drag, **settings)  # type: ignore[arg-type]
+    share = section.toe_hold / section.load
+    first, second = plan.downstream_end_forces
+    lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])
+    inner = math.hypot(first + second, lean)
+    lone = max(math.hypot(down, along) for down, along in zip((first, second), plan.inward_end_forces))
+    under, ratio = math.nan, math.nan
+    if math.isfinite(water.depth):
+        under, ratio = under_toe_flow(current, chord_normal, section.toe_depth, water, passing_fraction)
+    down_pull = section.top_pull + inner * math.tan(curtain.anchor_slope) / curtain.span
+    return CurtainStatics(
+        curtain=curtain,
+        section=section,
+        section_heading=flow_heading - turn,
+        plan=plan,
+        toe_gap=water.depth - section.toe_depth,
+        toe_speed=under,
+        toe_speed_ratio=ratio,
+        upper_tension=plan.tension * (1.0 - share),
+        lower_tension=plan.tension * share,
+        anchor_force=inner,
+        end_anchor_force=lone,
+        anchor_line_tension=inner / math.cos(curtain.anchor_slope),
+        float_reserve=curtain.floats.buoyancy - curtain.floats.weight - down_pull,
+    )
+
+
+def drag_range(
+    curtain: HangingCurtain,
+    current: CurrentProfile,
+    flow_heading: float,
+    chord_normal: float,
+    water: Water,
+    *,
+    passing_fraction: float,
+) -> tuple[CurtainStatics, CurtainStatics, CurtainStatics]:
+    """Return the statics with the drag at the low end, as given, and at the high end of its range.
+
+    Arguments as :func:`solve_statics`.
+    """
+    laws = (curtain.drag.scaled(curtain.drag.range[0]), curtain.drag, curtain.drag.scaled(curtain.drag.range[1]))
+    low, middle, high = (
+        solve_statics(
+            replace(curtain, drag=law), current, flow_heading, chord_normal, water, passing_fraction=passing_fraction
+        )
+        for law in laws
+    )
+    return low, middle, high
+
+
+@dataclass(frozen=True)
+class SubmergedState:
+    """A float-and-sink curtain with flooded floats.
+
+    Parameters
+    ----------
+    net_weight : float
+        Force towards the bed per length [N/m]; negative when the flooded curtain still floats.
+    sinks : bool
+        Whether it goes to the bed by itself.
+    air_to_surface : float
+        Volume of air per length that lifts it again [m3/m], without suction of the bed.
+    holding_buoyancy : float
+        Upward force per length of buoys or legs that hold it off the bed [N/m].
+    """
+
+    net_weight: float
+    sinks: bool
+    air_to_surface: float
+    holding_buoyancy: float
+
+
+def submerged_state(curtain: HangingCurtain, water: Water) -> SubmergedState:
+    """Return whether the curtain sinks with flooded floats, and what lifts it again [eq:curtain-submerged].
+
+    In still water; a curtain held at a depth is solved by :func:`solve_statics` with ``top_depth``.
+    """
+    net = curtain.net_weight - curtain.floats.flooded_buoyancy
+    down = max(net, 0.0)
+    return SubmergedState(net, net > 0.0, down / (water.density * water.gravity), down)

@@ -1,0 +1,51 @@
+"""Submerged members: forces of waves and currents on them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from moyai.core.kinds import StructureKind
+from moyai.core.progress import Progress
+from moyai.core.results import Result
+
+
+class MemberKind(StructureKind):
+    """The parts of this folder, each imported when it is asked for."""
+
+    name = "member"
+    package = __name__
+    templates = (("member", "template.yaml"),)
+
+    def schema(self) -> Any:
+        from moyai.structures.member.case.schema import MemberCase
+
+        return MemberCase
+
+    def check(self, model: Any, findings: Any, folder: Path) -> None:
+        from moyai.structures.member.case.check import check
+
+        check(model, findings, folder)
+
+    def build(self, model: Any, folder: Path, *, case_text: str, case_hash: str) -> Any:
+        from moyai.structures.member.case.build import build_problem
+
+        return build_problem(model, folder, case_text=case_text, case_hash=case_hash)
+
+    def derived(self, case: Any) -> Any:
+        from moyai.structures.member.case.derived import derived_numbers
+
+        return derived_numbers(case)
+
+    def run(self, problem: Any, progress: Progress, keep: Path | None) -> Result:
+        from moyai.structures.member.run import run
+
+        return run(problem, progress)
+
+    def compose(self, result: Result) -> Any:
+        from moyai.structures.member.report.page import compose
+
+        return compose(result)
+
+
+KIND = MemberKind()

@@ -1,0 +1,167 @@
+"""From forces to labelled data: geometry, numbers of every wave, time series."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.morison.circulation import LAMINAR_EDGE
+from moyai.morison.members import StraightMember
+from moyai.structures.member.checks import orbit_ratio
+from moyai.structures.member.march import CAUSES, WaveForces
+from moyai.structures.member.model import MemberProblem
+from moyai.structures.member.variables import labelled
+from moyai.structures.member.waves import Wave
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+COMPONENTS = ["x", "y", "z"]
+AXES = ["first", "second"]
+
+
+def member_dataset(problem: MemberProblem, member: StraightMember) -> xr.Dataset:
+    """Return geometry and ideal inertia coefficients."""
+    import xarray as xr
+
+    section = member.placed_section
+    strips = member.strips(problem.settings.strips)
+    line = section.contour.polyline()
+    line = np.append(line, line[0])
+    inertia = section.inertia
+    width, height = section.extents
+    numbers = {
+        "area": section.area,
+        "width": width,
+        "height": height,
+        "length": member.length,
+        "inclination": member.inclination,
+        "principal_angle": inertia.principal_angle,
+        "inertia_error": inertia.error,
+    }
+    return labelled(
+        xr.Dataset(
+            {
+                **numbers,
+                "strip_x": ("strip", strips.centres[:, 0]),
+                "strip_y": ("strip", strips.centres[:, 1]),
+                "strip_z": ("strip", strips.centres[:, 2]),
+                "outline_x": ("outline_point", line.real),
+                "outline_z": ("outline_point", line.imag),
+                "axis_direction": (("axis", "component"), member.axes[:2]),
+                "ideal_inertia_coefficient": (("axis", "other_axis"), inertia.tensor),
+                "principal_inertia_coefficient": ("principal", np.asarray(inertia.principal)),
+            },
+            coords={"strip": _along(member, problem), "axis": AXES, "other_axis": AXES, "component": COMPONENTS},
+            attrs={"section": section.name},
+        )
+    )
+
+
+def _along(member: StraightMember, problem: MemberProblem) -> np.ndarray:
+    count = problem.settings.strips
+    return (np.arange(count) + 0.5) * member.length / count
+
+
+def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple[Wave, WaveForces]]) -> xr.Dataset:
+    """Return numbers of every wave of a sea state; strips of the largest KC stand for the member."""
+    import xarray as xr
+
+    waves = [wave for wave, _ in runs]
+
+    def governing(name: str) -> np.ndarray:
+        return np.array([found.strip[name][found.governing] for _, found in runs])
+
+    def strips(name: str) -> np.ndarray:
+        return np.array([found.strip[name] for _, found in runs])
+
+    force = [_tail(wave, found.force.sum(axis=0)) for wave, found in runs]
+    moment = [_tail(wave, found.moment) for wave, found in runs]
+    speeds = np.stack([governing("velocity_first"), governing("velocity_second")], axis=1)
+    period = 2.0 * math.pi / governing("frequency")
+    data = {
+        "wavelength": ("wave", np.array([2.0 * math.pi / wave.wave_number for wave in waves])),
+        "keulegan_carpenter": ("wave", governing("keulegan_carpenter")),
+        "reynolds": ("wave", governing("reynolds")),
+        "beta": ("wave", governing("beta")),
+        "orbit_ratio": ("wave", np.array([orbit_ratio(found) for _, found in runs])),
+        "velocity_amplitude": (("wave", "axis"), speeds),
+        "inertia_coefficient": (("wave", "axis"), governing("inertia")),
+        "plain_inertia_coefficient": (("wave", "axis"), governing("plain_inertia")),
+        "effective_inertia_coefficient": (("wave", "axis"), governing("effective_inertia")),
+        "drag_coefficient": (("wave", "axis"), governing("drag")),
+        "circulation": ("wave", _cleared(governing("circulation"), speeds, period)),
+        "settled_circulation": ("wave", _cleared(governing("settled_circulation"), speeds, period)),
+        "laminar_circulation": ("wave", LAMINAR_EDGE * speeds.prod(axis=1) * period),
+        "maximum_force": (("wave", "component"), np.array([np.abs(item).max(axis=0) for item in force])),
+        "mean_force": (("wave", "component"), np.array([_mean(item) for item in force])),
+        "force_deviation": (("wave", "component"), np.array([item.std(axis=0) for item in force])),
+        "maximum_total_force": ("wave", np.array([np.linalg.norm(item, axis=1).max() for item in force])),
+        "maximum_moment": (("wave", "component"), np.array([np.abs(item).max(axis=0) for item in moment])),
+        "maximum_end_force": (("wave", "end"), np.array([_ends(member, f, m) for f, m in zip(force, moment)])),
+        "maximum_strip_force": (("wave", "strip", "axis"), strips("force")),
+        "strip_keulegan_carpenter": (("wave", "strip"), strips("keulegan_carpenter")),
+        "wet_share": (("wave", "strip"), strips("wet")),
+    }
+    out = labelled(
+        xr.Dataset(
+            data,
+            coords={
+                "wave": [wave.name for wave in waves],
+                "wave_height": ("wave", np.array([wave.height for wave in waves])),
+                "period": ("wave", np.array([wave.period for wave in waves])),
+                "strip": _along(member, problem),
+                "axis": AXES,
+                "component": COMPONENTS,
+                "end": ["start", "end"],
+            },
+            attrs={"kind": "regular" if waves[0].regular else "irregular", "status": "converged"},
+        )
+    )
+    out["strip_keulegan_carpenter"].attrs = {"units": "1", "long_name": "Keulegan-Carpenter number along the member"}
+    return out
+
+
+def _cleared(circulation: np.ndarray, speeds: np.ndarray, period: np.ndarray) -> np.ndarray:
+    """Return circulations without what is only rounding of planar flow."""
+    return np.where(np.abs(circulation) < 1e-12 * speeds.max(axis=1) ** 2 * period, 0.0, circulation)
+
+
+def _mean(force: np.ndarray) -> np.ndarray:
+    """Return the mean without what is only rounding of the largest force."""
+    mean = force.mean(axis=0)
+    return np.where(np.abs(mean) < 1e-12 * np.abs(force).max(), 0.0, mean)
+
+
+def _tail(wave: Wave, values: np.ndarray) -> np.ndarray:
+    """Return the last period of a regular wave without its repeated end, or the whole irregular record."""
+    return values[-wave.time.size : -1] if wave.regular else values
+
+
+def _ends(member: StraightMember, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
+    """Return the largest resultants at both ends of a simply supported member [eq:member-ends]."""
+    along = (np.asarray(member.end) - np.asarray(member.start)) / member.length
+    couple = np.cross(moment, along) / member.length
+    # half of the force each, and a couple at the ends that balances the moment
+    return np.array([np.linalg.norm(0.5 * force + sign * couple, axis=1).max() for sign in (-1.0, 1.0)])
+
+
+def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
+    """Return the time series of one wave."""
+    import xarray as xr
+
+    parts = {f"{name}_force": (("time", "component"), found.force[index]) for index, name in enumerate(CAUSES)}
+    return labelled(
+        xr.Dataset(
+            {
+                "surface_elevation": ("time", found.elevation),
+                "force": (("time", "component"), found.force.sum(axis=0)),
+                **parts,
+                "circulation": ("time", found.circulation),
+            },
+            coords={"time": found.time, "component": COMPONENTS},
+            attrs={"wave_height": wave.height, "period": wave.period, "wave": wave.name},
+        )
+    )

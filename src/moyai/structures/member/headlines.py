@@ -1,0 +1,200 @@
+"""The numbers of a member's first page: the largest force with its causes and band, and where its KC stands.
+
+How the answer is made: docs/answer/member.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.headline import Band, Headline
+from moyai.core.validity import Notice
+from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
+from moyai.structures.member.model import MemberProblem
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+#: Share of the largest force above which a cause counts as one that decides.
+DECIDES = 0.1
+_CAUSES = ("inertia", "drag", "lift")
+
+
+@dataclass(frozen=True, eq=False)
+class _Largest:
+    """The wave with the largest force of all: its place in the result, causes over time (causes, times, 3) [N]."""
+
+    where: str
+    force: Array
+    row: int
+    value: float
+    sea: xr.Dataset
+    wave: int
+
+
+def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
+    """Return the first page's numbers of a member.
+
+    Parameters
+    ----------
+    problem : MemberProblem
+    groups : mapping of str to xarray.Dataset
+        What was run, by its place in the result.
+    """
+    found = _largest(groups)
+    if found is None:
+        return ()
+    shares = _shares(found)
+    ranges = _ranges(problem)
+    model = f"Morison's equation, {ranges[1].name}, {ranges[0].name}"
+    if problem.circulation.counted:
+        model += f", {CIRCULATION.name}"
+    items = [
+        Headline(
+            "peak_force", "largest force on the member", found.value, "N", found.where, model,
+            _band(problem, found, ranges), detail=_causes_text(shares),
+        )
+    ]  # fmt: skip
+    number, reynolds = (float(found.sea[key].values[found.wave]) for key in ("keulegan_carpenter", "reynolds"))
+    items.append(
+        Headline(
+            "keulegan_carpenter", _number_label(found), number, "1", found.where,
+            detail="; ".join([*(_range_text(item, number, reynolds) for item in ranges), f"Re = {reynolds:.2g}"]),
+        )
+    )  # fmt: skip
+    ends = found.sea["maximum_end_force"].values[found.wave]
+    items.append(
+        Headline(
+            "end_force", "largest force at an end", float(np.max(ends)), "N", found.where, model,
+            detail="of a member that rests simply on both ends",
+        )
+    )  # fmt: skip
+    return tuple(items)
+
+
+def _number_label(found: _Largest) -> str:
+    regular = found.sea.attrs.get("kind") == "regular"
+    return "Keulegan-Carpenter number" + ("" if regular else " of the significant velocity")
+
+
+def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Notice, ...]:
+    """Warn where a cause that decides the largest force has coefficients outside their measured range of KC."""
+    found = _largest(groups)
+    if found is None:
+        return ()
+    shares = dict(zip(_CAUSES, _shares(found), strict=True))
+    number = float(found.sea["keulegan_carpenter"].values[found.wave])
+    notices = []
+    for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem), strict=False):
+        low, high = measured.keulegan_carpenter
+        if abs(shares[cause]) < DECIDES or low <= number <= high:
+            continue
+        limit = low if number < low else high
+        notices.append(
+            Notice(
+                "coefficients-outside-measurement",
+                f"{found.where}: {measured.name} was measured at KC {'above' if number < low else 'below'} {limit:g}, "
+                f"here KC = {number:.3g}; {cause} makes {100.0 * shares[cause]:.0f} % of the largest force",
+                number, limit, "warning", "give coefficients measured at this KC", measured.source,
+            )
+        )  # fmt: skip
+    return tuple(notices)
+
+
+def _ranges(problem: MemberProblem) -> tuple[MeasuredRange, ...]:
+    """Return the ranges of drag, inertia and, where it is counted, the circulation."""
+    found = (drag_range(problem.rule), inertia_range(problem.rule))
+    return (*found, CIRCULATION) if problem.circulation.counted else found
+
+
+def _runs(groups: Mapping[str, xr.Dataset]) -> Iterator[tuple[str, str, int, xr.Dataset, xr.Dataset]]:
+    """Yield level, sea, wave, numbers of the sea and series of every run."""
+    for path, sea in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) != 3 or parts[1] != "waves":
+            continue
+        level, _, name = parts
+        for wave in range(sea.sizes["wave"]):
+            label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+            series = groups.get(f"/{level}/time/{name}/{label}")
+            if series is not None:
+                yield level, name, wave, sea, series
+
+
+def _largest(groups: Mapping[str, xr.Dataset]) -> _Largest | None:
+    best: _Largest | None = None
+    for level, name, wave, sea, series in _runs(groups):
+        value = float(sea["maximum_total_force"].values[wave])
+        if best is not None and not value > best.value:
+            continue
+        causes = np.stack([series[key].values for key in ("inertia_force", "drag_force", "magnus_force")])
+        size = np.linalg.norm(causes.sum(axis=0), axis=1)
+        # the last row of a wave that takes time to settle: the first from the end that reaches the value
+        row = len(size) - 1 - int(np.argmin(np.abs(size[::-1] - value)))
+        label = str(sea["wave"].values[wave])
+        where = ", ".join(part for part in (name, "" if label == "sea" else label, level) if part)
+        best = _Largest(where, causes, row, value, sea, wave)
+    return best
+
+
+def _shares(found: _Largest) -> tuple[float, float, float]:
+    """Return what inertia, drag and lift add along the largest force at its instant, over it: they add up to one."""
+    parts = found.force[:, found.row]
+    total = parts.sum(axis=0)
+    square = float(total @ total)
+    if square == 0.0:
+        return (0.0, 0.0, 0.0)
+    return tuple(float(part @ total) / square for part in parts)  # type: ignore[return-value]
+
+
+def _causes_text(shares: tuple[float, float, float]) -> str:
+    words = ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in zip(_CAUSES, shares, strict=True))
+    return f"{_CAUSES[int(np.argmax(shares))]} decides: {words}"
+
+
+def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
+    """Return the smallest and largest peak with every coefficient at either end of its allowance.
+
+    Forces are proportional to their coefficients [eq:morison-strip], so the series of the causes give every
+    combination without a further run.
+    """
+    ends = [(1.0 - item.below, 1.0 + item.above) for item in ranges]
+    order = (1, 0, 2)
+    factors = [ends[k] if k < len(ends) else (1.0,) for k in order]
+    peaks = [
+        float(np.linalg.norm(np.tensordot(np.array(chosen), found.force, axes=(0, 0)), axis=1).max())
+        for chosen in product(*factors)
+    ]
+    words = [f"C_D -{100 * ranges[0].below:.0f} to +{100 * ranges[0].above:.0f} %"]
+    words.append(f"C_M -{100 * ranges[1].below:.0f} to +{100 * ranges[1].above:.0f} %")
+    if len(ranges) > 2:
+        words.append(f"circulation ±{100 * ranges[2].above:.0f} %")
+    return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
+
+
+def _range_text(item: MeasuredRange, number: float, reynolds: float) -> str:
+    def words(symbol: str, limits: tuple[float, float]) -> str:
+        low, high = limits
+        if low <= 0.0 and math.isinf(high):
+            return ""
+        if math.isinf(high):
+            return f"{symbol} above {low:g}"
+        return f"{symbol} {low:g} to {high:g}"
+
+    told = " and ".join(
+        text for text in (words("KC", item.keulegan_carpenter), words("Re", item.reynolds)) if text
+    ) or "no range stated"  # fmt: skip
+    outside = "" if item.holds(number, reynolds) else " (outside)"
+    return f"{item.name}: {told}{outside}"
+
+
+__all__ = ["DECIDES", "headlines_of", "range_notices"]

@@ -1,0 +1,120 @@
+"""Compose the report of a submerged member: governing forces first, then what they rest on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from moyai.core.results import Result
+from moyai.report.document import (
+    Block,
+    Choice,
+    Document,
+    Option,
+    Paragraph,
+    Section,
+)
+from moyai.report.formatting import format_quantity
+from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.headlines import headline_figures
+from moyai.report.reading import Group
+from moyai.structures.member.report import figures
+
+MOST_RUNS = 12
+
+
+def compose(result: Result) -> Document:
+    """Compose the report of a submerged member.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = Group("", result.tree)
+    levels = tuple(child for child in root.children() if "water_depth" in child.attributes)
+
+    def at_each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
+        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        return (Choice("water-level", "Water level", tuple(options)),)
+
+    purpose = str(root.attributes.get("purpose", ""))
+    sections = [
+        Section("summary", "Summary", (*_summary(result, purpose), *notice_blocks(result))),
+        Section("input", "Input", (case_listing(root), *at_each_level(_input))),
+        Section("law", "Inertia and circulation over KC", at_each_level(figures.over_keulegan_carpenter)),
+        Section("seas", "Sea states", at_each_level(_seas)),
+        Section("surface", "Free surface", at_each_level(lambda level: [figures.surface_table(level)])),
+        Section("time", "Forces over time", at_each_level(_time)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _subtitle(levels: tuple[Group, ...]) -> str:
+    parts = ["Submerged member"]
+    if levels:
+        member = levels[0].child("member")
+        parts.append(str(member.attributes.get("section", "")))
+        sizes = [format_quantity(member.value(name), "m") for name in ("width", "height", "length")]
+        parts.append(" × ".join(sizes))
+    return ", ".join(part for part in parts if part)
+
+
+def _summary(result: Result, purpose: str) -> tuple[Block, ...]:
+    figures_of = headline_figures(result)
+    if figures_of is None:
+        return (Paragraph("The result holds no forces."),)
+    said = (
+        "The circulation of orbital flow is left out, which keeps the larger inertia force (purpose: extreme)."
+        if purpose == "extreme"
+        else "The circulation of orbital flow is counted (purpose: response); it lowers the inertia force."
+    )
+    return (figures_of, Paragraph(said))
+
+
+def _input(level: Group) -> list[Block | None]:
+    return [figures.member_table(level), figures.section_drawing(level)]
+
+
+def _seas(level: Group) -> list[Block | None]:
+    blocks: list[Block | None] = []
+    for sea in level.child("waves").children():
+        blocks += [
+            figures.force_table(level, sea),
+            figures.coefficient_table(level, sea),
+            figures.along_member(level, sea),
+        ]
+    return blocks
+
+
+def _time(level: Group) -> list[Block | None]:
+    options, largest = [], []
+    for sea in level.child("time").children():
+        runs = sea.children()
+        step = max(1, math.ceil(len(runs) / MOST_RUNS))
+        # counted from the end, so that the last and highest wave is among them
+        for run in runs[::-1][::step][::-1]:
+            figure = figures.force_over_time(level, sea, run)
+            force = run.real("force", "time", "component")
+            if figure is not None and force is not None:
+                options.append(Option(f"{sea.name}: {run.attributes.get('wave', run.name)}", (figure,)))
+                largest.append(float((force**2).sum(axis=1).max()))
+    if not options:
+        return []
+    return [Choice(f"run-{level.name}", "Wave", tuple(options), largest.index(max(largest)), print_all=False)]

@@ -1,0 +1,232 @@
+"""Run a member: every water level, every sea, the analyses that the case names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.collected import STOPPED, Collected
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.morison.members import StraightMember
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+from moyai.structures.member.checks import member_notices, require_in_water, wave_notices
+from moyai.structures.member.datasets import member_dataset, sea_dataset, time_dataset
+from moyai.structures.member.headlines import headlines_of, range_notices
+from moyai.structures.member.march import WaveForces, march
+from moyai.structures.member.model import MemberProblem, RegularWaves
+from moyai.structures.member.surface import can_be_evaluated, relative_heading, surface_effect, surface_notices
+from moyai.structures.member.sweep import sweep
+from moyai.structures.member.variables import labelled
+from moyai.structures.member.waves import Wave, waves_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Departure of the variance of a realisation, cut at its duration, from that of the spectrum
+_VARIANCE = 0.05
+
+
+def run(problem: MemberProblem, progress: Progress = silent) -> Result:
+    """Run all analyses of a member.
+
+    Parameters
+    ----------
+    problem : MemberProblem
+    progress : Progress
+        Told of every wave; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the member is above the surface, below the bed, or a coefficient law does not speak of its section.
+    """
+    collected = Collected()
+    for name, level in problem.environment.water_levels:
+        require_in_water(problem.member_at(level), problem.environment.water_at(level), name)
+    try:
+        for _ in _steps(problem, collected, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = STOPPED
+    return _result(problem, collected)
+
+
+def _steps(problem: MemberProblem, collected: Collected, progress: Progress) -> Iterator[None]:
+    levels = problem.environment.water_levels
+    collected.checks.extend(problem.member.placed_section.inertia.checks)
+    for index, (name, level) in enumerate(levels):
+        progress("water levels", index, len(levels))
+        member, water = problem.member_at(level), problem.environment.water_at(level)
+        root = f"/{name}"
+        collected.groups[root] = _header(level, water)
+        collected.groups[f"{root}/member"] = member_dataset(problem, member)
+        collected.notices.extend(member_notices(problem, member))
+        frequency = _leading_frequency(problem)
+        if "sweep" in problem.settings.analyses and frequency is not None:
+            collected.groups[f"{root}/sweep"] = sweep(problem, frequency)
+            yield
+        if "forces" in problem.settings.analyses:
+            for sea in problem.seas:
+                yield from _sea_steps(problem, member, water, sea, collected, root, progress)
+        if "surface" in problem.settings.analyses:
+            for sea in problem.seas:
+                _surface(problem, member, water, sea, collected, root, progress)
+                yield
+    progress("water levels", len(levels), len(levels))
+
+
+def _header(level: float, water: Water) -> xr.Dataset:
+    import xarray as xr
+
+    return xr.Dataset(attrs={"water_level": level, "water_depth": water.depth})
+
+
+def _leading_frequency(problem: MemberProblem) -> float | None:
+    """Return the frequency [Hz] that the sweep over KC is made at: that of the first sea."""
+    if not problem.seas:
+        return None
+    first = problem.seas[0]
+    period = first.periods[0] if isinstance(first, RegularWaves) else float(first.spectrum.peak_period)
+    return 1.0 / period
+
+
+def _sea_steps(
+    problem: MemberProblem,
+    member: StraightMember,
+    water: Water,
+    sea: RegularWaves | IrregularSea,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    waves = waves_of(problem, sea, water)
+    runs: list[tuple[Wave, WaveForces]] = []
+    told: list[Notice] = []
+    for number, wave in enumerate(waves):
+        progress(f"forces, {sea.name}", number, len(waves))
+        found = march(problem, member, wave)
+        runs.append((wave, found))
+        label = f"wave {number + 1}" if wave.regular else "sea"
+        collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(wave, found)
+        collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
+        told.extend(wave_notices(problem, member, wave, found))
+        if isinstance(sea, IrregularSea):
+            collected.checks.append(_variance(sea.name, sea, found))
+        else:
+            collected.checks.append(_periodicity(sea.name, wave, found))
+        yield
+    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in _gravest(told))
+    progress(f"forces, {sea.name}", len(waves), len(waves))
+
+
+def _gravest(notices: list[Notice]) -> list[Notice]:
+    """Keep of each kind the notice farthest beyond its limit: one message a sea, not one a wave."""
+    kept: dict[str, Notice] = {}
+    for notice in notices:
+        known = kept.get(notice.code)
+        if known is None or _excess(notice) > _excess(known):
+            kept[notice.code] = notice
+    return list(kept.values())
+
+
+def _excess(notice: Notice) -> float:
+    if not (notice.value > 0.0 and notice.limit > 0.0):
+        return 0.0
+    return abs(math.log(notice.value / notice.limit))
+
+
+def _periodicity(name: str, wave: Wave, found: WaveForces) -> IdentityCheck:
+    """Tell whether the force of a regular wave repeats itself at the end of the run."""
+    total = found.force.sum(axis=0)
+    largest = float(np.abs(total).max())
+    first, last = total[-wave.time.size], total[-1]
+    violation = 0.0 if largest == 0.0 else float(np.abs(last - first).max()) / largest
+    return IdentityCheck(
+        f"{name}, {wave.name}: force after a period", violation, 1e-3, "the last period ends as it began"
+    )
+
+
+def _variance(name: str, sea: IrregularSea, found: WaveForces) -> IdentityCheck:
+    """Hold the variance of the surface above the member against the spectrum."""
+    wanted = float(sea.spectrum.variance)
+    violation = abs(float(np.var(found.elevation)) / wanted - 1.0) if wanted > 0.0 else 0.0
+    return IdentityCheck(
+        f"{name}: variance of the surface", violation, _VARIANCE, "that of the record equals the zeroth moment"
+    )
+
+
+def _surface(
+    problem: MemberProblem,
+    member: StraightMember,
+    water: Water,
+    sea: RegularWaves | IrregularSea,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> None:
+    import xarray as xr
+
+    why = can_be_evaluated(member, sea.heading)
+    if why:
+        collected.notices.append(
+            Notice(
+                "near-surface-not-evaluated",
+                f"{sea.name}: what the free surface changes was not computed: {why}",
+                severity="information",
+            )
+        )
+        return
+    periods = sea.periods if isinstance(sea, RegularWaves) else (float(sea.spectrum.peak_period),)
+    depth = -0.5 * (member.start[2] + member.end[2])
+    effect = surface_effect(
+        member.placed_section,
+        depth,
+        water,
+        np.asarray(periods, dtype=float),
+        relative_heading(member, sea.heading),
+        progress,
+    )
+    collected.checks.extend(replace(check, name=f"{sea.name}: {check.name}") for check in effect.checks)
+    collected.notices.extend(surface_notices(effect, sea.name))
+    collected.groups[f"{root}/surface/{sea.name}"] = labelled(
+        xr.Dataset(
+            {
+                "near_surface_inertia_coefficient": (("period", "axis"), effect.inertia),
+                "near_surface_change": (("period", "axis"), effect.change),
+                "radiation_ratio": (("period", "axis"), effect.radiation),
+            },
+            coords={"period": effect.period, "axis": ["first", "second"]},
+        )
+    )
+
+
+def _result(problem: MemberProblem, collected: Collected) -> Result:
+    attributes = {
+        "structure": "member",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+        "purpose": problem.circulation.purpose,
+    }
+    collected.notices.extend(range_notices(problem, collected.groups))
+    return collected.close(
+        attributes,
+        [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
+        headlines=headlines_of(problem, collected.groups),
+        criteria=problem.criteria,
+    )
+
+
+__all__ = ["run"]

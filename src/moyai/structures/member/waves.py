@@ -1,0 +1,132 @@
+"""From the seas of a case to flows: one flow, time grid and period for every wave."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.morison.flow import Flow, LinearFlow, NonlinearFlow
+from moyai.sea.components import WaveComponents
+from moyai.sea.current import CurrentProfile
+from moyai.sea.dispersion import wave_number_in_current
+from moyai.sea.irregular import synthesise
+from moyai.sea.nonlinear import nonlinear_wave
+from moyai.sea.states import IrregularSea
+from moyai.sea.water import Water
+from moyai.structures.member.model import MemberProblem, RegularWaves
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Wave:
+    """One wave or irregular sea, ready to be run.
+
+    Parameters
+    ----------
+    name : str
+        Of its run.
+    flow : Flow
+    height, period : float
+        H and T, or significant height and peak period [m], [s].
+    wave_number : float
+        Of that period [1/m].
+    heading : float
+        [rad].
+    time : ndarray
+        Uniform grid [s]; one whole period for regular waves (the last point repeats the first).
+    regular : bool
+    current : CurrentProfile or None
+        That of the case at the water level of the wave.
+    """
+
+    name: str
+    flow: Flow
+    height: float
+    period: float
+    wave_number: float
+    heading: float
+    time: Array
+    regular: bool
+    current: CurrentProfile | None = None
+
+
+def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
+    """Return the current averaged over the depth, on which the waves ride [m/s].
+
+    In infinite depth the mean over the upper part that waves of the longest period reach cannot be known beforehand;
+    the surface value is taken.
+    """
+    if problem.environment.current is None:
+        return 0.0, 0.0
+    current = problem.environment.current.in_depth(water.depth)
+    found = current.velocity(0.0) if math.isinf(water.depth) else current.depth_mean(-water.depth, 0.0)
+    return float(found[0]), float(found[1])
+
+
+def waves_of(problem: MemberProblem, sea: RegularWaves | IrregularSea, water: Water) -> tuple[Wave, ...]:
+    """Return every wave of a sea state at a water depth."""
+    current = mean_current(problem, water)
+    profile = None if problem.environment.current is None else problem.environment.current.in_depth(water.depth)
+    if isinstance(sea, IrregularSea):
+        period = float(sea.spectrum.peak_period)
+        step = period / problem.settings.irregular_steps
+        parts = synthesise(
+            sea.spectrum,
+            water,
+            duration=sea.duration,
+            seed=sea.seed,
+            heading=sea.heading,
+            spreading=sea.spreading,
+            time_step=step,
+            current=current,
+        )
+        count = max(2, math.floor(parts.repeat_period / step + 0.5))
+        time = np.arange(count + 1) * (parts.repeat_period / count)
+        keep = time <= sea.duration * (1.0 + 1e-9)
+        flow = LinearFlow(parts, problem.settings.stretching)
+        number = _wave_number(period, water, current, sea.heading)
+        height = float(sea.spectrum.significant_height)
+        grid = np.asarray(time[keep], dtype=np.float64)
+        return (Wave("sea", flow, height, period, number, sea.heading, grid, False, profile),)
+    waves = (_regular(problem, sea, height, period, water, current) for height, period in sea.waves())
+    return tuple(replace(wave, current=profile) for wave in waves)
+
+
+def _wave_number(period: float, water: Water, current: tuple[float, float], heading: float) -> float:
+    along = current[0] * math.cos(heading) + current[1] * math.sin(heading)
+    return float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, along))
+
+
+def _regular(
+    problem: MemberProblem, sea: RegularWaves, height: float, period: float, water: Water, current: tuple[float, float]
+) -> Wave:
+    omega = 2.0 * math.pi / period
+    along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
+    time: Array = np.linspace(0.0, period, problem.settings.steps_per_period + 1)
+    name = f"H {height:.4g} m, T {period:.4g} s"
+    if sea.theory != "linear":
+        wave = nonlinear_wave(
+            sea.theory,
+            height=height,
+            water=water,
+            period=period,
+            heading=sea.heading,
+            current_along_wave=along,
+        )
+        flow: Flow = NonlinearFlow(wave)
+        return Wave(name, flow, height, period, wave.wave_number, sea.heading, time, True)
+    number = _wave_number(period, water, current, sea.heading)
+    parts = WaveComponents(
+        omega=np.array([omega]),
+        amplitude=np.array([0.5 * height]),
+        phase=np.zeros(1),
+        heading=np.array([sea.heading]),
+        wave_number=np.array([number]),
+        water=water,
+        intrinsic_omega=np.array([omega - number * along]),
+    )
+    return Wave(name, LinearFlow(parts, problem.settings.stretching), height, period, number, sea.heading, time, True)

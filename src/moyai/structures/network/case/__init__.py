@@ -1,0 +1,1 @@
+"""Case files of networks: schema, checks, and the problem that they state."""

@@ -1,0 +1,79 @@
+"""Case files of a network as MoorDyn decks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.errors import InputError
+from moyai.interop.moordyn_deck import MoorDynDeck
+from moyai.interop.moordyn_network import to_deck
+from moyai.interop.moordyn_records import FREQUENCY_FILE, DeckCurrent, DeckOption, DeckWaves
+
+if TYPE_CHECKING:
+    from moyai.case.reader import Case
+    from moyai.sea.water import Water
+    from moyai.structures.network.model import NetworkProblem
+
+#: Heights at which a current is written.
+CURRENT_ROWS = 101
+
+
+def deck_of_case(case: Case, water_level: str | None = None) -> MoorDynDeck:
+    """Return the deck of a network case at one water level (the first when left out).
+
+    Raises
+    ------
+    InputError
+        For a case of another structure or with bodies, or an unknown water level.
+    CaseError
+        All that MoorDyn cannot express, see :func:`moyai.interop.moordyn_network.to_deck`.
+    """
+    from moyai.case.builder import build
+    from moyai.structures.network.assembly import assemble
+
+    if case.kind != "network":
+        raise InputError(f"a case of kind '{case.kind}' has no deck", path="structure.kind", allowed="network")
+    problem = build(case)
+    if problem.bodies:
+        raise InputError(
+            f"the body '{problem.bodies[0].name}' cannot be written into a deck", path="structure.bodies",
+            remedy="decks with bodies are read, not written: give MoorDyn the body in a deck of your own",
+        )  # fmt: skip
+    levels = dict(problem.environment.water_levels)
+    name = water_level or next(iter(levels))
+    if name not in levels:
+        raise InputError(f"there is no water level '{name}'", path="--water-level", allowed=", ".join(levels))
+    deck = to_deck(assemble(problem, levels[name]).network, title=case.title)
+    return _with_sea(deck, problem, problem.environment.water_at(levels[name]))
+
+
+def _with_sea(deck: MoorDynDeck, problem: NetworkProblem, water: Water) -> MoorDynDeck:
+    """Return the deck with the current and the waves of a case; notes say what a deck cannot hold."""
+    from moyai.structures.network.runs import run_plans
+
+    options, notes, current, waves = list(deck.options), list(deck.notes), None, None
+    flowing = problem.environment.current
+    if flowing is not None:
+        heights = np.linspace(-water.depth, 0.0, CURRENT_ROWS)
+        velocity = flowing.in_depth(water.depth).velocity(heights)
+        current = DeckCurrent(tuple(map(float, heights)), tuple((float(u), float(v)) for u, v in velocity))
+        options.append(DeckOption("Currents", 1.0))
+        notes.append(f"the current stands in current_profile.txt at {CURRENT_ROWS} heights")
+    seas = (
+        [plan for plan in run_plans(problem, water) if plan.waves is not None] if problem.environment.sea_states else []
+    )
+    if len(seas) == 1 and seas[0].waves is not None:
+        sea = seas[0].waves
+        columns = (sea.omega, sea.amplitude * np.sin(sea.phase), sea.amplitude * np.cos(sea.phase), sea.heading)
+        omega, real, imaginary, direction = (tuple(map(float, column)) for column in columns)
+        waves = DeckWaves(omega, real, imaginary, direction)
+        options.append(DeckOption("WaveKin", 7.0))
+        notes.append(
+            f"the waves stand in {FREQUENCY_FILE}; they do not ride on the current there, nor grow from nothing"
+        )
+    elif seas:
+        notes.append(f"the case has {len(seas)} seas, a deck one: none is written")
+    return replace(deck, options=tuple(options), current=current, waves=waves, notes=tuple(notes))

@@ -1,0 +1,213 @@
+"""Schema of the network case: points, lines and nets in free arrangement, at rest and in motion."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+
+from moyai.case.schema_criteria import CRITERIA, NetworkCriteria, NetworkKeeps
+from moyai.case.schema_environment import (
+    BretschneiderMitsuyasu,
+    Current,
+    Jonswap,
+    PiersonMoskowitz,
+    RegularWaves,
+    Site,
+    SpectrumFile,
+    Tma,
+    _FromBearing,
+    refuse_no_seas,
+)
+from moyai.case.schema_types import (
+    AngularFrequency,
+    AutoDuration,
+    Block,
+    Duration,
+    FileName,
+    KeyGroups,
+    Name,
+    OneOrMany,
+    PositiveForce,
+    PositiveLength,
+    QuantityOf,
+    Truth,
+    Whole,
+    once_each,
+)
+from moyai.core import quantities
+from moyai.structures.network.case.schema_parts import (
+    NetworkBed,
+    NetworkBody,
+    NetworkLine,
+    NetworkLineType,
+    NetworkNet,
+    NetworkPoint,
+    NetworkSheet,
+    NonNegativeDuration,
+    PointMotion,
+)
+
+NetworkAnalysis = Literal["statics", "modes", "dynamic"]
+Share = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=1.0)]
+Slack = Annotated[float, QuantityOf(quantities.FORCE, least=0.0)]
+Phase = Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)]
+Tolerance = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, below=1.0)]
+
+
+class NetworkStructure(Block):
+    """Points joined by lines and nets."""
+
+    at_least_one: ClassVar[KeyGroups] = (("lines", "nets", "sheets", "bodies"),)
+
+    kind: Literal["network"] = Field(description="Network of lines and nets.")
+    line_types: dict[Name, NetworkLineType] = Field(default={}, description="Materials, by name.", max_length=500)
+    motions: dict[Name, PointMotion] = Field(
+        default={}, description="Prescribed motions that driven points follow, by name.", max_length=500
+    )
+    points: dict[Name, NetworkPoint] = Field(default={}, description="Points, by name.", max_length=20_000)
+    lines: dict[Name, NetworkLine] = Field(default={}, description="Lines between points, by name.", max_length=20_000)
+    nets: dict[Name, NetworkNet] = Field(
+        default={},
+        description="Nets, by name; their knots are points called 'name[row,column]', counted from 0.",
+        max_length=50,
+    )
+    sheets: dict[Name, NetworkSheet] = Field(
+        default={},
+        description="Sheets, by name; their knots are points called 'name[row,column]', counted from 0.",
+        max_length=50,
+    )
+    bodies: dict[Name, NetworkBody] = Field(
+        default={},
+        description="Rigid bodies in six degrees of freedom, by name; lines meet their points.",
+        max_length=50,
+    )
+    bed: NetworkBed | None = Field(default=None, description="Contact with the bed; none when left out.")
+
+
+class SingleWave(_FromBearing):
+    """One wave of a sea."""
+
+    exactly_one: ClassVar[KeyGroups] = (*_FromBearing.exactly_one, ("period", "angular_frequency"))
+
+    amplitude: PositiveLength = Field(description="Amplitude.")
+    period: Duration | None = Field(default=None, description="Period.")
+    angular_frequency: AngularFrequency | None = Field(default=None, description="Angular frequency.")
+    phase_deg: Phase = Field(default=0.0, description="Phase at the origin at the time 0; 0 is a crest. Default: 0.")
+
+
+class WavesOneByOne(Block):
+    """A sea given wave by wave."""
+
+    kind: Literal["components"] = Field(description="A sum of linear waves, each with its phase.")
+    name: Name | None = Field(default=None, description="Label of the sea state in results; made up when absent.")
+    waves: Annotated[tuple[SingleWave, ...], Field(min_length=1, max_length=10_000)] = Field(
+        description="Its waves, amplitude cos(k (x cos b + y sin b) - omega t + phase)."
+    )
+
+
+class ElevationRecord(_FromBearing):
+    """A sea whose elevation at the origin was recorded."""
+
+    kind: Literal["elevation_record"] = Field(description="A record of the elevation at the origin, long-crested.")
+    name: Name | None = Field(default=None, description="Label of the sea state in results; made up when absent.")
+    file: FileName = Field(
+        description="Text file of time [s] and elevation [m], comma, semicolon, tab or blank separated; a heading is "
+        "allowed. Its first row is the time 0; past its end it repeats."
+    )
+    time_step: Duration | None = Field(
+        default=None, description="Even step that the record is taken at. Default: its smallest."
+    )
+
+
+NetworkSea = Annotated[
+    RegularWaves | Jonswap | PiersonMoskowitz | BretschneiderMitsuyasu | Tma | SpectrumFile | WavesOneByOne
+    | ElevationRecord,
+    Field(discriminator="kind"),
+]  # fmt: skip
+
+
+class NetworkSettings(Block):
+    """How the analyses are run."""
+
+    duration: AutoDuration = Field(
+        default=None,
+        description="Length of a run in still water or regular waves; 'auto': twenty periods of the waves or motions. "
+        "Irregular seas have their own.",
+    )
+    output_step: AutoDuration = Field(
+        default=None, description="Time between two rows of the results; 'auto': a hundredth of the shortest period."
+    )
+    ramp: NonNegativeDuration | None = Field(
+        default=None, description="Time over which waves and current grow. Default: one period of the waves, or 0."
+    )
+    start: Literal["rest", "rest_in_current", "as_built"] = Field(
+        default="rest",
+        description="Where a run begins: at rest in still water, at rest in the current (which then stands from the "
+        "start), or as built.",
+    )
+    resume: FileName | None = Field(
+        default=None,
+        description="results.nc of an interrupted run of this case, whose runs go on from their last state.",
+    )
+    method: Literal["auto", "explicit", "tr_bdf2", "esdirk4"] = Field(
+        default="auto",
+        description="explicit: steps at the pace of the elastic wave; tr_bdf2, esdirk4: implicit, steps by their "
+        "error, and often quicker beside sheets; auto: explicit.",
+    )
+    step: AutoDuration = Field(default=None, description="Time step; 'auto': the largest that is safe.")
+    wave_front: Truth = Field(
+        default=False, description="Explicit steps exactly at the pace of the elastic wave, for a sharp front."
+    )
+    tolerance: Tolerance = Field(default=1e-4, description="Error of one implicit step. Default: 1e-4.")
+    stretching: Literal["wheeler", "linear", "constant"] = Field(
+        default="wheeler", description="Kinematics of the waves above still water."
+    )
+    skip: NonNegativeDuration = Field(
+        default=0.0, description="Beginning of each run that peaks and statistics leave out. Default: 0."
+    )
+    sensitivity: Truth = Field(
+        default=False,
+        description="Run again with half the step, half the bars, half and twice the viscosity, to tell what the peak "
+        "is worth.",
+    )
+    mesh_check: Literal["auto", "off"] = Field(
+        default="auto",
+        description="auto: run again with half the step and with twice the segments where that takes little time, or "
+        "where snaps, fronts or few segments make the peak doubtful; off: do not.",
+    )
+    peak_goal: Tolerance = Field(
+        default=0.05,
+        description="Change of the highest tension with half the step or twice the segments above which a run is not "
+        "converged. Default: 0.05.",
+    )
+    slack_level: Slack = Field(default=0.0, description="Tension at or below which a line is slack. Default: 0.")
+    snap_threshold: PositiveForce | None = Field(
+        default=None, description="Peak above which a contact is a snap; the mean of the taut tension when left out."
+    )
+    modes: Whole = Field(default=6, description="Number of natural modes. Default: 6.")
+    stiffness_step: Annotated[float, QuantityOf(quantities.LENGTH, above=0.0)] | None = Field(
+        default=None, description="Displacement that the stiffness at driven points is taken over; 1 mm to 1 cm."
+    )
+    water_levels: Annotated[
+        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+        Discriminator(lambda value: "<word>" if isinstance(value, str) else "<list>"),
+    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+
+
+class NetworkCase(Block):
+    """A network from its site to its tensions."""
+
+    moyai: Literal[1] = Field(description="Version of the case file format.")
+    title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
+    site: Site = Field(description="The water of the site.")
+    waves: Annotated[tuple[NetworkSea, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
+        default=(), description="One sea state, or a list of them; each is run. Still water when left out."
+    )
+    current: Current | None = Field(default=None, description="Steady current.")
+    structure: NetworkStructure = Field(description="The network.")
+    analyses: Annotated[tuple[NetworkAnalysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
+        description="What is computed.", examples=[["statics", "modes", "dynamic"]]
+    )
+    criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
+    settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")

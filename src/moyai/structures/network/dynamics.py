@@ -1,0 +1,265 @@
+"""Runs of a network through time, and what their peaks are worth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.flexible.result import History, State
+from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
+from moyai.flexible.simulate import simulate
+from moyai.flexible.snap import SnapRecord
+from moyai.structures.network.assembly import Assembly
+from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
+from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.refinement import affordable, check_peak, doubt, not_converged, unchecked
+from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
+from moyai.structures.network.run_notices import capsized, peak_inside, run_notices
+from moyai.structures.network.runs import RunPlan, motions_of
+from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A run and what is told of it.
+
+    Parameters
+    ----------
+    plan : RunPlan
+    history : History
+    series, frames : xarray.Dataset
+        Time series of lines and points; places of all nodes and tensions of all bars at fewer times.
+    snaps : mapping of str to SnapRecord
+        By line.
+    sensitivity : PeakSensitivity or None
+        Of the line with the highest tension.
+    governing : str
+        That line.
+    notices, checks : tuple
+    doubt : str
+        Why the peak may hang on mesh and step; empty where nothing says so.
+    failure : str
+        Why the peak is not converged; empty where it is, or was not checked.
+    """
+
+    plan: RunPlan
+    history: History
+    series: xr.Dataset
+    frames: xr.Dataset
+    snaps: Mapping[str, SnapRecord]
+    sensitivity: PeakSensitivity | None
+    governing: str
+    notices: tuple[Notice, ...]
+    checks: tuple[IdentityCheck, ...]
+    doubt: str = ""
+    failure: str = ""
+
+
+def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
+    """Return the arguments of :func:`moyai.flexible.simulate.simulate` for a run."""
+    settings = problem.settings
+    method = "explicit" if settings.method == "auto" else settings.method
+    return {
+        "duration": plan.duration,
+        "output_step": plan.output_step,
+        "flow": plan.flow,
+        "method": method,
+        "step": settings.step,
+        "safety": 1.0 if settings.wave_front and method == "explicit" else None,
+        "tolerance": settings.tolerance,
+    }
+
+
+def run(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    plan: RunPlan,
+    begin: State,
+    progress: Progress = silent,
+    earlier: Earlier | None = None,
+    hung: CoupledRest | None = None,
+) -> Run:
+    """Run a network through time and gather what is told of it.
+
+    Parameters
+    ----------
+    problem : NetworkProblem
+    assembly : Assembly
+    plan : RunPlan
+    begin : State
+        Where it starts.
+    progress : Progress
+    earlier : Earlier, optional
+        Rows of the same run up to ``begin``.
+    hung : CoupledRest, optional
+        Bodies and network at rest, where a run with bodies starts; as built when left out.
+
+    Raises
+    ------
+    InputError
+        When a table of motion ends before the run.
+    """
+    network = assembly.network
+    motions = motions_of(problem, plan.duration)
+    nodes = kept_nodes(assembly, round(plan.duration / plan.output_step) + 1)
+
+    def told(what: str, done: float, total: float) -> None:
+        progress(plan.name, done, total)
+
+    options = {**options_of(problem, plan), "duration": plan.duration - begin.time}
+    coupled: CoupledRun | None = None
+    if problem.bodies:
+        options = _of_bodies(options)
+        left = None if earlier is None else (earlier.state, earlier.bodies)
+        coupled = run_coupled(problem, network, hung, told, left, motions=motions, keep_nodes=nodes, **options)
+        history = coupled.history
+    else:
+        history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options)
+    progress(plan.name, 1.0, 1.0)
+    if history.status == "not_converged":
+        history = sound_rows(history)
+    series, frames = series_of(assembly, plan, history), frames_of(plan, history)
+    if coupled is not None:
+        series, frames = with_bodies(series, with_ends(frames, coupled.ends), coupled)
+    series.attrs["skip"] = problem.settings.skip
+    if earlier is not None:
+        series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
+    snaps = snaps_of(problem, series)
+    governing = _governing(series)
+    worst = _worst_bar(assembly, history, governing, problem.settings.skip)
+    notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
+    notices += peak_inside(assembly, series, governing, worst)
+    if coupled is not None:
+        notices += capsized(series)
+    why = doubt(assembly, history, snaps, governing)
+    sensitivity, told_of_peak, history = _worth(
+        problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, told
+    )
+    notices += told_of_peak
+    failure = ""
+    if sensitivity is not None:
+        strand = assembly.lines.get(governing)
+        segments = 0 if strand is None else strand.bars.size
+        failure = not_converged(sensitivity, problem.settings.peak_goal, governing, why, segments)
+    prefix = f"{plan.name}: "
+    return Run(
+        plan, history, series, frames, snaps, sensitivity, governing,
+        tuple(replace(notice, message=f"{prefix}{notice.message}") for notice in notices),
+        tuple(replace(check, name=f"{prefix}{check.name}") for check in history.checks), why, failure,
+    )  # fmt: skip
+
+
+def _worth(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    plan: RunPlan,
+    starts: tuple[State, CoupledRest | None],
+    made: tuple[History, CoupledRun | None],
+    peak: tuple[str, int, str],
+    earlier: Earlier | None,
+    told: Progress,
+) -> tuple[PeakSensitivity | None, list[Notice], History]:
+    """Find what the peak of a run is worth: as asked for, or as far as it costs little.
+
+    ``peak`` is the line, its bar and why the peak is doubtful. Returns what was found, what is to be told, and the
+    history, marked where the user ended this part.
+    """
+    (governing, worst, why), (history, coupled) = peak, made
+    if history.status != "converged" or worst < 0:
+        return None, [], history
+    asked = problem.settings.sensitivity
+    if earlier is not None:
+        if not asked:
+            return None, [], history
+        return None, [
+            Notice("sensitivity-left-out", "what the peak is worth was not found: the run goes on from an earlier one",
+                   severity="information", remedy="run it from its start with settings.sensitivity")
+        ], history  # fmt: skip
+    try:
+        if asked:
+            found = _sensitivity(problem, assembly, plan, starts, made, worst, told)
+            return found, list(found.notices()), history
+        if problem.settings.mesh_check == "off" or coupled is not None or not affordable(history, bool(why)):
+            return None, [unchecked(why)] if why else [], history
+        motions = motions_of(problem, plan.duration)
+        checked = check_peak(
+            assembly, history, motions, governing, starts[0], problem.settings.skip, options_of(problem, plan), told
+        )
+        return checked, [unchecked(why)] if checked is None and why else [], history
+    except (ConvergenceError, InputError) as error:
+        return None, [Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy)], history
+    except KeyboardInterrupt:
+        message = "interrupted while it was found what its peak is worth; the run itself is complete"
+        return None, [], replace(history, status="interrupted", message=message)
+
+
+def sound_rows(history: History) -> History:
+    """Return a run that blew up without what came after its last good state: no peak may be told from there."""
+    good = int(np.count_nonzero(history.time <= last_good_state(history).time * (1.0 + 1e-12)))
+    rows = ("time", "position", "tension", "tension_peak", "kinetic_energy", "elastic_energy", "work")
+    cut = {name: getattr(history, name)[: max(good, 1)] for name in rows}
+    return replace(history, **cut)
+
+
+def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options that runs with bodies know: they have one method and a tolerance of their own."""
+    return {key: value for key, value in options.items() if key not in ("method", "tolerance")}
+
+
+def _sensitivity(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    plan: RunPlan,
+    starts: tuple[State, CoupledRest | None],
+    made: tuple[History, CoupledRun | None],
+    bar: int,
+    progress: Progress,
+) -> PeakSensitivity:
+    """Run again with half the step, half the bars, half and twice the viscosity."""
+    (begin, hung), (history, coupled) = starts, made
+    after, motions = problem.settings.skip, motions_of(problem, plan.duration)
+    options = options_of(problem, plan)
+    if coupled is not None:
+        peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))
+        return coupled_sensitivity(
+            problem, assembly.network, hung, bar, after, peak, (history.step, coupled.step), progress, motions=motions,
+            **_of_bodies(options),
+        )  # fmt: skip
+    # built anew, the finer network may drop what its materials gathered: the plain call refines the network itself
+    return peak_sensitivity(
+        assembly.network, motions, bar=bar, after=after, start=begin, progress=progress, **options
+    )  # fmt: skip
+
+
+def _governing(series: xr.Dataset) -> str:
+    """Return the line or net with the highest tension of all rows that count, those of an earlier run among them."""
+    counted = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
+    best, highest = "", -np.inf
+    for key, names in (("line_tension", "line"), ("net_tension", "net")):
+        if key not in series or not counted.any() or not series.sizes[names]:
+            continue
+        values = np.nan_to_num(series[key].values[counted], nan=-np.inf).max(axis=0)
+        if values.max() > highest:
+            best, highest = str(series[names].values[int(np.argmax(values))]), float(values.max())
+    return best
+
+
+def _worst_bar(assembly: Assembly, history: History, name: str, skip: float) -> int:
+    """Return the bar of a line or net that bore most in the rows of this run that count, -1 without any."""
+    chosen = history.time >= skip
+    strand = assembly.lines.get(name)
+    bars = strand.bars if strand is not None else assembly.net_bars.get(name, np.zeros(0, dtype=np.int64))
+    columns = np.flatnonzero(np.isin(history.bars, bars))
+    if not chosen.any() or columns.size == 0:
+        return -1
+    peaks = np.nan_to_num(history.tension_peak[chosen][:, columns], nan=-np.inf).max(axis=0)
+    return int(history.bars[columns[int(np.argmax(peaks))]])

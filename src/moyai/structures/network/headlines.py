@@ -1,0 +1,230 @@
+"""The numbers of a network's first page: the highest tension with its numerical band, anchors, offset, modes.
+
+How the answer is made: docs/answer/network.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.headline import Band, Headline
+from moyai.core.maxima import Maximum, maximum_of
+from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.refinement import band_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Highest tension over that at the ends of its line above which both are told.
+INSIDE = 1.2
+DYNAMIC, REST = "run through time", "at rest"
+
+
+@dataclass(frozen=True, eq=False)
+class _Peak:
+    """The highest tension of all runs, or at rest where nothing was run."""
+
+    value: float
+    line: str
+    level: str
+    run: str
+    time: float
+    model: str
+
+
+def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
+    """Return the first page's numbers of a network.
+
+    Parameters
+    ----------
+    problem : NetworkProblem
+    groups : mapping of str to xarray.Dataset
+        What was run, by its place in the result.
+    """
+    peaks = list(_peaks(groups)) or list(_rest_peaks(groups))
+    peak = max(peaks, key=lambda item: item.value, default=None)
+    items: list[Headline] = []
+    if peak is not None:
+        items += _tension(problem, groups, peak)
+        items += _utilisation(problem, peaks)
+    items += _anchor(groups)
+    items += _offsets(groups)
+    items += _mode(groups)
+    return tuple(items[:8])
+
+
+def _levels(groups: Mapping[str, xr.Dataset], part: str) -> Iterator[tuple[str, xr.Dataset]]:
+    for path, group in groups.items():
+        pieces = path.strip("/").split("/")
+        if len(pieces) == 2 and pieces[1] == part:
+            yield pieces[0], group
+
+
+def _peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
+    """Yield the highest tension of every line and net in every run."""
+    for level, summary in _levels(groups, "dynamic"):
+        for run in (str(name) for name in summary["run"].values):
+            for line in (str(name) for name in summary["line"].values) if "peak" in summary else ():
+                value, time = (float(summary[key].sel(run=run, line=line)) for key in ("peak", "peak_time"))
+                if math.isfinite(value):
+                    yield _Peak(value, line, level, run, time, DYNAMIC)
+            series = groups.get(f"/{level}/time/{run}")
+            if series is None or "net_tension" not in series:
+                continue
+            late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+            for net in (str(name) for name in series["net"].values):
+                record = late["net_tension"].sel(net=net).values
+                if record.size and np.isfinite(record).any():
+                    at = int(np.nanargmax(record))
+                    yield _Peak(float(record[at]), net, level, run, float(late["time"].values[at]), DYNAMIC)
+
+
+def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
+    for level, rest in _levels(groups, "statics"):
+        if "line_tension" not in rest or not rest["line_tension"].size:
+            continue
+        for condition in (str(name) for name in rest["condition"].values):
+            for line in (str(name) for name in rest["line"].values):
+                value = float(rest["line_tension"].sel(condition=condition, line=line))
+                if math.isfinite(value):
+                    yield _Peak(value, line, level, condition, math.nan, REST)
+
+
+def _where(groups: Mapping[str, xr.Dataset], peak: _Peak) -> str:
+    several = len({level for level, _ in _levels(groups, "network")}) > 1
+    time = f"t = {peak.time:.2f} s" if math.isfinite(peak.time) else ""
+    return ", ".join(part for part in (peak.line, peak.run, time, peak.level if several else "") if part)
+
+
+def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
+    """Return the highest tension, with that at the ends of its line where that is less."""
+    where = _where(groups, peak)
+    if peak.model == REST:
+        return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST)]
+    summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
+    band, details = _numerical_band(summary, peak)
+    details += _chance(groups, peak)
+    items = [
+        Headline(
+            "line_tension", "highest tension", peak.value, "N", where, DYNAMIC, band,
+            detail="; ".join(part for part in details if part),
+        )
+    ]  # fmt: skip
+    if "start_peak" in summary and peak.line in summary["line"].values:
+        ends = [float(summary[key].sel(line=peak.line)) for key in ("start_peak", "end_peak")]
+        if peak.value > INSIDE * max(ends):
+            at = "start" if ends[0] >= ends[1] else "end"
+            items.append(
+                Headline(
+                    "end_tension", "highest at the ends of its line", max(ends), "N", f"{peak.line}, its {at}", DYNAMIC,
+                    detail="the highest tension stands inside the line",
+                )
+            )  # fmt: skip
+    return items
+
+
+def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:
+    if "sensitivity_peak" in summary and math.isfinite(float(summary["sensitivity_peak"])):
+        keys = ("sensitivity_peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "damped")
+        values = [float(summary[key]) for key in keys]
+        if summary.attrs.get(f"governing {peak.run}") == peak.line:
+            peak_of, half, mesh, less, more, damped = values
+            low, high = band_of(PeakSensitivity(peak_of, half, mesh, less, more, math.nan, damped))
+            words = "mesh and step: half the step, twice the segments, undamped and damped, and their change continued"
+            band = Band(min(low, peak.value), max(high, peak.value), words)
+            viscous = [value for value in values[3:5] if math.isfinite(value)]
+            said = f"half and twice the viscosity: {min(viscous):.4g} to {max(viscous):.4g} N" if viscous else ""
+            return band, [said]
+    why = str(summary.attrs.get(f"doubt {peak.run}", ""))
+    return None, [f"mesh and step not checked{': ' + why if why else ''}"]
+
+
+def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[str]:
+    """Say what one maximum of an irregular sea is worth, and the height that was realised."""
+    series = groups.get(f"/{peak.level}/time/{peak.run}")
+    if series is None or not int(series.attrs.get("irregular", 0)):
+        return []
+    late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
+    said = []
+    if "surface_elevation" in late:
+        realised = 4.0 * float(late["surface_elevation"].values.std())
+        said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
+    key, axis = ("line_tension", "line") if peak.line in series["line"].values else ("net_tension", "net")
+    found: Maximum | None = maximum_of(
+        late["time"].values, late[key].sel({axis: peak.line}).values, float(series.attrs["period"])
+    )
+    if found is not None:
+        said.append(
+            f"largest of other seeds about {found.mean:.3g} ± {found.deviation:.2g} N, from {found.blocks} blocks of "
+            "this record"
+        )
+    return said
+
+
+def _utilisation(problem: NetworkProblem, peaks: list[_Peak]) -> list[Headline]:
+    breaking = {line.name: line.breaking_load for line in problem.lines if math.isfinite(line.breaking_load)}
+    known = [(item.value / breaking[item.line], item) for item in peaks if item.line in breaking]
+    if not known:
+        return []
+    share, worst = max(known, key=lambda pair: pair[0])
+    detail = f"breaking load {breaking[worst.line] / 1e3:.4g} kN, without a safety factor"
+    return [
+        Headline(
+            "line_utilisation", "highest tension over breaking load", share, "1", f"{worst.line}, {worst.run}",
+            worst.model, detail=detail,
+        )
+    ]  # fmt: skip
+
+
+def _anchor(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
+    """Return the largest pull on a fixed point with its horizontal and upward part."""
+    best: tuple[float, str, str] | None = None
+    for level, summary in _levels(groups, "dynamic"):
+        network = groups[f"/{level}/network"]
+        fixed = [str(n) for n, kind in zip(network["point"].values, network["point_kind"].values) if kind == "fixed"]
+        if "load_peak" not in summary:
+            continue
+        for run in (str(name) for name in summary["run"].values):
+            for point in fixed:
+                row = summary.sel(run=run, point=point)
+                value = float(row["load_peak"])
+                if math.isfinite(value) and (best is None or value > best[0]):
+                    parts = (float(row["load_horizontal"]) / 1e3, float(row["load_upwards"]) / 1e3)
+                    said = f"horizontal {parts[0]:.3g} kN, upwards {parts[1]:.3g} kN, each at its own largest"
+                    best = (value, f"{point}, {run}", said)
+    if best is None:
+        return []
+    return [Headline("anchor_load", "largest pull on a fixed point", best[0], "N", best[1], DYNAMIC, detail=best[2])]
+
+
+def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
+    """Return the largest offset and lean of the bodies."""
+    items = []
+    for name, label, unit in (("offset", "largest offset of a body", "m"), ("highest_lean", "largest lean", "rad")):
+        found = [
+            (float(group[name].sel(run=run, solid=solid)), f"{solid}, {run}")
+            for _, group in _levels(groups, "dynamic") if name in group
+            for run in group["run"].values for solid in group["solid"].values
+        ]  # fmt: skip
+        known = [pair for pair in found if math.isfinite(pair[0])]
+        if known:
+            value, where = max(known)
+            items.append(Headline("offset" if name == "offset" else "lean", label, value, unit, where, DYNAMIC))
+    return items
+
+
+def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
+    for level, modes in _levels(groups, "modes"):
+        if "mode_period" in modes and modes["mode_period"].size:
+            value = float(modes["mode_period"].values[0])
+            if math.isfinite(value):
+                return [
+                    Headline("natural_period", "longest natural period", value, "s", level, detail="added mass counted")
+                ]
+    return []

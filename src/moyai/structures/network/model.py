@@ -1,0 +1,320 @@
+"""A network as a case states it: points, lines and nets with z above datum, seas, settings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from moyai.core.errors import InputError
+from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import BOX, BarType
+from moyai.sea.environment import Environment
+from moyai.sea.kinematics import Stretching
+from moyai.structures.network.bodies import BodyPlan
+
+Analysis = Literal["statics", "modes", "dynamic"]
+Place = tuple[float, float, float]
+Start = Literal["rest", "rest_in_current", "as_built"]
+
+
+@dataclass(frozen=True)
+class Attached:
+    """What a point carries.
+
+    Parameters
+    ----------
+    mass, volume : float
+        [kg], [m3].
+    height : float
+        Vertical extent for partial immersion [m]; 0: always wet.
+    form : int
+        ``BOX`` or ``SPHERE``.
+    drag_area : float
+        Drag coefficient times area [m2].
+    added_mass_coefficient : float
+        On the volume [-].
+    contact_area : float
+        With the bed [m2].
+    """
+
+    mass: float = 0.0
+    volume: float = 0.0
+    height: float = 0.0
+    form: int = BOX
+    drag_area: float = 0.0
+    added_mass_coefficient: float = 0.0
+    contact_area: float = 0.0
+
+
+@checks_words
+@dataclass(frozen=True)
+class PointPlan:
+    """A named point.
+
+    Parameters
+    ----------
+    name : str
+    kind : {"fixed", "driven", "free"}
+    position : tuple of float
+        z above datum, or above still water [m]; NaN: on the bed.
+    motion : str
+        Name of the motion of a driven point, empty: held still.
+    floats : bool
+        Whether z counts from the still water of each water level.
+    attached : Attached
+    held : tuple of bool
+        Components that do not move.
+    diameter : float
+        For drawing [m].
+    """
+
+    name: str
+    kind: Literal["fixed", "driven", "free"]
+    position: Place
+    motion: str = ""
+    floats: bool = False
+    attached: Attached = field(default_factory=Attached)
+    held: tuple[bool, bool, bool] = (False, False, False)
+    diameter: float = 0.0
+
+
+@dataclass(frozen=True)
+class PartPlan:
+    """A length of one material [m], in a number of bars."""
+
+    bar_type: BarType
+    length: float
+    segments: int
+
+
+@dataclass(frozen=True)
+class RowPlan:
+    """Equal bodies spread evenly along a line."""
+
+    count: int
+    attached: Attached
+
+
+@checks_words
+@dataclass(frozen=True)
+class LinePlan:
+    """A line between two points: parts from start to end, with bodies between (one shorter) and along it.
+
+    Parameters
+    ----------
+    name, start, end : str
+    parts : tuple of PartPlan
+    between : tuple of Attached or None
+        What hangs between part k and part k + 1.
+    along : tuple of RowPlan
+    shape : {"catenary", "straight"}
+    flow_factor : float
+        Factor on the water velocity.
+    breaking_load : float
+        Least of its parts, NaN where not known [N].
+    """
+
+    name: str
+    start: str
+    end: str
+    parts: tuple[PartPlan, ...]
+    between: tuple[Attached | None, ...] = ()
+    along: tuple[RowPlan, ...] = ()
+    shape: Literal["catenary", "straight"] = "catenary"
+    flow_factor: float = 1.0
+    breaking_load: float = math.nan
+
+    @property
+    def length(self) -> float:
+        """Unstretched length [m]."""
+        return sum(part.length for part in self.parts)
+
+
+@checks_words
+@dataclass(frozen=True)
+class NetPlan:
+    """A net between four corners.
+
+    Parameters
+    ----------
+    name : str
+    corners : tuple of four places
+        Once around: start and end of the first row, end and start of the last.
+    rows, columns : int
+        Knots.
+    along, across : tuple of BarType
+        Materials of inner and edge bars of the rows, and of the columns.
+    hanging_ratio : float
+        Distance of the knots at the start over their unstretched distance [-].
+    first_row : {"fixed", "driven", "free"}
+    motion : str
+        Of a driven first row, empty: held still.
+    ballast : float
+        Submerged mass per length of the last row [kg/m].
+    flow_factor : float
+    floats : bool
+        Whether z counts from still water.
+    """
+
+    name: str
+    corners: tuple[Place, Place, Place, Place]
+    rows: int
+    columns: int
+    along: tuple[BarType, BarType]
+    across: tuple[BarType, BarType]
+    hanging_ratio: float = 1.0
+    first_row: Literal["fixed", "driven", "free"] = "fixed"
+    motion: str = ""
+    ballast: float = 0.0
+    flow_factor: float = 1.0
+    floats: bool = False
+
+
+@checks_words
+@dataclass(frozen=True)
+class SheetPlan:
+    """A sheet between four corners, as :class:`NetPlan`; warp runs from row to row, weft along the rows.
+
+    Parameters
+    ----------
+    name : str
+    corners : tuple of four places
+    rows, columns : int
+    properties : mapping
+        Arguments of :class:`moyai.flexible.sheets.Sheets`.
+    fullness : float
+        Unstretched length over the distance of the corners [-].
+    first_row, motion, floats
+        As in :class:`NetPlan`.
+    """
+
+    name: str
+    corners: tuple[Place, Place, Place, Place]
+    rows: int
+    columns: int
+    properties: Mapping[str, float]
+    fullness: float = 1.0
+    first_row: Literal["fixed", "driven", "free"] = "free"
+    motion: str = ""
+    floats: bool = False
+
+
+@dataclass(frozen=True)
+class BedPlan:
+    """Stiffness [Pa/m], damping [Pa s/m] and friction [-] of the bed."""
+
+    stiffness: float
+    damping: float
+    friction: float = 0.0
+
+
+@checks_words
+@dataclass(frozen=True, eq=False)
+class MotionPlan:
+    """A prescribed motion: its table, made for any duration, its typical period [s] and its last time [s]."""
+
+    name: str
+    kind: Literal["harmonic", "circular", "table"]
+    period: float
+    end: float
+    amplitude: Place = (0.0, 0.0, 0.0)
+    phase: Place = (0.0, 0.0, 0.0)
+    ramp: float = 0.0
+    table: Motion | None = None
+
+    def over(self, duration: float) -> Motion:
+        """Return the motion over a run.
+
+        Raises
+        ------
+        InputError
+            When a table ends before the run does.
+        """
+        if self.table is None:
+            return Motion.harmonic(self.amplitude, self.period, duration=duration, ramp=self.ramp, phase=self.phase)
+        if self.table.start > 1e-9 or self.table.end < duration * (1.0 - 1e-9):
+            raise InputError(
+                f"the motion '{self.name}' covers {self.table.start:g} to {self.table.end:g} s, the run 0 to "
+                f"{duration:g} s",
+                path=f"structure.motions.{self.name}",
+                allowed="a table over the whole run",
+                remedy="let its times begin at 0 s"
+                if self.table.start > 1e-9
+                else f"lengthen the table, or set settings.duration to {self.table.end:g} s at most",
+            )
+        return self.table
+
+
+@checks_words
+@dataclass(frozen=True)
+class Settings:
+    """How the analyses are run; ``None`` means chosen by the program. See docs/case_file.md for each."""
+
+    analyses: tuple[Analysis, ...] = ("statics",)
+    duration: float | None = None
+    output_step: float | None = None
+    ramp: float | None = None
+    start: Start = "rest"
+    resume: Path | None = None
+    method: Literal["auto", "explicit", "tr_bdf2", "esdirk4"] = "auto"
+    step: float | None = None
+    wave_front: bool = False
+    tolerance: float = 1e-4
+    stretching: Stretching = "wheeler"
+    skip: float = 0.0
+    sensitivity: bool = False
+    mesh_check: Literal["auto", "off"] = "auto"
+    peak_goal: float = 0.05
+    slack_level: float = 0.0
+    snap_threshold: float | None = None
+    modes: int = 6
+    stiffness_step: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class NetworkProblem:
+    """The whole problem as the case file states it.
+
+    Parameters
+    ----------
+    title : str
+    points, lines, nets : tuple
+    bed : BedPlan or None
+    motions : mapping of str to MotionPlan
+    environment : Environment
+        Water, levels, seas, current.
+    settings : Settings
+    bodies : tuple of BodyPlan
+    sheets : tuple of SheetPlan
+    case_text, case_hash : str
+    """
+
+    title: str
+    points: tuple[PointPlan, ...]
+    lines: tuple[LinePlan, ...]
+    nets: tuple[NetPlan, ...]
+    bed: BedPlan | None
+    motions: Mapping[str, MotionPlan]
+    environment: Environment
+    settings: Settings = field(default_factory=Settings)
+    bodies: tuple[BodyPlan, ...] = ()
+    sheets: tuple[SheetPlan, ...] = ()
+    case_text: str = ""
+    case_hash: str = ""
+    criteria: tuple[Criterion, ...] = ()
+
+    @property
+    def has_still_points(self) -> bool:
+        """Whether some driven point is held where it is."""
+        return any(point.kind == "driven" and not point.motion for point in self.points) or any(
+            net.first_row == "driven" and not net.motion for net in self.nets
+        )
+
+
+#: Name of the motion of driven points that are held still.
+STILL = "held still"

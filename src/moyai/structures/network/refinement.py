@@ -1,0 +1,207 @@
+"""Whether the peak of a run hangs on its mesh or its step: the run once more with each of them halved.
+
+Theory: docs/answer/network.md and [eq:flexible-landing].
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.core.progress import Progress
+from moyai.core.validity import Notice
+from moyai.core.wording import spoken
+from moyai.flexible.motion import Motion
+from moyai.flexible.network import Network
+from moyai.flexible.refine import refined
+from moyai.flexible.result import History, State
+from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.flexible.simulate import simulate
+from moyai.flexible.snap import SnapRecord
+from moyai.structures.network.assembly import Assembly
+
+#: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The
+#: explicit scheme does some ten million a second; a step of the implicit schemes costs about thirty times as much.
+WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 1e9, 30.0
+#: Part of the critical damping of one bar that calms fronts on the mesh, and bars of the line that they then need.
+DAMPING, DAMPED_BARS = 0.3, 32
+#: Bars of a line up to which its peak is doubtful whatever the run shows.
+FEW_BARS = 5
+_FRONTS = ("wave-front", "landing-front")
+
+
+def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord], line: str) -> str:
+    """Return why the peak of a line may hang on mesh and step, empty where nothing says so.
+
+    Snaps, fronts that rise within a part of the travel time of the elastic wave, and lines of few bars make peaks that
+    the mesh decides.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    history : History
+    snaps : mapping of str to SnapRecord
+    line : str
+        Of the highest tension.
+    """
+    if any(record.snaps for record in snaps.values()):
+        return "a slack line snaps taut"
+    codes = [notice.code for notice in history.notices]
+    if "landing-front" in codes:
+        return "segments that land on the bed send fronts along the line"
+    if "wave-front" in codes:
+        return "the load rises faster than an elastic wave runs through the line"
+    strand = assembly.lines.get(line)
+    if strand is not None and strand.bars.size <= FEW_BARS:
+        return f"'{line}' has {strand.bars.size} segment{'s' if strand.bars.size > 1 else ''}"
+    return ""
+
+
+def affordable(history: History, doubtful: bool) -> bool:
+    """Whether half the step and twice the bars can be run as well."""
+    network = history.network
+    work = 10.0 * len(network.bars) * history.steps * (1.0 if history.method == "explicit" else IMPLICIT)
+    return work <= (DOUBTFUL_WORK if doubtful else WORK)
+
+
+def check_peak(
+    assembly: Assembly,
+    history: History,
+    motions: Mapping[str, Motion],
+    line: str,
+    begin: State,
+    skip: float,
+    options: Mapping[str, Any],
+    progress: Progress,
+) -> PeakSensitivity | None:
+    """Run again with half the step and with every bar cut in two; return the highest tension of each in a line.
+
+    Steps at the pace of the elastic wave are exact along equal bars: they are halved with the bars alone.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    history : History
+        Of the run itself.
+    motions : mapping of str to Motion
+    line : str
+        Line or net whose highest tension is compared.
+    begin : State
+    skip : float
+        Start-up that does not count [s].
+    options : mapping
+        Arguments of :func:`moyai.flexible.simulate.simulate`.
+    progress : Progress
+
+    Returns
+    -------
+    PeakSensitivity or None
+        Without what the viscosity changes; ``None`` for networks that cannot be refined, or a run that had to stop.
+    """
+    strand = assembly.lines.get(line)
+    bars = strand.bars if strand is not None else assembly.net_bars.get(line, np.zeros(0, dtype=np.int64))
+    columns = np.flatnonzero(np.isin(history.bars, bars))
+    counted = history.time >= history.time[0] + skip
+    if not columns.size or not counted.any():
+        return None
+    peak = float(np.nanmax(history.tension_peak[counted][:, columns]))
+
+    def again(network: Network, start: State, kept: np.ndarray, **more: Any) -> float:
+        chosen = {**options, **more, "keep_nodes": [0], "keep_bars": kept}
+        found = simulate(network, motions, start=start, progress=progress, **chosen)
+        if found.status == "interrupted":
+            raise KeyboardInterrupt
+        if found.status != "converged":
+            raise ConvergenceError(found.message, path="sensitivity")
+        return float(np.max(found.tension_peak[found.time >= found.time[0] + skip]))
+
+    try:
+        finer, state = refined(history.network, 2, begin)
+        shorter = {} if options.get("step") is None else {"step": 0.5 * options["step"]}
+        kept = np.concatenate([2 * bars, 2 * bars + 1])
+        mesh = again(finer, state, kept, **shorter)
+        exact = options.get("safety") == 1.0
+        step = peak if exact else again(history.network, begin, bars, step=0.5 * history.step)
+        damped = math.nan
+        if not exact and damped_bars(finer) is not finer:
+            factor = 2
+            while factor * bars.size < DAMPED_BARS:
+                factor *= 2
+            calm, state = refined(history.network, factor, begin)
+            kept = np.concatenate([factor * bars + part for part in range(factor)])
+            shorter = {} if options.get("step") is None else {"step": options["step"] / factor}
+            damped = again(damped_bars(calm), state, kept, **shorter)
+    except (ConvergenceError, InputError):
+        return None
+    return PeakSensitivity(peak, step, mesh, math.nan, math.nan, history.step, damped)
+
+
+def change_of(found: PeakSensitivity) -> float:
+    """Return the largest relative change of the peak with half the step, twice the bars, and bars that are damped."""
+    if found.peak == 0.0:
+        return 0.0
+    others = [value for value in (found.half_step, found.double_mesh, found.damped) if math.isfinite(value)]
+    return max(abs(value / found.peak - 1.0) for value in others)
+
+
+def band_of(found: PeakSensitivity) -> tuple[float, float]:
+    """Return the range that the peak has with half the step, twice the bars, and bars of no length [N].
+
+    The last one continues the change of the mesh as that of a method of first order, which snaps and fronts are at
+    best: twice the bars take half of the error.
+    """
+    ends = [found.peak, found.half_step, found.double_mesh, max(2.0 * found.double_mesh - found.peak, 0.0)]
+    if math.isfinite(found.damped):
+        ends.append(found.damped)
+    return min(ends), max(ends)
+
+
+def damped_bars(network: Network) -> Network:
+    """Return a network whose bars have three tenths of critical damping at least; itself where they have half of it.
+
+    That is 0.3 l sqrt(EA m) of the longest bar of each type, less on a finer mesh: another mesh, not another line.
+    """
+    bars, types = network.bars, []
+    for number, kind in enumerate(network.bars.types):
+        longest = float(np.max(bars.length[bars.kind == number], initial=0.0))
+        least = DAMPING * longest * kind.impedance
+        types.append(replace(kind, viscosity=least) if kind.viscosity < 0.5 * least else kind)
+    if all(new is old for new, old in zip(types, bars.types, strict=True)):
+        return network
+    return replace(network, bars=replace(bars, types=tuple(types)))
+
+
+def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segments: int) -> str:
+    """Return why the peak of a run is not converged and what helps, empty where it is."""
+    if not change_of(found) > goal:
+        return ""
+    by_mesh = max(abs(found.double_mesh - found.peak), abs(np.nan_to_num(found.damped, nan=found.peak) - found.peak))
+    by_step = abs(found.half_step - found.peak)
+    half, mesh, calm = (spoken(v, "N", like=found.peak) for v in (found.half_step, found.double_mesh, found.damped))
+    damped = f", {calm} where bars are damped as well" if math.isfinite(found.damped) else ""
+    remedy = (
+        f"at least {4 * segments} segments, an internal damping of a tenth of critical or more "
+        "(damping_ratio: 0.1), or a line that does not go slack"
+        if by_mesh >= by_step
+        else "a shorter settings.step, or the internal damping that the line has"
+    )
+    return (
+        f"the peak of '{line}', {spoken(found.peak, 'N')}, is {mesh} with twice the segments{damped} and {half} "
+        f"with half the step: {100.0 * change_of(found):.0f} % where {100.0 * goal:g} % is asked for"
+        f"{' (' + why + ')' if why else ''}; {remedy}"
+    )
+
+
+def unchecked(why: str) -> Notice:
+    """Return the notice of a doubtful peak that was too costly to run again."""
+    return Notice(
+        "peak-not-checked",
+        f"{why}; twice the segments and half the step were not run: they would take too long",
+        severity="warning",
+        remedy="settings.sensitivity: true runs them all the same",
+    )

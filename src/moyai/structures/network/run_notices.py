@@ -1,0 +1,146 @@
+"""What a run of a network has to say of its own figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.validity import Notice
+from moyai.core.wording import spoken
+from moyai.flexible.result import History
+from moyai.flexible.snap import SnapRecord
+from moyai.structures.network.assembly import Assembly
+from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.runs import RunPlan
+from moyai.structures.network.summary import lean_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Highest tension over that at the ends of its line, from which a run says that it stands inside.
+INSIDE = 1.2
+#: Part of the water of sheets that still moves with what is across them, below which a run says that they turned.
+ACROSS = 0.5
+#: Lean from which a body counts as turned over [rad].
+OVER = math.radians(60.0)
+
+
+def run_notices(
+    problem: NetworkProblem, history: History, plan: RunPlan, snaps: Mapping[str, SnapRecord]
+) -> list[Notice]:
+    notices = []
+    rise = min((contact.rise_time for record in snaps.values() for contact in record.snaps), default=math.inf)
+    if rise < 3.0 * plan.output_step:
+        notices.append(
+            Notice("rows-too-far-apart", "slack, contacts and rise times are found at the rows, too far apart for "
+                   "the shortest rise; peaks are taken at every step", plan.output_step, rise / 3.0, "warning",
+                   "shorten settings.output_step")
+        )  # fmt: skip
+    if history.nodes.size < len(history.network.nodes):
+        notices.append(
+            Notice(
+                "nodes-left-out",
+                f"{history.nodes.size} of {len(history.network.nodes)} nodes were kept; the view draws those",
+                severity="information",
+                remedy="a shorter run or a longer output step keeps all",
+            )
+        )
+    if problem.settings.skip >= plan.duration:
+        notices.append(
+            Notice("nothing-counted", f"settings.skip of {problem.settings.skip:g} s leaves nothing of the run",
+                   problem.settings.skip, plan.duration, "warning", "lower settings.skip")
+        )  # fmt: skip
+    for sheet in problem.sheets:
+        if "added_mass_per_area" not in sheet.properties:
+            notices.append(
+                Notice(
+                    "sheet-without-water",
+                    f"the sheet {sheet.name!r} takes no water along: wet cloth moves across itself "
+                    "as quickly as it does in air",
+                    severity="warning",
+                    remedy=f"give structure.sheets.{sheet.name}.added_mass (0 where it stays dry)",
+                )
+            )
+    return [*notices, *_turned_cloth(history)]
+
+
+def _turned_cloth(history: History) -> list[Notice]:
+    """Say when sheets turned far from how they were built: the water that they take along did not turn with them.
+
+    Normals are means around the nodes, so that folds of the mesh do not count.
+    """
+    sheets, count = history.network.sheets, len(history.network.nodes)
+    if sheets is None or not np.any(sheets.added_mass_per_area) or history.nodes.size < count:
+        return []
+    weight, triangles = sheets.area * np.asarray(sheets.added_mass_per_area), sheets.triangles
+
+    def across(place: np.ndarray) -> np.ndarray:
+        sides = (place[triangles[:, k]] - place[triangles[:, 0]] for k in (1, 2))
+        faces, around = np.cross(*sides), np.zeros((count, 3))
+        for corner in range(3):
+            np.add.at(around, triangles[:, corner], faces)
+        smooth = around[triangles].sum(axis=1)
+        return smooth / np.maximum(np.linalg.norm(smooth, axis=1), 1e-300)[:, None]
+
+    built = across(history.network.nodes.position)
+    rows = history.position[:: max(1, len(history.position) // 50)]
+    share = float(np.mean([np.average(np.sum(across(x) * built, axis=1) ** 2, weights=weight) for x in rows]))
+    if share >= ACROSS:
+        return []
+    return [
+        Notice(
+            "sheet-turned",
+            "sheets lie far from how they were built: the water that they take along acts across them as built, "
+            f"only {100.0 * share:.2g} % of it across them as they lie",
+            share,
+            ACROSS,
+            "warning",
+            "build the sheets near the shape in which they work, or leave out their added mass and compare",
+        )
+    ]
+
+
+def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> list[Notice]:
+    """Say when the highest tension stands inside a line whose ends bear much less."""
+    if name not in assembly.lines or bar < 0:
+        return []
+    time = series["time"].values
+    own = series.sel(line=name).isel(time=time >= time[0] + series.attrs["skip"])
+    peak = float(np.nanmax(own["line_tension"]))
+    ends = [float(np.nanmax(own[key])) for key in ("start_highest", "end_highest")]
+    if not peak > INSIDE * max(ends):
+        return []
+    strand = assembly.lines[name]
+    lengths = assembly.network.bars.length[strand.bars]
+    row = int(np.flatnonzero(strand.bars == bar)[0])
+    place = float(np.sum(lengths[:row]) + 0.5 * lengths[row])
+    return [
+        Notice(
+            "peak-inside", f"the highest tension of '{name}' stands {place:.4g} m from its start, a slack stretch that "
+            f"is pulled straight or falls on the bed: {spoken(peak, 'N')} there, "
+            f"{spoken(ends[0], 'N', like=peak)} at its start and {spoken(ends[1], 'N', like=peak)} at its end",
+            peak, INSIDE * max(ends), "warning",
+            "take the tension at the ends for anchors and fairleads; so short an impact hangs on the internal damping: "
+            "see settings.sensitivity",
+        )
+    ]  # fmt: skip
+
+
+def capsized(series: xr.Dataset) -> list[Notice]:
+    """Say when a body turns over."""
+    found = []
+    for name, lean in zip(series["solid"].values, lean_of(series["solid_angle"].values).max(axis=0), strict=True):
+        if lean > OVER:
+            found.append(overturned(str(name), float(lean), "leans"))
+    return found
+
+
+def overturned(name: str, lean: float, does: str) -> Notice:
+    """Return the notice of a body that lies on its side or beyond."""
+    return Notice(
+        "body-turned-over", f"body '{name}' {does} {math.degrees(lean):.0f} degrees from upright", lean, OVER,
+        "warning", "check its centre of gravity, its mass, and where its lines pull",
+    )  # fmt: skip

@@ -1,0 +1,216 @@
+"""Which runs through time a case asks for: seas, durations, steps of the results, the water of each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from moyai.core.errors import InputError
+from moyai.flexible.flow import Flow
+from moyai.flexible.motion import Motion
+from moyai.sea.components import WaveComponents
+from moyai.sea.current import CurrentProfile
+from moyai.sea.dispersion import wave_number_in_current
+from moyai.sea.irregular import synthesise
+from moyai.sea.states import ComponentSea, IrregularSea, RegularSea
+from moyai.sea.water import Water
+from moyai.structures.network.model import STILL, NetworkProblem
+
+#: Periods of a run whose length is left to the program, rows in its shortest period, most components of a sea.
+PERIODS, ROWS_PER_PERIOD, COMPONENTS = 20, 100, 150
+
+
+@dataclass(frozen=True, eq=False)
+class RunPlan:
+    """One run through time.
+
+    Parameters
+    ----------
+    name : str
+        Of its group in the results.
+    flow : Flow
+    duration, output_step : float
+        [s].
+    period : float
+        That the eye follows: of the waves, else of the motions; NaN without either [s].
+    waves : WaveComponents or None
+    wave_height : float
+        H or significant height [m], NaN without waves.
+    heading : float
+        Of the waves [rad].
+    irregular : bool
+    seed : int
+        -1 without one.
+    """
+
+    name: str
+    flow: Flow
+    duration: float
+    output_step: float
+    period: float
+    waves: WaveComponents | None = None
+    wave_height: float = math.nan
+    heading: float = math.nan
+    irregular: bool = False
+    seed: int = -1
+
+
+@dataclass(frozen=True, eq=False)
+class _Within:
+    """A current asked at any height: nodes sink a little into the bed, and profiles end there."""
+
+    profile: CurrentProfile
+    depth: float
+
+    def velocity(self, z: ArrayLike) -> NDArray[np.float64]:
+        """Return the velocity (..., 2) at heights z, of the nearest end beyond the ends."""
+        return np.asarray(self.profile.velocity(np.clip(z, -self.depth, 0.0)))
+
+
+def steady_flow(problem: NetworkProblem, water: Water) -> Flow:
+    """Return the current alone."""
+    current = problem.environment.current
+    return Flow() if current is None else Flow(current=_Within(current.in_depth(water.depth), water.depth))
+
+
+def mean_current(problem: NetworkProblem, water: Water) -> tuple[float, float]:
+    """Return the current averaged over the depth, on which waves ride [m/s]; that of the surface in infinite depth."""
+    if problem.environment.current is None:
+        return 0.0, 0.0
+    current = problem.environment.current.in_depth(water.depth)
+    found = current.velocity(0.0) if math.isinf(water.depth) else current.depth_mean(-water.depth, 0.0)
+    return float(found[0]), float(found[1])
+
+
+def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
+    """Return every run of a water level.
+
+    Raises
+    ------
+    InputError
+        When there is nothing to tell how long a run should be.
+    """
+    plans: list[RunPlan] = []
+    for sea in problem.environment.sea_states:
+        if isinstance(sea, RegularSea):
+            many = len(sea.periods) > 1
+            for period in sea.periods:
+                name = f"{sea.name} {period:.4g} s" if many else sea.name
+                plans.append(_regular(problem, sea, period, name, water))
+        elif isinstance(sea, ComponentSea):
+            plans.append(_components(problem, sea, water))
+        else:
+            plans.append(_irregular(problem, sea, water))
+    if plans:
+        return tuple(plans)
+    periods = [motion.period for motion in problem.motions.values() if math.isfinite(motion.period)]
+    ends = [motion.end for motion in problem.motions.values() if math.isfinite(motion.end)]
+    duration = problem.settings.duration
+    if duration is None:
+        if periods:
+            duration = min([PERIODS * max(periods), *ends])
+        elif ends:
+            duration = min(ends)
+        else:
+            raise InputError(
+                "nothing tells how long the run should be: no waves, no motion with a period",
+                path="settings.duration",
+                remedy="give a duration",
+            )
+    period = min(periods, default=math.nan)
+    name = "current" if problem.environment.current is not None else "still water"
+    flow = _flow(problem, water, None, period)
+    step = _output_step(problem, period, duration)
+    return (RunPlan(name, flow, duration, step, period),)
+
+
+def _flow(problem: NetworkProblem, water: Water, waves: WaveComponents | None, period: float) -> Flow:
+    ramp = problem.settings.ramp
+    if ramp is None:
+        ramp = period if waves is not None else 0.0
+    flow = replace(steady_flow(problem, water), waves=waves, stretching=problem.settings.stretching)
+    if problem.settings.start == "rest_in_current" and waves is not None:
+        return replace(flow, wave_ramp=ramp)
+    return flow if problem.settings.start == "rest_in_current" else replace(flow, ramp=ramp)
+
+
+def _output_step(problem: NetworkProblem, period: float, duration: float) -> float:
+    if problem.settings.output_step is not None:
+        return problem.settings.output_step
+    shortest = min(
+        [period, *(m.period for m in problem.motions.values())], key=lambda value: value if value > 0.0 else math.inf
+    )
+    return shortest / ROWS_PER_PERIOD if math.isfinite(shortest) else duration / 1000.0
+
+
+def _regular(problem: NetworkProblem, sea: RegularSea, period: float, name: str, water: Water) -> RunPlan:
+    omega, current = 2.0 * math.pi / period, mean_current(problem, water)
+    along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
+    number = float(wave_number_in_current(omega, water.depth, water.gravity, along))
+    waves = WaveComponents(
+        omega=np.array([omega]),
+        amplitude=np.array([0.5 * sea.height]),
+        phase=np.zeros(1),
+        heading=np.array([sea.heading]),
+        wave_number=np.array([number]),
+        water=water,
+        intrinsic_omega=np.array([omega - number * along]),
+    )
+    duration = problem.settings.duration or PERIODS * period
+    return RunPlan(
+        name, _flow(problem, water, waves, period), duration, _output_step(problem, period, duration), period, waves,
+        sea.height, sea.heading,
+    )  # fmt: skip
+
+
+def _irregular(problem: NetworkProblem, sea: IrregularSea, water: Water) -> RunPlan:
+    period = float(sea.spectrum.peak_period)
+    waves = synthesise(
+        sea.spectrum, water, duration=sea.duration, seed=sea.seed, method="equal_energy", count=COMPONENTS,
+        heading=sea.heading, spreading=sea.spreading, current=mean_current(problem, water),
+    )  # fmt: skip
+    # two rows in the shortest wave that counts would miss crests
+    step = problem.settings.output_step or _output_step(problem, 0.5 * period, sea.duration)
+    return RunPlan(
+        sea.name, _flow(problem, water, waves, period), sea.duration, step, period, waves,
+        float(sea.spectrum.significant_height), sea.heading, True, sea.seed,
+    )  # fmt: skip
+
+
+def _components(problem: NetworkProblem, sea: ComponentSea, water: Water) -> RunPlan:
+    current = mean_current(problem, water)
+    along = current[0] * np.cos(sea.headings) + current[1] * np.sin(sea.headings)
+    number = np.array(
+        [
+            float(wave_number_in_current(omega, water.depth, water.gravity, float(drift)))
+            for omega, drift in zip(sea.omega, along, strict=True)
+        ]
+    )
+    waves = WaveComponents(sea.omega, sea.amplitude, sea.phase, sea.headings, number, water, sea.omega - number * along)
+    period, single = sea.peak_period, sea.omega.size == 1
+    duration = problem.settings.duration or sea.duration or PERIODS * period
+    step = _output_step(problem, period if single else 0.5 * period, duration)
+    return RunPlan(
+        sea.name, _flow(problem, water, waves, period), duration, step, period, waves, sea.height, sea.heading,
+        not single,
+    )  # fmt: skip
+
+
+def motions_of(problem: NetworkProblem, duration: float) -> dict[str, Motion]:
+    """Return the motions of the driven points over a run.
+
+    Raises
+    ------
+    InputError
+        When a table ends before the run does.
+    """
+    used = {point.motion for point in problem.points if point.kind == "driven"}
+    used |= {net.motion for net in problem.nets if net.first_row == "driven"}
+    used |= {sheet.motion for sheet in problem.sheets if sheet.first_row == "driven"}
+    found = {name: problem.motions[name].over(duration) for name in used if name}
+    if "" in used:
+        found[STILL] = Motion(0.0, duration, np.zeros((2, 3)), np.zeros((2, 3)))
+    return found

@@ -1,0 +1,178 @@
+"""Peaks, snaps and loads of every run of a network, and every time that a slack line came taut."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.structures.network.assembly import Assembly
+from moyai.structures.network.equilibrium import named_points
+from moyai.structures.network.model import NetworkProblem
+from moyai.structures.network.noise import without_noise
+from moyai.structures.network.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from moyai.structures.network.dynamics import Run
+
+Array = NDArray[np.float64]
+
+#: Loads on points in the summary, in the order of :func:`moyai.structures.network.equilibrium.highest_pulls`.
+LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
+#: Motions of bodies in the summary.
+SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
+
+
+def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run], rest: Array | None) -> xr.Dataset:
+    """Return peaks, snaps and loads of every run.
+
+    Parameters
+    ----------
+    problem, assembly
+    runs : list of Run
+    rest : ndarray, shape (points, 3), or None
+        Places of the points at rest, from which excursions count [m].
+    """
+    import xarray as xr
+
+    lines, (names, _) = list(assembly.lines), named_points(assembly)
+    data: dict[str, Any] = {}
+    rows: dict[str, list[Any]] = {}
+    for item in runs:
+        for key, value in _line_summary(problem, item, lines).items():
+            rows.setdefault(key, []).append(value)
+        for key, value in _point_summary(problem, item, names, rest).items():
+            data.setdefault(key, []).append(value)
+    out: dict[str, Any] = {key: (("run", "line"), np.array(value)) for key, value in rows.items() if lines}
+    out |= {key: (("run", "point"), np.array(value)) for key, value in data.items() if names}
+    solids = [body.name for body in problem.bodies]
+    for item in runs if solids else ():
+        for key, found in _solid_summary(problem, item).items():
+            out.setdefault(key, (("run", "solid"), []))[1].append(found)
+    known = [item for item in runs if item.sensitivity is not None]
+    if known:
+        for key in (
+            "peak", "half_step", "double_mesh", "half_viscosity", "double_viscosity", "discretisation_error",
+            "viscosity_effect", "damped",
+        ):  # fmt: skip
+            label = "sensitivity_peak" if key == "peak" else key
+            values = [getattr(item.sensitivity, key) if item.sensitivity else math.nan for item in runs]
+            out[label] = ("run", np.array(values))
+    coords: dict[str, Any] = {"run": [item.plan.name for item in runs], "line": lines, "point": names}
+    if solids:
+        coords["solid"] = solids
+    made = labelled(xr.Dataset(out, coords=coords))
+    made.attrs |= {f"governing {item.plan.name}": item.governing for item in runs}
+    made.attrs |= {f"doubt {item.plan.name}": item.doubt for item in runs}
+    return made
+
+
+def _counted(problem: NetworkProblem, item: Run) -> NDArray[np.bool_]:
+    time = item.series["time"].values
+    return np.asarray(time >= time[0] + problem.settings.skip)
+
+
+def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[str, list[float]]:
+    chosen = _counted(problem, item)
+    breaking = {line.name: line.breaking_load for line in problem.lines}
+    keys = (
+        "peak", "peak_time", "start_peak", "end_peak", "mean", "deviation", "utilisation", "slack_time", "slack_share",
+        "contacts", "snaps", "snap_threshold", "largest_snap", "shortest_rise",
+    )  # fmt: skip
+    out: dict[str, list[float]] = {key: [] for key in keys}
+    time = item.series["time"].values[chosen]
+    for name in lines:
+        record = item.series["line_tension"].sel(line=name).values[chosen] if chosen.any() else np.zeros(0)
+        snaps = item.snaps.get(name)
+        if record.size == 0 or not np.isfinite(record).any():
+            for key in keys:
+                out[key].append(math.nan)
+            continue
+        at = int(np.nanargmax(record))
+        ends = [item.series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
+        pull = max(ends, key=lambda values: float(np.nanmean(values)))
+        most = {key: item.series[key].sel(line=name).values[chosen] for key in ("start_highest", "end_highest")}
+        values = {
+            "peak": float(record[at]), "peak_time": float(time[at]),
+            "start_peak": float(np.nanmax(most["start_highest"])), "end_peak": float(np.nanmax(most["end_highest"])),
+            "mean": float(np.nanmean(pull)), "deviation": float(np.nanstd(pull)),
+            "utilisation": float(record[at]) / breaking[name],
+        }  # fmt: skip
+        if snaps is not None:
+            peaks = [contact.peak for contact in snaps.snaps]
+            values |= {
+                "slack_time": snaps.slack_time, "slack_share": snaps.slack_time / max(float(np.ptp(time)), 1e-300),
+                "contacts": float(len(snaps.contacts)), "snaps": float(len(peaks)),
+                "snap_threshold": snaps.threshold, "largest_snap": max(peaks, default=math.nan),
+                "shortest_rise": min((contact.rise_time for contact in snaps.snaps), default=math.nan),
+            }  # fmt: skip
+        for key in keys:
+            out[key].append(values.get(key, math.nan))
+    return out
+
+
+def _point_summary(problem: NetworkProblem, item: Run, names: list[str], rest: Array | None) -> dict[str, list[float]]:
+    chosen = _counted(problem, item)
+    out: dict[str, list[float]] = {key: [] for key in (*LOADS, "excursion")}
+    for number, name in enumerate(names):
+        load = item.series["highest_load"].sel(point=name).values[chosen]
+        place = item.series["point_position"].sel(point=name).values[chosen]
+        if load.size == 0 or not np.isfinite(load).any():
+            for key in out:
+                out[key].append(math.nan)
+            continue
+        for key, highest in zip(LOADS, np.nanmax(load, axis=0), strict=True):
+            out[key].append(float(highest))
+        origin = rest[number] if rest is not None else place[0]
+        out["excursion"].append(float(np.nanmax(np.linalg.norm(place - origin, axis=1))))
+    return out
+
+
+def lean_of(angles: Array) -> Array:
+    """Return the angle between the axis of a body and the vertical [rad] from its roll, pitch and yaw (..., 3)."""
+    return np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
+
+
+def _solid_summary(problem: NetworkProblem, item: Run) -> dict[str, Array]:
+    """Return how far the bodies go and turn from where the run begins."""
+    chosen = _counted(problem, item)
+    place, angle = (item.series[key].values for key in ("solid_position", "solid_angle"))
+    if not chosen.any():
+        return dict.fromkeys(SOLID, np.full(place.shape[1], np.nan))
+    size = max(1.0, float(np.nanmax(np.abs(place[0]), initial=0.0)))
+    moved, turned = without_noise(place - place[0], size)[chosen], without_noise(angle - angle[0], 1.0)[chosen]
+    offset = np.linalg.norm(moved[..., :2], axis=2)
+    values = (
+        offset.max(axis=0), np.linalg.norm(moved[..., :2].mean(axis=0), axis=1), np.ptp(moved[..., 2], axis=0),
+        *(np.ptp(turned[..., k], axis=0) for k in range(3)), lean_of(angle[chosen]).max(axis=0),
+    )  # fmt: skip
+    return dict(zip(SOLID, values, strict=True))
+
+
+def contacts_dataset(item: Run) -> xr.Dataset | None:
+    """Return every time that a slack line came taut in a run, ``None`` where none did."""
+    import xarray as xr
+
+    rows = [(name, contact) for name, record in item.snaps.items() for contact in record.contacts]
+    if not rows:
+        return None
+    return labelled(
+        xr.Dataset(
+            {
+                "contact_line": ("contact", np.array([name for name, _ in rows], dtype=object)),
+                "contact_time": ("contact", np.array([contact.time for _, contact in rows])),
+                "contact_slack": ("contact", np.array([contact.slack_before for _, contact in rows])),
+                "contact_peak": ("contact", np.array([contact.peak for _, contact in rows])),
+                "contact_rise": ("contact", np.array([contact.rise_time for _, contact in rows])),
+                "is_snap": (
+                    "contact", np.array([contact.is_snap for _, contact in rows]),
+                    {"units": "1", "long_name": "whether the peak exceeds the threshold"},
+                ),
+            },
+            coords={"contact": np.arange(1, len(rows) + 1)},
+        )
+    )  # fmt: skip
