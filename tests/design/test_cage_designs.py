@@ -197,3 +197,26 @@ def test_a_model_cage_on_taut_lines():
     assert tension.band is not None and tension.band.low <= tension.value <= tension.band.high
     # wire nets: the laws of fibre nets are no part of the band
     assert "loland" not in found.tree["SWL/laws"].to_dataset()["law"].values
+
+
+@pytest.mark.slow  # three runs of ten seconds
+def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give():
+    """The band adds what the laws change in the current alone; the runs through waves under these laws are the proof."""
+    text = template("cage")
+    governing = result_of(text)
+    soft, stiff = (result_of(text.replace("law: loland", f"law: {law}")) for law in ("balash", "milne"))
+    # 7 %: the waves share in the drag, so that the change in the current alone is a little too small
+    for name in ("anchor_load", "offset", "collar_stress", "line_tension"):
+        band = headline(governing, name).band
+        assert band.low == pytest.approx(headline(soft, name).value, rel=0.07)
+        assert band.high == pytest.approx(headline(stiff, name).value, rel=0.07)
+
+
+def test_numbers_without_a_limit_are_named():
+    from moyai.report.first_page import without_limit
+
+    text = tank(1.435, 1.44, 1.8e-3, 0.225, "{count: 16, submerged_weight: 3.92 N}", 0.05)
+    assert "drag in the current" in without_limit(result_of(text))
+    judged = result_of(text + "criteria: {greatest_drag: 1 kN}\n")
+    assert "drag in the current" not in without_limit(judged)
+    assert "volume left" in without_limit(judged)

@@ -89,7 +89,7 @@ def print_summary(console: Console, result: Result, files: Sequence[Path], secon
 
 def print_judgements(console: Console, result: Result) -> None:
     """Print the criteria of a result with their outcome, the failing ones first."""
-    from moyai.report.first_page import criteria_table
+    from moyai.report.first_page import criteria_table, without_limit
 
     found = criteria_table(result)
     if found is None:
@@ -101,6 +101,8 @@ def print_judgements(console: Console, result: Result) -> None:
     for row in zip(*(columns[name] for name in ("Criterion", "Limit", "Found", "Outcome", "Source")), strict=True):
         table.add_row(*map(str, row))
     console.print(table)
+    if missing := without_limit(result):
+        console.print(missing, markup=False, soft_wrap=True)
 
 
 def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:

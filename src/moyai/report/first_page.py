@@ -113,7 +113,7 @@ def criteria_table(result: Result) -> Table | None:
             Column("Outcome", [item.outcome for item in items]),
             Column("Source", [item.criterion.source for item in items]),
         ),
-        note=criteria_note(items),
+        note=" ".join(filter(None, (criteria_note(items), without_limit(result)))),
         failed=tuple(row for row, item in enumerate(items) if item.outcome == "does not hold"),
     )
 
@@ -124,6 +124,13 @@ def criteria_note(items: Iterable[Judgement]) -> str:
     if any(item.criterion.assumed for item in items):
         text += " A default of moyai is no requirement of yours: give your own under 'criteria', or 'criteria: none'."
     return text
+
+
+def without_limit(result: Result) -> str:
+    """Return which numbers of the first page no criterion judges; empty where all are judged."""
+    judged = {item.criterion.headline for item in result.verdict.judgements}
+    names = dict.fromkeys(item.label for item in result.headlines if item.shown and item.name not in judged)
+    return f"No limit is given for: {', '.join(names)}." if names else ""
 
 
 def largest_by_unit(result: Result) -> dict[str, float]:

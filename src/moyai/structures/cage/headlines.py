@@ -32,6 +32,7 @@ class _State:
     level: str
     speed: float
     row: int
+    cage: xr.Dataset
     statics: xr.Dataset
     laws: xr.Dataset | None
 
@@ -46,6 +47,26 @@ class _State:
             return None
         values = self.laws[f"law_{name}"].values
         return Band(float(np.min(values)), float(np.max(values)), _laws_text(self.laws))
+
+    def moved(self, name: str, low: float, high: float) -> tuple[float, float, str]:
+        """Return a range in the sea with what the laws change in the current alone added.
+
+        The sea moves the cage about its place in the current. The words are empty where no second law is valid or the
+        number is not known in the current alone.
+        """
+        if self.laws is None or self.laws.sizes["law"] < 2:
+            return low, high, ""
+        values = self.laws[f"law_{name}"].values
+        if not np.isfinite(values).all():
+            return low, high, ""
+        change = values - float(values[0])
+        words = f"{_laws_text(self.laws)}, by their change in the current alone"
+        return max(low + float(change.min()), 0.0), high + float(change.max()), words
+
+    def band_in_sea(self, name: str, value: float) -> Band | None:
+        """Return the band of the laws about a number that was found in the sea."""
+        low, high, words = self.moved(name, value, value)
+        return Band(low, high, words) if words else None
 
 
 def _laws_text(laws: xr.Dataset) -> str:
@@ -87,7 +108,7 @@ def _state(level: str, groups: Groups) -> _State | None:
     row = int(np.argmin(np.abs(speeds - speed)))
     if abs(float(speeds[row]) - speed) > 1e-6 * max(1.0, speed):
         return None
-    return _State(level, speed, row, statics, groups.get(f"/{level}/laws"))
+    return _State(level, speed, row, groups[f"/{level}/cage"], statics, groups.get(f"/{level}/laws"))
 
 
 def _runs(level: str, groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
@@ -99,6 +120,11 @@ def _runs(level: str, groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
             yield level, f"{parts[2]}{label}, {level}", run
 
 
+def volume_text(volume: float) -> str:
+    """Return a volume [m3] in words, without a power of ten."""
+    return f"{volume:.0f} m³" if volume >= 1000.0 else f"{volume:.3g} m³"
+
+
 Runs = list[tuple[str, str, "xr.Dataset"]]
 
 
@@ -106,9 +132,13 @@ def _volume(states: list[_State], runs: Runs) -> list[Headline]:
     if not states:
         return []
     worst = min(states, key=lambda state: float(state.statics["volume_share"].values[state.row].min()))
-    value = float(worst.statics["volume_share"].values[worst.row].min())
+    shares = worst.statics["volume_share"].values[worst.row]
+    value, at = float(shares.min()), int(np.argmin(shares))
     least = min((float(run["volume_minimum"].min()) for _, _, run in runs), default=math.nan)
-    detail = f"down to {least:.3g} for moments in the sea" if math.isfinite(least) else ""
+    built = float(worst.cage["rest_volume"].values[at])
+    detail = f"{volume_text(value * built)} of {volume_text(built)} as built"
+    if math.isfinite(least):
+        detail += f"; down to {least:.3g} for moments in the sea"
     return [
         Headline(
             "volume_left", "volume left", value, "1", worst.where, STATICS, worst.band("volume_share"), detail=detail,
@@ -121,11 +151,17 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
         return []
     worst = max(states, key=lambda state: float(state.statics["total_drag"].values[state.row]))
     value = float(worst.statics["total_drag"].values[worst.row])
-    detail = ""
+    along = worst.statics["drag_along"].values[worst.row]
+    shares = [
+        (str(part), float(share))
+        for part, share in zip(worst.statics["part"].values, along)
+        if abs(share) > 5e-3 * value
+    ]
+    detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
     largest = [(float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()), where) for _, where, run in runs]
     if largest:
         most, where = max(largest)
-        detail = f"up to {most / 1e3:.3g} kN for moments in {where}"
+        detail += f"; up to {most / 1e3:.3g} kN for moments in {where}"
     band = worst.band("drag")
     return [Headline("drag", "drag in the current", value, "N", worst.where, STATICS, band, detail=detail)]
 
@@ -192,12 +228,9 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
             )
         else:
             details.append("one seed, too short to tell the scatter of its maximum")
-    laws = None if state is None else state.laws
-    if laws is not None and laws.sizes["law"] > 1:
-        # the sea moves the cage about its rest: what the law changes there is added
-        moved = laws["law_tension"].values - float(laws["law_tension"].values[0])
-        low, high = low + float(moved.min()), high + float(moved.max())
-        words.append(f"{_laws_text(laws)}, by their change at rest")
+    if state is not None:
+        low, high, text = state.moved("tension", low, high)
+        words += [text] if text else []
     name = str(run["line"].values[line])
     band = Band(max(low, 0.0), high, "; ".join(words)) if words else None
     return Headline(
@@ -222,16 +255,14 @@ def _offset(states: list[_State], runs: Runs) -> list[Headline]:
     if not found or max(item[0] for item in found) < 1e-9:
         return []
     value, where, model, state = max(found, key=lambda item: item[0])
-    band = state.band("offset") if model == STATICS else None
-    detail = "" if band is not None or state.band("offset") is None else (
-        f"in the current alone {state.band('offset').low:.3g} to {state.band('offset').high:.3g} m by net law"  # type: ignore[union-attr]
-    )  # fmt: skip
-    return [Headline("offset", "largest offset of a collar", value, "m", where, model, band, detail=detail)]
+    band = state.band("offset") if model == STATICS else state.band_in_sea("offset", value)
+    return [Headline("offset", "largest offset of a collar", value, "m", where, model, band)]
 
 
 def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
-    for _, where, run in runs:
+    by_level = {state.level: state for state in states}
+    for level, where, run in runs:
         if "tension_maximum_lower" not in run:
             continue
         names = [str(name) for name in run["line"].values]
@@ -239,7 +270,9 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
         if anchors:
             pulls = run["tension_maximum_lower"].values[anchors]
             at = int(np.argmax(pulls))
-            found.append((float(pulls[at]), f"{names[anchors[at]]}, {where}", DYNAMIC, "", None))
+            pull = float(pulls[at])
+            band = None if level not in by_level else by_level[level].band_in_sea("anchor_pull", pull)
+            found.append((pull, f"{names[anchors[at]]}, {where}", DYNAMIC, "", band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
             pulls = state.statics["anchor_pull"].values[state.row]
@@ -255,22 +288,22 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
 
 
 def _stress(states: list[_State], runs: Runs) -> list[Headline]:
-    found = [
-        (float(state.statics["collar_stress_largest"].values[state.row].max()), state.where, STATICS)
-        for state in states if "collar_stress_largest" in state.statics
-    ]  # fmt: skip
-    for _, where, run in runs:
+    found: list[tuple[float, str, str, Band | None]] = []
+    by_level = {state.level: state for state in states}
+    for state in states:
+        if "collar_stress_largest" in state.statics:
+            value = float(state.statics["collar_stress_largest"].values[state.row].max())
+            found.append((value, state.where, STATICS, state.band("collar_stress")))
+    for level, where, run in runs:
         if "collar_stress_largest" in run:
             late = run["time"].values >= float(run.attrs["ramp"])
-            found.append((float(run["collar_stress_largest"].values[late].max()), where, DYNAMIC))
+            value = float(run["collar_stress_largest"].values[late].max())
+            band = None if level not in by_level else by_level[level].band_in_sea("collar_stress", value)
+            found.append((value, where, DYNAMIC, band))
     if not found:
         return []
-    value, where, model = max(found)
-    return [
-        Headline(
-            "collar_stress", "largest stress of the collar", value, "Pa", where, model, text=f"{value / 1e6:.3g} MPa"
-        )
-    ]
+    value, where, model, band = max(found, key=lambda item: item[0])
+    return [Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)]
 
 
 def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:

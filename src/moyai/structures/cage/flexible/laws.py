@@ -12,7 +12,13 @@ from moyai.core.progress import Progress, silent
 from moyai.morison.net_law_base import NetLaw
 from moyai.morison.net_law_choice import METAL, LawChoice, law_choice
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.equilibrium import CageRest, horizontal_balance, ring_shape, solve_rest
+from moyai.structures.cage.flexible.equilibrium import (
+    CageRest,
+    horizontal_balance,
+    ring_shape,
+    solve_rest,
+    stress_around,
+)
 from moyai.structures.cage.flexible.loads import pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.variables import described
@@ -54,7 +60,7 @@ def laws_dataset(
         if number:
             other = replace(model, design=replace(model.design, net=replace(model.design.net, law=law)))
             found = solve_rest(other, build_cage(other), rest.current, start=rest.state)
-        rows.append(_numbers(found, calm, heading))
+        rows.append(_numbers(model, found, calm, heading))
     progress("laws of nets", len(laws), len(laws))
     coefficients = [
         float(law.coefficients(0.0, speed, model.design.net.net, model.kinematic_viscosity)[0]) for law in laws
@@ -71,7 +77,7 @@ def laws_dataset(
     )
 
 
-def _numbers(rest: CageRest, calm: CageRest, heading: float) -> dict[str, float]:
+def _numbers(model: FlexibleCage, rest: CageRest, calm: CageRest, heading: float) -> dict[str, float]:
     """Return what the first page shows of one rest."""
     built, position = rest.built, rest.state.position
     along = np.array([math.cos(heading), math.sin(heading), 0.0])
@@ -93,5 +99,14 @@ def _numbers(rest: CageRest, calm: CageRest, heading: float) -> dict[str, float]
         "utilisation": max(used, default=math.nan),
         "offset": offset,
         "anchor_pull": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,
+        "collar_stress": _collar_stress(model, rest),
         "residual": rest.residual,
     }
+
+
+def _collar_stress(model: FlexibleCage, rest: CageRest) -> float:
+    """Return the largest stress of the collars [Pa]; NaN for a collar that is rigid or a plain frame."""
+    if not rest.built.cages[0].collar_bars or model.design.collar.rigid:
+        return math.nan
+    around = stress_around(model, rest, rest.state.position, rest.tension)
+    return max(float(ring.max()) for rings in around for ring in rings)

@@ -65,6 +65,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "law_utilisation": ("1", "largest tension over breaking load in the current of the site"),
     "law_offset": ("m", "largest offset of a collar in the current of the site"),
     "law_anchor_pull": ("N", "largest pull on an anchor in the current of the site"),
+    "law_collar_stress": ("Pa", "largest von Mises stress of the collar in the current of the site"),
     "law_residual": ("1", "largest force left on a node over the largest tension"),
     "bottom_lift": ("m", "rise of the knot of the net that is deepest in still water"),
     "position": ("m", "places of the nodes"),
