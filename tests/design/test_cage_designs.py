@@ -201,7 +201,7 @@ def test_a_model_cage_on_taut_lines():
 
 @pytest.mark.slow  # three runs of ten seconds
 def test_the_band_in_the_sea_is_what_runs_under_the_extreme_laws_give():
-    """The band adds what the laws change in the current alone; the runs through waves under these laws are the proof."""
+    """The band adds what the laws change in the current alone; runs through waves under these laws are the proof."""
     text = template("cage")
     governing = result_of(text)
     soft, stiff = (result_of(text.replace("law: loland", f"law: {law}")) for law in ("balash", "milne"))

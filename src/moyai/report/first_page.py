@@ -129,7 +129,7 @@ def criteria_note(items: Iterable[Judgement]) -> str:
 def without_limit(result: Result) -> str:
     """Return which numbers of the first page no criterion judges; empty where all are judged."""
     judged = {item.criterion.headline for item in result.verdict.judgements}
-    names = dict.fromkeys(item.label for item in result.headlines if item.shown and item.name not in judged)
+    names = dict.fromkeys(_within_a_sentence(item.label) for item in result.headlines if item.shown and item.name not in judged)
     return f"No limit is given for: {', '.join(names)}." if names else ""
 
 
@@ -170,6 +170,12 @@ def limit_and_found(item: Judgement, like: float = 0.0) -> tuple[str, str]:
         joint = "" if shown.name == "deg" else " "
         texts.append(text if text == DASH else f"{text}{joint}{shown.pretty}")
     return f"{criterion.sense} {texts[0]}", texts[1]
+
+
+def _within_a_sentence(text: str) -> str:
+    """Return a text without its capital letter, unless it begins with a name or a symbol."""
+    first = text.split(" ", 1)[0]
+    return text[:1].lower() + text[1:] if first[1:].islower() else text
 
 
 def sentence(text: str) -> str:
