@@ -9,17 +9,14 @@ import math
 import sys
 from pathlib import Path
 
+from moyai.core.kinds import structure_kinds
 from moyai.tables.plausible_ranges import PlausibleRange, all_ranges, range_sources
 
 MARK = "<!-- made by: python -m moyai.case.plausibility_page docs/answer/plausibility.md -->"
 _TITLES = {
     "kind": "Bounds of every kind of quantity",
     "*": "Site, waves, wind, current",
-    "breakwater": "Breakwater",
-    "curtain": "Curtain",
-    "cage": "Cage",
-    "member": "Member",
-    "network": "Network",
+    **{name: name.capitalize() for name in structure_kinds()},
 }
 
 

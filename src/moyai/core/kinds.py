@@ -60,6 +60,9 @@ class StructureKind(Kind):
     def schema(self) -> Any:
         """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""
 
+    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
+        """Add sizes that numbers of a case are held against (:mod:`moyai.case.plausible_sizes`); none by default."""
+
     @abstractmethod
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         """Record errors and warnings beyond the schema in a :class:`moyai.case.findings.Findings`."""

@@ -22,6 +22,11 @@ class BreakwaterKind(StructureKind):
 
         return BreakwaterCase
 
+    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
+        from moyai.structures.breakwater.case.sizes import add_sizes
+
+        add_sizes(model, sizes)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.breakwater.case.check import check
 

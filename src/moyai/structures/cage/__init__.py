@@ -25,6 +25,11 @@ class CageKind(StructureKind):
 
         return CageCase
 
+    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
+        from moyai.structures.cage.case.sizes import add_sizes
+
+        add_sizes(model, sizes)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.cage.case.check import check
 

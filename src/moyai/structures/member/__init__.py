@@ -22,6 +22,11 @@ class MemberKind(StructureKind):
 
         return MemberCase
 
+    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
+        from moyai.structures.member.case.sizes import add_sizes
+
+        add_sizes(model, sizes)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.member.case.check import check
 

@@ -22,6 +22,11 @@ class NetworkKind(StructureKind):
 
         return NetworkCase
 
+    def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
+        from moyai.structures.network.case.sizes import add_sizes
+
+        add_sizes(model, sizes, periods)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.network.case.check import check
 

@@ -5,17 +5,26 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from moyai.case.plausible_sizes import Periods, Sizes
 from moyai.case.yaml_reader import KeyPath
 
-Sizes = dict[KeyPath, tuple[float, tuple[KeyPath, ...]]]
 Place = tuple[float, float, float]
 
 _DENSITY: KeyPath = ("site", "density")
 _DEPTH: KeyPath = ("site", "water_depth")
 
 
-def network_sizes(model: Any, sizes: Sizes) -> None:
-    """Add the sizes of a network to ``sizes``, each with the keys that it follows from."""
+def add_sizes(model: Any, sizes: Sizes, periods: Periods) -> None:
+    """Add the sizes of a network with the keys that they follow from; without waves, driven points give periods."""
+    _places_and_parts(model, sizes)
+    if not periods:
+        for name, motion in model.structure.motions.items():
+            if getattr(motion, "period", None) is not None:
+                periods.append((motion.period, ("structure", "motions", name, "period")))
+    _duration(model, sizes, periods)
+
+
+def _places_and_parts(model: Any, sizes: Sizes) -> None:
     unit, site = model.structure, model.site
     places = _places(unit, site)
     chords: list[float] = []
@@ -49,6 +58,24 @@ def network_sizes(model: Any, sizes: Sizes) -> None:
             sizes[("structure", group, name, "@middle")] = _middle_of(grid.corners, site), ()
     for name, body in unit.bodies.items():
         _body(body, ("structure", "bodies", name), site, sizes)
+
+
+def _duration(model: Any, sizes: Sizes, periods: Periods) -> None:
+    """Add the length of a run of a network."""
+    settings = model.settings
+    lasting: list[tuple[float, KeyPath]] = [
+        (state.duration, ("waves", index, "duration"))
+        for index, state in enumerate(model.waves)
+        if getattr(state, "duration", None) is not None
+    ]
+    if settings.duration is not None:
+        lasting.append((settings.duration, ("settings", "duration")))
+    if lasting:
+        value, key = max(lasting, key=lambda entry: entry[0])
+        sizes[("@duration",)] = value, (key,)
+    elif periods:
+        period, key = max(periods, key=lambda entry: entry[0])
+        sizes[("@duration",)] = 20.0 * period, (key,)
 
 
 def _places(unit: Any, site: Any) -> dict[str, tuple[Place, tuple[KeyPath, ...]]]:
