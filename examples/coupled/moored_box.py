@@ -27,11 +27,11 @@ from moyai.coupled.wave_loads import WaveLoads
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import BarType, Bed, Network
-from moyai.flexible.snap import find_snaps
 from moyai.interop.read import read_coefficients
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.snaps import find_snaps
 
 WATER = Water(depth=0.5, density=1000.0, gravity=9.81)
 DRAUGHT, CENTRE = 0.0787, 0.0661

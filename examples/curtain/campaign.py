@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.records.survey.regressions import correlation, fit_by_direction, fit_cosine, fit_line, type_ratio
 from moyai.records.survey.tension_blocks import Blocks, analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
-from moyai.sea.statistics import zero_crossing
 from moyai.sea.water import Water
+from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_line, type_ratio
+from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.curtain.seas.anchor_energy import FITTING_RULES, EnergyModel, calibrate, calibration_bounds
 from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional, squared_velocity
 

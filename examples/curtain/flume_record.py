@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.sea.water import Water
-from moyai.series.snap_record import SnapRecord, read_snap, sampling_loss
+from moyai.series.snap_record import MeasuredSnap, read_snap, sampling_loss
 from moyai.structures.curtain.impact.cable import Impact, edge_impact
 from moyai.structures.curtain.impact.compare import compare_models
 from moyai.structures.curtain.impact.record import RecordComparison, compare_record, model_series
@@ -56,12 +56,12 @@ def synthetic(rate: float, noise: float, drift: float, seed: int) -> tuple[Array
     return time, both + noise * rng.standard_normal(both.shape) + drift * time / 23.0 + np.array([[0.7], [-0.3]])
 
 
-def read(time: Array, tension: Array) -> SnapRecord:
+def read(time: Array, tension: Array) -> MeasuredSnap:
     """Read the record; the plateau is sought before the curtain is let loose."""
     return read_snap(time, tension, unloaded=UNLOADED, names=("upper", "lower"), window=(0.0, 21.0))
 
 
-def compare(found: SnapRecord) -> RecordComparison:
+def compare(found: MeasuredSnap) -> RecordComparison:
     """Hold all models against the record."""
     phase = slack_phase(IMPACT, drag_coefficient=DRAG, current=CURRENT, position=0.0, speed=0.0)
     return compare_record(
@@ -74,7 +74,7 @@ def compare(found: SnapRecord) -> RecordComparison:
     )
 
 
-def draw(path: Path, found: SnapRecord) -> None:
+def draw(path: Path, found: MeasuredSnap) -> None:
     """Draw the record and the models over it, from just before the taut instant."""
     import matplotlib
 

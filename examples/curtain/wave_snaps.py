@@ -19,10 +19,10 @@ import numpy as np
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.series.snap_statistics import SnapFit, dispersion, fit_snaps
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.snaps.events import SeaSnaps, compare_steps, snaps_in_sea, suggested_time_step
 from moyai.structures.curtain.snaps.flow import SkirtVelocity, flow_over_skirt
-from moyai.structures.curtain.snaps.statistics import SnapFit, dispersion, fit_snaps
 
 WATER = Water(depth=20.0, density=1025.0, gravity=9.81)
 CURTAIN = Impact(span=15.0, length=17.0, draught=5.0, upper_stiffness=2e6, lower_stiffness=2e6, speed=0.3, water=WATER)
@@ -84,7 +84,7 @@ def draw(path: Path, found: SeaSnaps, law: SnapFit) -> None:
     grid = np.linspace(law.threshold, 1.3 * law.peaks[0], 200)
     axes[1].semilogy(grid / 1e3, law.exceedance(grid), label=law.law)
     top = law.most_probable_maximum(24.0)
-    axes[1].axvspan(top.low / 1e3, top.high / 1e3, color="0.9", label="most probable in 24 h")
+    axes[1].axvspan(top.lower / 1e3, top.upper / 1e3, color="0.9", label="most probable in 24 h")
     axes[1].set(xlabel="peak tension [kN]", ylabel="exceedance", ylim=(1e-4, 1.0))
     axes[1].legend()
     figure.savefig(path, dpi=120)
@@ -105,7 +105,9 @@ def main() -> None:
     law = fit(found)
     for hours in (3.0, 24.0):
         top = law.most_probable_maximum(hours)
-        print(f"most probable in {hours:g} h: {top.value / 1e3:.0f} kN ({top.low / 1e3:.0f} to {top.high / 1e3:.0f})")
+        print(
+            f"most probable in {hours:g} h: {top.value / 1e3:.0f} kN ({top.lower / 1e3:.0f} to {top.upper / 1e3:.0f})"
+        )
     print(
         f"variance over mean of the counts in 20 minutes: {dispersion(found.time[found.counted], 60.0, 10740.0, 9):.2f}"
     )

@@ -14,9 +14,9 @@ from moyai.records.reading.quality import QualityOptions, check_record
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.sensors import Sensor, surface_elevation
 from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
-from moyai.records.spectra import WelchOptions, cross_spectra, spectrum_of
 from moyai.records.survey.directional import directional_spectrum, fourier_directions
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions, cross_spectra, spectrum_of
 
 DBAR = 1.0e4
 BAND = (0.05, 0.20)

@@ -15,12 +15,12 @@ from moyai.records.calibration import Parameter, calibrate
 from moyai.records.reading.reader import blocks, read_chunks
 from moyai.records.survey.campaign import CampaignLaws, write_campaign
 from moyai.records.survey.case.build import load_survey
-from moyai.records.survey.regressions import correlation, fit_by_direction, fit_line, type_ratio
 from moyai.records.survey.run import run_survey
 from moyai.records.survey.tensions import split_tension, wave_maxima
-from moyai.records.waves import find_waves
 from moyai.report.writer import write_report
 from moyai.sea.dispersion import wave_number
+from moyai.series.regressions import correlation, fit_by_direction, fit_line, type_ratio
+from moyai.series.zero_crossing import find_waves
 from moyai.structures.curtain.seas.anchor_energy import error_against_product
 
 LEAST_HEIGHT = 0.5

@@ -7,12 +7,12 @@ them, as time series; tensions wave by wave.
 import numpy as np
 from shared_folder import shared_folder
 
-from moyai.records.detrend import Detrend
 from moyai.records.survey.flume import FlumeLayout, analyse_regular_run, read_flume_record, wavemaker_start
 from moyai.records.survey.irregular_reflection import wave_series
 from moyai.records.survey.tensions import split_tension, tension_statistics, wave_maxima
-from moyai.records.waves import WaveOptions, find_waves
 from moyai.sea.water import Water
+from moyai.series.detrend import Detrend
+from moyai.series.zero_crossing import WaveOptions, find_waves
 
 PERIODS = {"04": 1.210, "06": 1.158, "10": 0.897}
 LAYOUT = FlumeLayout(

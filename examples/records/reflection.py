@@ -8,17 +8,17 @@ import math
 import numpy as np
 from shared_folder import shared_folder
 
-from moyai.records.detrend import Detrend
-from moyai.records.harmonics import fit_harmonics
 from moyai.records.reading.quality import QualityOptions, check_record
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
-from moyai.records.spectra import WelchOptions
 from moyai.records.survey.irregular_reflection import separate_irregular
 from moyai.records.survey.reflection import separate_waves
-from moyai.records.waves import WaveOptions, find_waves
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.detrend import Detrend
+from moyai.series.harmonics import fit_harmonics
+from moyai.series.spectra import WelchOptions
+from moyai.series.zero_crossing import WaveOptions, find_waves
 
 WATER = Water(depth=0.25, density=1000.0, gravity=9.81)
 POSITIONS = (0.0, 0.6, 0.9)

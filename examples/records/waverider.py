@@ -10,15 +10,15 @@ import math
 import numpy as np
 from shared_folder import shared_folder
 
-from moyai.records.detrend import Detrend
 from moyai.records.reading.quality import QualityOptions, check_record
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.sensors import Sensor
 from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
-from moyai.records.spectra import WelchOptions, cross_spectra
 from moyai.records.survey.directional import directional_spectrum, fourier_directions
-from moyai.records.waves import WaveOptions, find_waves
 from moyai.sea.water import Water
+from moyai.series.detrend import Detrend
+from moyai.series.spectra import WelchOptions, cross_spectra
+from moyai.series.zero_crossing import WaveOptions, find_waves
 
 HOURS = ("00h00", "00h30", "12h00", "18h30")
 RATE = 1.28

@@ -139,9 +139,9 @@ def test_springs_follow_the_sway(runs):
 
 def test_conditioning_case_of_three_gauges(shared_data):
     """Source's probes at 0, 0.6, 0.9 m in 0.25 m of water at 100 Hz: reflection 0.03, residuals of 4 % of the wave."""
-    from moyai.records.harmonics import fit_harmonics
     from moyai.records.survey.reflection import separate_waves
     from moyai.sea.dispersion import wave_number
+    from moyai.series.harmonics import fit_harmonics
 
     values = np.loadtxt(shared_data / "flume_reflection" / "wavelabx_wavedata.csv", delimiter=",", skiprows=1)
     time = np.arange(len(values)) / 100.0

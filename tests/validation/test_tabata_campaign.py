@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from moyai.records.survey.regressions import correlation, fit_by_direction, fit_cosine, fit_line, fit_power, type_ratio
 from moyai.records.survey.tension_blocks import analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
-from moyai.sea.statistics import rayleigh_expected_maximum
 from moyai.sea.water import Water
+from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_line, fit_power, type_ratio
+from moyai.series.wave_statistics import rayleigh_expected_maximum
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, calibrate, calibration_bounds
 from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional, squared_velocity

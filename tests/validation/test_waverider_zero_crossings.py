@@ -8,7 +8,8 @@ the share moves the mean by 0.1 to 0.2 %, which is the tolerance of the signific
 import numpy as np
 import pytest
 
-from moyai.sea import statistics
+from moyai.series import wave_statistics
+from moyai.series.zero_crossing import zero_crossing
 
 pytestmark = pytest.mark.shared_data
 
@@ -23,7 +24,7 @@ RECORDS = {
 
 def cycles_of(shared_data, hour):
     heave = np.genfromtxt(shared_data / "buoy_displacement" / f"buoy}}2005-07-01T{hour}Z.raw", delimiter=",")[:, 1]
-    return statistics.zero_crossing(np.arange(heave.size) / 1.28, heave, mean_level=0.0)
+    return zero_crossing(np.arange(heave.size) / 1.28, heave, mean_level=0.0)
 
 
 @pytest.mark.parametrize("hour", ["00h00", "00h30"])
@@ -35,7 +36,7 @@ def test_records_of_which_the_software_used_every_wave(shared_data, hour):
     assert cycles.period[np.argmax(cycles.height)] == pytest.approx(period, abs=0.02)
     assert cycles.height.mean() == pytest.approx(mean, abs=0.006)
     assert cycles.period.mean() == pytest.approx(mean_period, abs=0.006)
-    assert statistics.significant(cycles.height, 0.1) == pytest.approx(tenth, rel=2e-3)
+    assert wave_statistics.significant(cycles.height, 0.1) == pytest.approx(tenth, rel=2e-3)
     assert cycles.significant_height() == pytest.approx(third, rel=2e-3)
     assert cycles.significant_period() == pytest.approx(third_period, rel=6e-3)
 
@@ -47,6 +48,6 @@ def test_all_records(shared_data, hour):
     cycles = cycles_of(shared_data, hour)
     assert abs(len(cycles) - count) <= 4
     assert cycles.height.max() == highest
-    assert statistics.significant(cycles.height, 0.1) == pytest.approx(tenth, rel=0.012)
+    assert wave_statistics.significant(cycles.height, 0.1) == pytest.approx(tenth, rel=0.012)
     assert cycles.significant_height() == pytest.approx(third, rel=0.012)
     assert cycles.height.mean() == pytest.approx(mean, rel=0.016)

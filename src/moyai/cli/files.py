@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from pathlib import Path
 
 from moyai.core.errors import InputError
+from moyai.core.files import write_whole
 
 
 def write_text(path: Path, text: str, *, replace: bool) -> Path:
@@ -29,22 +28,7 @@ def write_text(path: Path, text: str, *, replace: bool) -> Path:
         raise InputError(f"{path} is a folder", path="output", remedy="name a file")
     if path.exists() and not replace:
         raise InputError(f"{path} exists", path="output", remedy="choose another name, or add --force")
-    partial = ""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, partial = tempfile.mkstemp(prefix=path.name + ".", suffix=".partial", dir=path.parent)
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(partial, 0o666 & ~mask)
-        os.replace(partial, path)
-    except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror or error}", path="output") from None
-    finally:
-        if partial:
-            Path(partial).unlink(missing_ok=True)
-    return path
+    return write_whole(path, text.encode("utf-8"))
 
 
 def decimal_sign(text: str) -> str:

@@ -12,6 +12,7 @@ import typer
 
 from moyai.cli.console import OK, guard, print_json, rich_console, say
 from moyai.core.errors import InputError
+from moyai.core.files import write_whole
 
 if TYPE_CHECKING:
     from moyai.study.query import StudyTable
@@ -180,11 +181,7 @@ def _write(path: Path, header: list[str], rows: list[list[Any]]) -> None:
     writer.writerow(header)
     for row in rows:
         writer.writerow(["" if isinstance(value, float) and not math.isfinite(value) else value for value in row])
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text.getvalue(), encoding="utf-8-sig", newline="")
-    except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror or error}", path="--csv") from None
+    write_whole(path, text.getvalue().encode("utf-8-sig"), named="--csv")
 
 
 __all__ = ["query"]

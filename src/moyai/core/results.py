@@ -6,9 +6,7 @@ import json
 import math
 import os
 import platform
-import shutil
 import sys
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -19,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from moyai.core.errors import InputError, MoyaiError
+from moyai.core.files import partial_file
 from moyai.core.headline import Headline, Verdict, without_computation
 from moyai.core.validity import IdentityCheck, Notice
 
@@ -140,38 +139,6 @@ def _map_tree(tree: xr.DataTree, change: Any) -> xr.DataTree:
     return xr.DataTree.from_dict({node.path: change(node.to_dataset(inherit=False)) for node in tree.subtree})
 
 
-def require_space(folder: Path, size: int) -> None:
-    """Refuse to start a file that the disk has no room for: the HDF5 library does not survive a disk that fills up.
-
-    Parameters
-    ----------
-    folder : Path
-        Where the file will stand.
-    size : int
-        Bytes of the data.
-
-    Raises
-    ------
-    InputError
-        With what is needed and what is free.
-    """
-    needed = 1.2 * size + 2_000_000
-    free = shutil.disk_usage(folder).free
-    if free < needed:
-        raise InputError(
-            f"{folder} has {free / 1e6:.1f} MB free and the results need about {needed / 1e6:.1f} MB",
-            path="output",
-            remedy="free some space or choose another folder",
-        )
-
-
-def give_usual_rights(file: Path) -> None:
-    """Give a file made under a temporary name the rights that a new file has here."""
-    mask = os.umask(0)
-    os.umask(mask)
-    file.chmod(0o666 & ~mask)
-
-
 def write_result(result: Result, path: Path) -> Path:
     """Write a result; see :meth:`Result.write`."""
     import xarray as xr
@@ -197,25 +164,8 @@ def write_result(result: Result, path: Path) -> Path:
     groups = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
     groups["/"] = root
     tree = xr.DataTree.from_dict(groups)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        require_space(path.parent, sum(node.nbytes for node in tree.subtree))
-        handle, partial = tempfile.mkstemp(prefix=path.name + ".", suffix=".partial", dir=path.parent)
-        os.close(handle)
-    except OSError as error:
-        raise InputError(
-            f"cannot write {path}: {error.strerror or error}",
-            path="output",
-            remedy="choose a folder that can be written",
-        ) from error
-    try:
+    with partial_file(path, size=sum(node.nbytes for node in tree.subtree)) as partial:
         tree.to_netcdf(partial, engine="h5netcdf")
-        give_usual_rights(Path(partial))
-        os.replace(partial, path)
-    except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror or error}", path="output") from error
-    finally:
-        Path(partial).unlink(missing_ok=True)
     return path
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import tempfile
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.core.results import join_complex, require_space, split_complex
+from moyai.core.files import partial_file
+from moyai.core.results import join_complex, split_complex
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -65,17 +65,5 @@ class DatasetStore:
 
     def put(self, key: str, dataset: xr.Dataset) -> None:
         """Keep a dataset; a folder that cannot be written keeps nothing and harms nothing."""
-        try:
-            self.directory.mkdir(parents=True, exist_ok=True)
-            require_space(self.directory, dataset.nbytes)
-            handle, partial = tempfile.mkstemp(prefix=key, suffix=".partial", dir=self.directory)
-            os.close(handle)
-        except (OSError, InputError):
-            return
-        try:
+        with suppress(InputError), partial_file(self.directory / f"{key}.nc", size=dataset.nbytes) as partial:
             split_complex(dataset).to_netcdf(partial, engine="h5netcdf")
-            os.replace(partial, self.directory / f"{key}.nc")
-        except OSError:
-            pass
-        finally:
-            Path(partial).unlink(missing_ok=True)

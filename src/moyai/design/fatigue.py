@@ -49,36 +49,6 @@ class EnduranceCurve:
             return np.asarray(self.capacity / r**self.exponent)
 
 
-def count_cycles(series: ArrayLike) -> tuple[Array, Array, Array]:
-    """Count rainflow cycles of a record (ASTM E1049).
-
-    Parameters
-    ----------
-    series : array_like (n,)
-        Tension or stress.
-
-    Returns
-    -------
-    ranges, means, counts : ndarray
-        Of the unit of the series; counts are 1 or 0.5.
-
-    Raises
-    ------
-    InputError
-        For a record with NaN or fewer than three values.
-    """
-    import rainflow
-
-    data = np.asarray(series, dtype=float).ravel()
-    if data.size < 3 or not np.isfinite(data).all():
-        raise InputError("a record to count has at least three finite values", path="series")
-    cycles = [(size, mean, count) for size, mean, count, _, _ in rainflow.extract_cycles(data)]
-    if not cycles:
-        return np.empty(0), np.empty(0), np.empty(0)
-    ranges, means, counts = (np.array(column, dtype=float) for column in zip(*cycles))
-    return ranges, means, counts
-
-
 def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float:
     """Return the Palmgren-Miner sum of counted cycles [eq:fatigue-miner].
 

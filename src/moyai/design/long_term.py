@@ -15,7 +15,7 @@ from scipy.optimize import brentq, curve_fit
 from scipy.special import ndtr, ndtri
 
 from moyai.core.errors import InputError
-from moyai.design.extremes import Fit, fit
+from moyai.series.extremes import Fit, fit
 
 Array = NDArray[np.float64]
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import tempfile
 import zipfile
 from pathlib import Path
 
 import numpy as np
 
 from moyai.core.errors import InputError
-from moyai.core.results import require_space
+from moyai.core.files import partial_file
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
 
@@ -39,20 +38,12 @@ def write_state(path: str | os.PathLike[str], state: State) -> Path:
         When the folder cannot be written.
     """
     target = Path(path)
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        require_space(target.parent, state.position.nbytes + state.velocity.nbytes)
-        handle, partial = tempfile.mkstemp(prefix=target.name, suffix=".partial", dir=target.parent)
-    except OSError as error:
-        raise InputError(
-            f"cannot write {target}: {error.strerror or error}", path="state_file", remedy="name a folder that you own"
-        ) from error
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, kind=_KIND, time=state.time, position=state.position, velocity=state.velocity)
-        os.replace(partial, target)
-    finally:
-        Path(partial).unlink(missing_ok=True)
+    size = state.position.nbytes + state.velocity.nbytes
+    with (
+        partial_file(target, size=size, remedy="name a folder that you own", named="state_file") as partial,
+        partial.open("wb") as file,
+    ):
+        np.savez(file, kind=_KIND, time=state.time, position=state.position, velocity=state.velocity)
     return target
 
 

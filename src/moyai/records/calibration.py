@@ -18,6 +18,7 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.records.reading.record import FloatArray
+from moyai.series.intervals import student_quantile
 
 Model = Callable[[FloatArray], ArrayLike]
 """From parameters to predictions, one for each observation."""
@@ -320,15 +321,13 @@ def _interval(
     A scatter found from few observations is uncertain itself, for which Student's distribution allows; draws from few
     observations scatter too little besides, by the root of the share of the degrees of freedom.
     """
-    from scipy.special import stdtrit
-
-    reach = 1.959964 if known_error else (float(stdtrit(freedom, 0.975)) if freedom > 0 else math.nan)
+    reach = 1.959964 if known_error else (student_quantile(0.95, freedom) if freedom > 0 else math.nan)
     if samples.shape[0] < 20:
         return np.column_stack([values - reach * errors, values + reach * errors])
     bounds = np.asarray(np.quantile(samples, (0.025, 0.975), axis=0).T, dtype=np.float64)
     if freedom <= 0:
         return bounds
-    wider = math.sqrt((freedom + values.size) / freedom) * float(stdtrit(freedom, 0.975)) / 1.959964
+    wider = math.sqrt((freedom + values.size) / freedom) * student_quantile(0.95, freedom) / 1.959964
     return np.asarray(values[:, None] + wider * (bounds - values[:, None]))
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.series.zero_crossing import zero_crossing
+
 
 def envelope_indices(values: ArrayLike, bins: int) -> NDArray[np.int64]:
     """Return the indices of the smallest and the largest value in each of ``bins`` stretches of a record.
@@ -113,8 +115,5 @@ def mean_crossing_period(time: ArrayLike, values: ArrayLike) -> float:
     times, record = times[known], record[known]
     if record.size < 3:
         return float("nan")
-    above = record > record.mean()
-    crossings = times[1:][above[1:] & ~above[:-1]]
-    if crossings.size < 2:
-        return float("nan")
-    return float((crossings[-1] - crossings[0]) / (crossings.size - 1))
+    waves = zero_crossing(times, record)
+    return float(waves.period.mean()) if len(waves) else float("nan")

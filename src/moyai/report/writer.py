@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 import re
-import tempfile
 from pathlib import Path
 
 from moyai.core.errors import InputError
+from moyai.core.files import write_whole
 from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
 from moyai.report.document import Document
@@ -87,48 +87,3 @@ def write_report(
             write_whole(folder / f"{name}_tables" / f"{file_name}.csv", table_csv(table).encode("utf-8-sig"))
         )
     return written
-
-
-def write_whole(path: Path, content: bytes) -> Path:
-    """Write a file under a partial name and rename it.
-
-    Parameters
-    ----------
-    path : Path
-        Final name.
-    content : bytes
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    InputError
-        When the folder cannot be written.
-    """
-    partial = ""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, partial = tempfile.mkstemp(prefix=path.name + ".", suffix=".partial", dir=path.parent)
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        os.chmod(partial, 0o666 & ~_umask())
-        os.replace(partial, path)
-    except OSError as error:
-        raise InputError(
-            f"cannot write {path}: {error.strerror or error}",
-            path="output",
-            remedy="choose a folder that can be written",
-        ) from error
-    finally:
-        if partial:
-            Path(partial).unlink(missing_ok=True)
-    return path
-
-
-def _umask() -> int:
-    """Return the process's file mode mask, which can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

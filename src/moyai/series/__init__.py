@@ -1,1 +1,1 @@
-"""Time series: what is found in any record or simulation."""
+"""Series in time: waves, harmonics, spectra, snaps, cycles and extremes of what was measured or simulated."""

@@ -62,7 +62,7 @@ class CableSnap:
 
 
 @dataclass(frozen=True, eq=False)
-class SnapRecord:
+class MeasuredSnap:
     """What a record says about a snap.
 
     Parameters
@@ -139,7 +139,7 @@ def read_snap(
     names: Sequence[str] = (),
     release_time: float | None = None,
     window: tuple[float, float] | None = None,
-) -> SnapRecord:
+) -> MeasuredSnap:
     """Find release, taut instant, peak, plateau and impact in a record.
 
     Parameters
@@ -160,7 +160,7 @@ def read_snap(
 
     Returns
     -------
-    SnapRecord
+    MeasuredSnap
         With notices for too few samples in the rise, noise, drift, and a plateau that is not level.
 
     Raises
@@ -219,9 +219,9 @@ def read_snap(
         snaps.append(CableSnap(label, own_peak, own_time, level, level_error, offset, drift, own))
     offset, drift, _ = fits[-1]
     both = CableSnap("sum", peak, peak_time, plateau, error, offset, drift, noise)
-    found = SnapRecord(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, ())
+    found = MeasuredSnap(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, ())
     notices = _check(found, slope, len(quiet), float(t[inside[-1]]))
-    return SnapRecord(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, notices)
+    return MeasuredSnap(released, taut, peak_time, start, both, tuple(snaps), step, t, levelled, notices)
 
 
 def _checked(time: ArrayLike, tension: ArrayLike) -> tuple[Array, Array]:
@@ -360,7 +360,7 @@ def _release(t: Array, total: Array, taut: float, noise: float, first: int) -> f
     return best[1]
 
 
-def _check(found: SnapRecord, slope: float, intervals: int, end: float) -> tuple[Notice, ...]:
+def _check(found: MeasuredSnap, slope: float, intervals: int, end: float) -> tuple[Notice, ...]:
     notices = []
     total = found.sum
     samples = found.samples_in_rise

@@ -17,9 +17,9 @@ from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.design.codes import DesignCode, LineLoad, check_confirmation, check_line, design_code
-from moyai.design.extremes import fit
 from moyai.design.long_term import return_level
 from moyai.mooring.anchors import DragAnchor, Sinker, check_drag_anchor, check_sinker
+from moyai.series.extremes import fit
 from moyai.study import schema
 from moyai.study.extremes_over_seeds import extremes, require_axis
 from moyai.study.fatigue_of_lines import fatigue
@@ -313,7 +313,7 @@ def _short_term(maxima: Any, waves: float) -> Callable[[np.ndarray], np.ndarray]
     The mode ``m`` of the maximum of ``N`` Rayleigh peaks is the level that one of them exceeds, so that any level
     ``x`` is exceeded by ``N^(1 - (x/m)^2)`` of them in the mean [eq:extremes-weibull].
     """
-    from moyai.design.extremes import Fit
+    from moyai.series.extremes import Fit
 
     data = np.atleast_1d(np.asarray(maxima, dtype=float))
     if data.size == 1:

@@ -28,8 +28,8 @@ def contour_seas(given: schema.Contour, folder: Path) -> tuple[Array, Array]:
     InputError
         For a distribution without sense, pairs that cannot be read, or a contour without points.
     """
-    from moyai.design.extremes import Fit
     from moyai.design.long_term import JointSea, environmental_contour, fit_joint_sea
+    from moyai.series.extremes import Fit
 
     if given.joint is not None:
         one = given.joint

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.results import Result
 from moyai.core.validity import Notice
-from moyai.design.acer import acer_interval, exceedance_rates, fit_tail
-from moyai.design.extremes import check_fit, fit, maximum_interval
-from moyai.design.peaks import Kind, interval_of_kinds, most_probable_of_kinds
+from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
+from moyai.series.extremes import check_fit, fit, maximum_interval
+from moyai.series.peaks import Kind, interval_of_kinds, most_probable_of_kinds
 from moyai.study import schema
 from moyai.study.responses import Wanted, split_response
 from moyai.study.tensions import response as response_of

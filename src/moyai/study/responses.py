@@ -81,7 +81,7 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
 
 def _counted(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
     """Return the sum of rainflow ranges to the power of the exponent, a second, of every series along time."""
-    from moyai.design.fatigue import count_cycles
+    from moyai.series.rainflow import count_cycles
 
     if "time" not in variable.dims or "time" not in variable.coords:
         raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")
@@ -102,7 +102,7 @@ def _peaked(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
     """Return the peaks of every series along time, in their order, the shorter ones filled with NaN."""
     import xarray as xr
 
-    from moyai.design.peaks import peaks_of
+    from moyai.series.peaks import peaks_of
 
     if "time" not in variable.dims:
         raise InputError(f"'{item.variable}' is no series along 'time'", path="responses")

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from moyai.core.errors import InputError
+from moyai.core.files import write_whole
 from moyai.core.results import Result
 from moyai.study.plan import Study
 
@@ -66,11 +65,4 @@ def write_table(study: Study, result: Result, path: Path) -> Path:
     writer = csv.writer(text, lineterminator="\r\n")
     writer.writerow(header)
     writer.writerows(rows)
-    partial = path.with_name(path.name + ".partial")
-    try:
-        partial.write_text(text.getvalue(), encoding="utf-8-sig", newline="")
-        os.replace(partial, path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise InputError(f"cannot write {path}: {error.strerror or error}", path="output") from error
-    return path
+    return write_whole(path, text.getvalue().encode("utf-8-sig"))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from moyai.core.validation import ValidationCase
 from moyai.sea.water import Water
+from moyai.series.snap_statistics import fit_snaps
 from moyai.structures.curtain.impact.cable import Impact, edge_impact, peak_by_energy, speed_factor
 from moyai.structures.curtain.impact.cycles import slack_sag
 from moyai.structures.curtain.impact.kernels import spring, taut_shape
@@ -16,7 +17,6 @@ from moyai.structures.curtain.impact.march import march_impact
 from moyai.structures.curtain.impact.memory import impact_with_memory, memory_impact
 from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
 from moyai.structures.curtain.impact.skirt import Skirt, cable_and_skirt_impact, skirt_impact
-from moyai.structures.curtain.snaps.statistics import fit_snaps
 
 _PROTOTYPE = "prototype of other construction for the case of Sawaragi, Aoki and Liu (1991)"
 _SKIRT = Skirt(0.15, 0.135, 5e4)

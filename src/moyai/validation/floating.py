@@ -22,7 +22,6 @@ from moyai.floating.drift import DriftedMotions, DriftProblem, solve_with_drift
 from moyai.floating.far_field import dissipated_fraction, far_field
 from moyai.floating.forcing import CalmWater, RegularForcing
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.harmonics import Harmonics, fit_harmonics
 from moyai.floating.hydrostatics import Hydrostatics, hydrostatics, inertia_matrix, righting_curve
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
@@ -38,6 +37,7 @@ from moyai.potential.rectangle import solve_rectangle
 from moyai.potential.state_space import fit_memory
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.harmonics import Harmonics, fit_last_periods
 
 PROTOTYPE = "Nakamura, Ohmori and Ide, model, recomputed by an independent prototype"
 WATER = Water(depth=0.38, density=1000.0, gravity=9.81)
@@ -170,7 +170,7 @@ def paper_time(period: float, linear_mooring: bool = False, lines: int = 4) -> t
         ramp=6.0 * period,
     )
     run = simulate(cummins, wave, duration=60.0 * period)
-    return run, fit_harmonics(run.time, run.position, wave.omega, periods=10)
+    return run, fit_last_periods(run.time, run.position, wave.omega, periods=10)
 
 
 def time_ratio(period: float, mode: int) -> float:

@@ -8,16 +8,17 @@ import numpy as np
 
 from moyai.core.validation import ValidationCase
 from moyai.records.calibration import Parameter, calibrate
-from moyai.records.detrend import Detrend, slow_response
-from moyai.records.harmonics import fit_harmonics
 from moyai.records.reading.sensors import Sensor
-from moyai.records.spectra import WelchOptions, cross_spectra, spectrum_of
 from moyai.records.survey.directional import fourier_directions
 from moyai.records.survey.motions import rigid_motion
 from moyai.records.survey.reflection import separate_waves
 from moyai.records.survey.tides import CONSTITUENTS, fit_tide
-from moyai.records.waves import WaveOptions, find_waves, fit_weibull
 from moyai.sea.water import Water
+from moyai.series.detrend import Detrend, slow_response
+from moyai.series.harmonics import fit_harmonics
+from moyai.series.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.series.wave_statistics import fit_weibull
+from moyai.series.zero_crossing import WaveOptions, find_waves
 
 
 def _three_gauges() -> complex:
@@ -34,7 +35,7 @@ def _whole_periods() -> float:
     omega = 2.0 * math.pi / period
     time = 1234.5 + np.arange(2000) * 0.005
     values = 0.3 + 2.5 * np.cos(omega * time - 0.4) + 0.7 * np.cos(2.0 * omega * time + 1.0)
-    return float(np.abs(fit_harmonics(time, values, omega, count=2).first[0]))
+    return float(np.abs(fit_harmonics(time, values, omega, count=2).first))
 
 
 def _hundred_waves(figure: str) -> float:

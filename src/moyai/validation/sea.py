@@ -1,4 +1,4 @@
-"""The sea: dispersion, kinematics, waves of finite height, spectra, synthesis, currents, statistics."""
+"""The sea: dispersion, kinematics, waves of finite height, spectra, synthesis, currents, wave_statistics."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ import math
 import numpy as np
 
 from moyai.core.validation import ValidationCase
-from moyai.sea import current, directional, dispersion, irregular, spectra, statistics
+from moyai.sea import current, directional, dispersion, irregular, spectra
 from moyai.sea.breaking import highest_steady_wave
 from moyai.sea.nonlinear import nonlinear_wave
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
+from moyai.series import wave_statistics
 
 GRAVITY = 9.81
 FOURIER = "J. D. Fenton's program FOURIER, printed solution of 8 terms, kd = 0.6441, kH = 0.2415"
@@ -254,7 +255,7 @@ CASES: tuple[ValidationCase, ...] = (
     ValidationCase(
         "sea: Rayleigh H_1/3 / H_rms",
         "exact, recomputed independently",
-        lambda: statistics.rayleigh_significant(1.0 / 3.0),
+        lambda: wave_statistics.rayleigh_significant(1.0 / 3.0),
         1.41573,
         4e-6,
         note="printed to six digits",
@@ -262,7 +263,7 @@ CASES: tuple[ValidationCase, ...] = (
     ValidationCase(
         "sea: expected highest of 1000 Rayleigh waves over H_1/3",
         "exact, recomputed independently",
-        lambda: statistics.rayleigh_expected_maximum(1000),
+        lambda: wave_statistics.rayleigh_expected_maximum(1000),
         1.9259,
         3e-5,
         note="printed to five digits",

@@ -9,10 +9,11 @@ from scipy.special import ndtri
 
 from moyai.core.validation import ValidationCase
 from moyai.design.codes import LineLoad, check_line, design_code
-from moyai.design.extremes import Fit, fit
-from moyai.design.fatigue import EnduranceCurve, count_cycles, damage
+from moyai.design.fatigue import EnduranceCurve, damage
 from moyai.design.long_term import YEAR, JointSea, environmental_contour, return_level
-from moyai.design.peaks import Kind, maximum_of_kinds
+from moyai.series.extremes import Fit, fit
+from moyai.series.peaks import Kind, maximum_of_kinds
+from moyai.series.rainflow import count_cycles
 
 
 def _rayleigh_maximum() -> float:

@@ -13,12 +13,12 @@ from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.series.snap_statistics import fit_snaps
 from moyai.structures.curtain.impact.cable import Impact, speed_factor
 from moyai.structures.curtain.impact.cycles import simulate_in_flow, slack_sag, slack_taut_motion
 from moyai.structures.curtain.impact.kernels import spring, taut_shape
 from moyai.structures.curtain.snaps.events import compare_steps, snaps_in_sea, suggested_time_step
 from moyai.structures.curtain.snaps.flow import SkirtFlow, depth_mean_factor, flow_over_skirt
-from moyai.structures.curtain.snaps.statistics import fit_snaps
 
 
 def random_sea(seed, water, count=6):
@@ -332,7 +332,7 @@ def test_bounces_of_a_stiff_cable_part_the_paths_but_not_the_statistics():
         for run in runs
     ]
     tops = [law.most_probable_maximum(24.0) for law in laws]
-    assert all(one.low < two.high for one in tops for two in tops)
+    assert all(one.lower < two.upper for one in tops for two in tops)
 
 
 def test_sea_too_small_for_the_slack_says_so():

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from moyai.design.acer import acer_interval, exceedance_rates, fit_tail
-from moyai.design.extremes import Fit, fit
-from moyai.design.fatigue import EnduranceCurve, count_cycles, damage, equivalent_range, life
+from moyai.design.fatigue import EnduranceCurve, damage, equivalent_range, life
 from moyai.design.long_term import YEAR, JointSea, environmental_contour, long_term_exceedance, return_level
-from moyai.design.peaks import peaks_of
+from moyai.series.acer import acer_interval, exceedance_rates, fit_tail
+from moyai.series.extremes import Fit, fit
+from moyai.series.peaks import peaks_of
+from moyai.series.rainflow import count_cycles
 
 SEEDS = range(6)
 

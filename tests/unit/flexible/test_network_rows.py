@@ -16,11 +16,11 @@ from moyai.flexible.refine import refined
 from moyai.flexible.result import State
 from moyai.flexible.sensitivity import peak_sensitivity
 from moyai.flexible.simulate import simulate
-from moyai.flexible.snap import find_snaps
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.snaps import find_snaps
 
 ROPE = BarType("rope", 1.0, 1e5, 0.06, viscosity=3e2, drag_normal=1.2, added_mass_normal=1.0)
 

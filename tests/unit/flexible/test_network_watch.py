@@ -19,9 +19,9 @@ from moyai.flexible.refine import more_viscous, refined
 from moyai.flexible.result import State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulate import simulate
-from moyai.flexible.snap import find_snaps
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
+from moyai.series.snaps import find_snaps
 
 TIME, PULL = np.arange(5.0), np.array([0.0, 1.0, 2.0, 1.0, 0.0])
 KIND = BarType("rope", 2.0, 1e6, 0.02)

@@ -13,7 +13,6 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping, critical_damping
 from moyai.floating.decay import fit_decay
 from moyai.floating.frequency import point_motion, relative_elevation, solve_motions
-from moyai.floating.harmonics import fit_harmonics
 from moyai.floating.irregular import (
     energy_transmission,
     integration_weights,
@@ -22,6 +21,7 @@ from moyai.floating.irregular import (
 )
 from moyai.floating.modes import natural_modes
 from moyai.floating.offset import FunctionMooring, LinearMooring, mean_offset
+from moyai.series.harmonics import fit_last_periods
 
 
 def _body(seed: int, headings: int = 1, size: int = 3) -> tuple[Hydrodynamics, np.ndarray, np.ndarray]:
@@ -214,11 +214,11 @@ def test_harmonics_are_exact_at_any_step() -> None:
     time = step * np.arange(3000)
     truth = rng.normal(size=3) + 1j * rng.normal(size=3)
     series = 0.4 + sum((truth[n] * np.exp(-1j * (n + 1) * omega * time)).real for n in range(3))
-    found = fit_harmonics(time, series, omega, periods=12)
+    found = fit_last_periods(time, series, omega, periods=12)
     assert np.allclose(found.amplitude, truth, atol=1e-12) and found.mean == pytest.approx(0.4)
-    assert found.periods == 12 and found.remainder < 1e-12
+    assert found.periods == 12 and found.residual < 1e-12
     with pytest.raises(InputError):
-        fit_harmonics(time, series, omega, periods=10000)
+        fit_last_periods(time, series, omega, periods=10000)
 
 
 @pytest.mark.parametrize(("ratio", "quadratic"), [(0.02, 0.0), (0.01, 0.15), (0.05, 0.05)])

@@ -13,7 +13,6 @@ from moyai.floating.damping import LinearDamping, QuadraticDamping
 from moyai.floating.drift import DriftProblem, solve_irregular_with_drift, solve_with_drift
 from moyai.floating.far_field import drift_force_per_amplitude_squared, energy_check
 from moyai.floating.forcing import IrregularForcing, RegularForcing
-from moyai.floating.harmonics import fit_harmonics
 from moyai.floating.irregular import integration_weights
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
@@ -26,6 +25,7 @@ from moyai.potential.rectangle import solve_rectangle
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.series.harmonics import fit_last_periods
 
 
 def _system(rng: np.random.Generator) -> LineSystem:
@@ -176,4 +176,4 @@ def test_body_on_nonlinear_lines_rests_where_statics_says() -> None:
     end = run.position[-1]
     balance = mooring.force(end) - mooring.force(np.zeros(3)) - restoring @ end + load
     assert np.max(np.abs(balance)) < 2e-4 * np.max(np.abs(load))
-    assert np.ptp(fit_harmonics(run.time, run.position, 1.0, periods=5).amplitude.real) < 1e-4
+    assert np.ptp(fit_last_periods(run.time, run.position, 1.0, periods=5).amplitude.real) < 1e-4

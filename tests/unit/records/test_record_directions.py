@@ -7,12 +7,12 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.records.reading.sensors import Sensor, surface_elevation
-from moyai.records.spectra import WelchOptions, cross_spectra
 from moyai.records.survey.directional import directional_spectrum, fourier_directions
 from moyai.sea.directional import CosineTwoS
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions, cross_spectra
 
 STEP = 0.5
 TIME = np.arange(14400) * STEP

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from moyai.core.errors import InputError
-from moyai.records.spectra import WelchOptions
 from moyai.records.survey.motions import ImagePlane, fit_decay_record, response_function, rigid_motion
+from moyai.series.spectra import WelchOptions
 
 
 @pytest.mark.parametrize("seed", range(6))

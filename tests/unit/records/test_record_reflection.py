@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.records.spectra import WelchOptions
 from moyai.records.survey.irregular_reflection import separate_irregular, transmission, wave_series
 from moyai.sea.dispersion import wave_number
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions
 
 STEP = 0.05
 TIME = np.arange(12000) * STEP

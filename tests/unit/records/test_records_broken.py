@@ -11,7 +11,6 @@ import pytest
 from moyai.core.errors import CaseError, InputError
 from moyai.core.results import Result
 from moyai.records.calibration import Parameter, calibrate
-from moyai.records.spectra import WelchOptions, spectrum_of
 from moyai.records.survey.case.build import load_survey
 from moyai.records.survey.irregular_reflection import separate_irregular
 from moyai.records.survey.motions import fit_decay_record, response_function
@@ -19,6 +18,7 @@ from moyai.records.survey.run import run_survey
 from moyai.records.survey.tensions import wave_maxima
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions, spectrum_of
 
 TIME = np.arange(0.0, 1200.0, 0.5)
 LEVEL = np.sin(2 * math.pi * TIME / 7.0) + 0.3 * np.sin(2 * math.pi * TIME / 5.3)

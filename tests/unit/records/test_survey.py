@@ -12,12 +12,12 @@ import pytest
 from moyai.core.errors import CaseError, InputError
 from moyai.core.results import read_result
 from moyai.records.comparison.run import Pairing, compare_result
-from moyai.records.spectra import WelchOptions, spectrum_of
 from moyai.records.survey.campaign import CampaignLaws, Storm, generate, write_campaign
 from moyai.records.survey.case.build import load_survey
 from moyai.records.survey.run import run_survey
-from moyai.records.waves import WaveOptions, find_waves
 from moyai.report.writer import write_report
+from moyai.series.spectra import WelchOptions, spectrum_of
+from moyai.series.zero_crossing import WaveOptions, find_waves
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "records"
 

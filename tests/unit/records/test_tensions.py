@@ -8,7 +8,7 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.records.survey.tension_blocks import analyse_blocks
 from moyai.records.survey.tensions import find_delay, split_tension, tension_statistics, wave_maxima
-from moyai.sea.statistics import zero_crossing
+from moyai.series.zero_crossing import zero_crossing
 
 
 def pulses(seed, *, count=150, period=6.0, step=0.1, delay=0.0, width=0.15):

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.records.forces.record import ForceRecord
+from moyai.series.intervals import student_quantile
 
 Array = NDArray[np.float64]
 Method = Literal["fourier", "least_squares", "force_weighted", "robust"]
@@ -347,11 +348,11 @@ def _coefficients(
     blocks: list[tuple[int, int]],
     setup: Setup,
 ) -> list[Coefficient]:
-    from scipy.stats import norm, t
+    from scipy.special import ndtri
 
     chance = 0.5 * (1.0 + setup.confidence)
-    quantile = float(t.ppf(chance, max(1, len(blocks) - 1)))
-    normal = float(norm.ppf(chance))
+    quantile = student_quantile(setup.confidence, len(blocks) - 1)
+    normal = float(ndtri(chance))
     # a phase error shifts the force in time: per radian by 1/omega [eq:identification-phase]
     slope = np.gradient(columns @ found, step) / omega
     sensitivity = gain @ slope

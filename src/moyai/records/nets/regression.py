@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
-from moyai.records.nets.steady import quantile
+from moyai.series.intervals import student_quantile
 
 Array = NDArray[np.float64]
 
@@ -115,7 +115,7 @@ def fit_power_law(
         extra = following
     turn = np.array([[1.0, centre], [0.0, 1.0]])
     beta, covariance = turn @ beta, turn @ inverse @ turn.T
-    reach = quantile(confidence, number.size - 2.0) * np.sqrt(np.diagonal(covariance))
+    reach = student_quantile(confidence, number.size - 2.0) * np.sqrt(np.diagonal(covariance))
     return PowerLaw(
         net=net,
         factor=math.exp(beta[0]),
@@ -185,7 +185,7 @@ class JointLaw:
         rows = _columns(reynolds, solidity, diameter)
         middle = rows @ self.coefficients
         variance = np.einsum("...i,ij,...j->...", rows, self.covariance, rows) + self.between**2 + self.scatter**2
-        reach = quantile(self.confidence, max(1.0, self.nets - 2.0)) * np.sqrt(variance)
+        reach = student_quantile(self.confidence, max(1.0, self.nets - 2.0)) * np.sqrt(variance)
         return np.asarray(np.exp(middle - reach)), np.asarray(np.exp(middle + reach))
 
 

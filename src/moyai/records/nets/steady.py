@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.series.intervals import student_quantile
 
 Array = NDArray[np.float64]
 
@@ -36,13 +37,6 @@ class Mean:
     error: float
     freedom: float
     half_width: float
-
-
-def quantile(confidence: float, freedom: float) -> float:
-    """Return the two-sided quantile of Student's distribution."""
-    from scipy.special import stdtrit
-
-    return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * confidence))
 
 
 def correlated_mean(values: Array, confidence: float = 0.95) -> Mean:
@@ -84,7 +78,7 @@ def correlated_mean(values: Array, confidence: float = 0.95) -> Mean:
     error = math.sqrt(variance / (effective - 1.0))
     # a variance found from so many lags of the record is itself known to so many degrees of freedom only
     freedom = max(min(effective - 1.0, size / window), 1.0)
-    return Mean(float(values.mean()), error, freedom, quantile(confidence, freedom) * error)
+    return Mean(float(values.mean()), error, freedom, student_quantile(confidence, freedom) * error)
 
 
 def zero_error(noise: Array, samples: int) -> float:

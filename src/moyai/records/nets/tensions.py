@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.record import period_of
-from moyai.records.harmonics import fit_harmonics
+from moyai.series.harmonics import fit_harmonics
 
 Array = NDArray[np.float64]
 
@@ -144,13 +144,13 @@ def measure_tensions(record: CageRecord) -> tuple[tuple[EndTension, ...], tuple[
         inside = (t >= harmonic.start) & (t < harmonic.end)
         index = np.minimum((t[inside] - harmonic.start) // period, harmonic.periods - 1).astype(int)
         peaks = np.array([values[inside][index == k].max() for k in range(harmonic.periods)])
-        first = complex(harmonic.first[0]) * np.exp(-1j * 2.0 * math.pi / period * t[0])
+        first = complex(harmonic.first) * np.exp(-1j * 2.0 * math.pi / period * t[0])
         peak = float(values.max())
         found.append(
             EndTension(
                 line=end.line,
                 end=end.end,
-                mean=float(harmonic.mean[0]),
+                mean=float(harmonic.mean),
                 least=float(values.min()),
                 peak=peak,
                 mean_peak=float(peaks.mean()),

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.nets.runs import NetRun, Specimen, Tank
-from moyai.records.nets.steady import Mean, correlated_mean, quantile, steady_window, zero_error
+from moyai.records.nets.steady import Mean, correlated_mean, steady_window, zero_error
 from moyai.records.nets.vibration import Vibration, low_pass, remove_band, shaken_mass
+from moyai.series.intervals import student_quantile
 
 Array = NDArray[np.float64]
 
@@ -139,7 +140,7 @@ def measure_tow(run: NetRun, vibration: Vibration | None, confidence: float) -> 
     if run.zero is not None:
         # the reading at rest carries the same noise as the force
         spread = math.hypot(mean.error, zero_error(clean[part], int(run.part(run.zero).sum())))
-        mean = Mean(mean.value, spread, mean.freedom, quantile(confidence, mean.freedom) * spread)
+        mean = Mean(mean.value, spread, mean.freedom, student_quantile(confidence, mean.freedom) * spread)
     return Tow(run, window, speed, mean, lift, clean, slow, mass)
 
 
@@ -265,7 +266,7 @@ def tow_coefficients(
         reynolds=speed * specimen.net.twine_diameter / tank.viscosity,
         frame_force=carried,
         drag=drag,
-        drag_half_width=quantile(confidence, freedom) * total,
+        drag_half_width=student_quantile(confidence, freedom) * total,
         drag_error=total,
         freedom=freedom,
         lift=lift,

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
-from moyai.records.spectra import WelchOptions, spectrum_of
+from moyai.series.spectra import WelchOptions, spectrum_of
 
 Array = NDArray[np.float64]
 

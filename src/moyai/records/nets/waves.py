@@ -14,8 +14,9 @@ from moyai.core.validity import Notice
 from moyai.records.forces.identification import Fit, ForceRecord, Identification, Setup, identify
 from moyai.records.nets.flow import Flow, settled, wave_flow
 from moyai.records.nets.runs import NetRun, Specimen, Tank
-from moyai.records.nets.steady import correlated_covariance, quantile, zero_error
+from moyai.records.nets.steady import correlated_covariance, zero_error
 from moyai.records.nets.vibration import Vibration, remove_band, shaken_mass
+from moyai.series.intervals import student_quantile
 
 Array = NDArray[np.float64]
 
@@ -235,7 +236,7 @@ def wave_coefficients(
     value = value - carried
     covariance = covariance + np.outer(value, value) * calibration**2
     error = np.sqrt(np.diagonal(covariance))
-    half = np.hypot(quantile(confidence, freedom) * error, phase)
+    half = np.hypot(student_quantile(confidence, freedom) * error, phase)
     u, a = whole.flow.velocity, whole.flow.acceleration
     inertia_column = tank.density * specimen.volume * a
     drag_column = 0.5 * tank.density * specimen.projected_area * u * np.abs(u)

@@ -14,14 +14,14 @@ from moyai.records.reading.clocks import interpolate
 from moyai.records.reading.quality import BlockMoments, Finding, check_record, moments_of
 from moyai.records.reading.record import FloatArray, Record
 from moyai.records.reading.sensors import Sensor, surface_elevation
-from moyai.records.spectra import WelchOptions, cross_spectra, spectrum_of
 from moyai.records.survey.currents import block_means, components, heading_of_bearing
 from moyai.records.survey.directional import directional_spectrum, fourier_directions
 from moyai.records.survey.irregular_reflection import separate_irregular, transmission
 from moyai.records.survey.model import ReflectionUse, Survey
 from moyai.records.survey.motions import ResponseFunction, response_function
 from moyai.records.survey.tensions import find_delay, split_tension, tension_statistics, wave_maxima
-from moyai.records.waves import STATISTICS, Waves, find_waves
+from moyai.series.spectra import WelchOptions, cross_spectra, spectrum_of
+from moyai.series.zero_crossing import STATISTICS, Waves, find_waves
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,12 +15,12 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
-from moyai.records.detrend import Detrend
 from moyai.records.reading.record import FloatArray
-from moyai.records.waves import WaveOptions, find_waves
 from moyai.sea.dispersion import wave_number
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
+from moyai.series.detrend import Detrend
+from moyai.series.zero_crossing import WaveOptions, find_waves
 
 CHANNELS = ("elevation", "u", "v", "J-0", "J-1", "J-2", "F-1", "F-2")
 """Channels of the records: elevation [m], velocities [m/s], tensions of wire, new and conventional anchors [N]."""

@@ -26,9 +26,9 @@ from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading.record import FloatArray
 from moyai.records.reading.sensors import Sensor
-from moyai.records.spectra import CrossSpectra
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.spectra import CrossSpectra
 
 ComplexArray = NDArray[np.complex128]
 HEADINGS = 180

@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.records.reading.record import FloatArray
 from moyai.records.survey.model import Survey
-from moyai.records.survey.regressions import (
+from moyai.series.regressions import (
     Estimate,
     Fit,
     correlation,

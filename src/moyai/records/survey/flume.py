@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.harmonics import Harmonics, sliding_fits
 from moyai.records.survey.reflection import Separation, separate_waves
 from moyai.sea.dispersion import group_velocity, wave_number
 from moyai.sea.water import Water
+from moyai.series.harmonics import Harmonics, sliding_fits
 
 FloatArray = NDArray[np.float64]
 
@@ -372,7 +372,7 @@ def analyse_regular_run(
         window=window,
         harmonics=fit,
         mean_spread=np.max([np.abs(other.mean - fit.mean) for other in fits], axis=0),
-        amplitude_spread=np.max([np.abs(other.amplitudes - fit.amplitudes) for other in fits], axis=0),
+        amplitude_spread=np.max([np.abs(other.amplitude - fit.amplitude) for other in fits], axis=0),
         separation=separation,
         reflection=reflection,
         transmission=transmission,

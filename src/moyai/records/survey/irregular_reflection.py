@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading.record import FloatArray
-from moyai.records.spectra import WelchOptions, degrees_of_freedom, taper
 from moyai.records.survey.reflection import LARGEST_CONDITION
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions, degrees_of_freedom, taper
 
 ComplexArray = NDArray[np.complex128]
 
@@ -339,7 +339,7 @@ def transmission(
     values = np.asarray(rear, dtype=float)
     values = values[:, None] if values.ndim == 1 else values
     if len(positions) == 1:
-        from moyai.records.spectra import spectrum_of
+        from moyai.series.spectra import spectrum_of
 
         found = spectrum_of(step, values[:, 0], options)
         density = np.interp(front.frequency, found.frequency, found.density)

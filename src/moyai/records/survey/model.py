@@ -13,9 +13,9 @@ from moyai.records.reading.quality import QualityOptions
 from moyai.records.reading.record import FloatArray
 from moyai.records.reading.sensors import Sensor
 from moyai.records.reading.sources import LoggerSource
-from moyai.records.spectra import WelchOptions
-from moyai.records.waves import WaveOptions
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions
+from moyai.series.zero_crossing import WaveOptions
 
 ChannelKind = Literal[
     "elevation", "pressure", "velocity_x", "velocity_y", "velocity_z", "slope_x", "slope_y", "displacement_x",

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.floating.decay import Decay, fit_decay
-from moyai.records.detrend import slow_part
 from moyai.records.reading.record import FloatArray
-from moyai.records.spectra import CrossSpectra, WelchOptions, cross_spectra
+from moyai.series.detrend import slow_part
+from moyai.series.spectra import CrossSpectra, WelchOptions, cross_spectra
 
 ComplexArray = NDArray[np.complex128]
 

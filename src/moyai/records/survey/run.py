@@ -16,11 +16,12 @@ from moyai.core.validity import Notice
 from moyai.records.reading.quality import find_drift, find_slips, quality_notices
 from moyai.records.reading.reader import CHUNK_ROWS, Block, aligned, blocks, read_chunks
 from moyai.records.reading.record import FloatArray, Record, instant_text
-from moyai.records.spectra import FIGURES
 from moyai.records.survey.blocks import BlockResult, work_off
 from moyai.records.survey.fits import fit_relations
 from moyai.records.survey.model import Survey
-from moyai.records.waves import STATISTICS, fit_rayleigh, fit_weibull
+from moyai.series.spectra import FIGURES
+from moyai.series.wave_statistics import fit_rayleigh, fit_weibull
+from moyai.series.zero_crossing import STATISTICS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -462,7 +463,7 @@ def _whole(survey: Survey, found: Sequence[BlockResult]) -> xr.Dataset | None:
             third = block.waves.get(name, {}).get("third_height", math.nan)
             if name in block.cut and len(block.cut[name]) >= 20 and third > 0.0:
                 pooled.append(block.cut[name].height / third)
-        if not pooled or np.unique(np.concatenate(pooled)).size < 3:
+        if not pooled or np.unique(np.concatenate(pooled)).size < 6:
             continue
         heights = np.concatenate(pooled)
         heights = heights[heights > 0.0]

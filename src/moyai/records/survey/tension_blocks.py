@@ -19,7 +19,7 @@ from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.records.survey.tensions import SteadyRule, find_delay, split_tension, tension_statistics, wave_maxima
-from moyai.sea.statistics import Cycles, zero_crossing
+from moyai.series.zero_crossing import Waves, zero_crossing
 
 Array = NDArray[np.float64]
 
@@ -210,7 +210,7 @@ def analyse_blocks(
 
 
 def _line(
-    t: Array, eta: Array, row: Array, cycles: Cycles, rule: SteadyRule, cutoff: float, longest: float | None
+    t: Array, eta: Array, row: Array, cycles: Waves, rule: SteadyRule, cutoff: float, longest: float | None
 ) -> tuple[float, ...]:
     """Return steady, maximum, tenth, third, mean, matched, double, delay of one line in one block."""
     split = split_tension(t, row, rule, cutoff=cutoff)

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.records.detrend import slow_part
-from moyai.sea.statistics import significant
+from moyai.series.detrend import slow_part
+from moyai.series.wave_statistics import significant
 
 Array = NDArray[np.float64]
 SteadyRule = Literal["median", "mean", "low_pass"]

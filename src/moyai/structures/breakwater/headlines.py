@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Headline
 from moyai.mooring.anchors import gravity_anchor_weight
+from moyai.series.intervals import student_quantile
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.tables.design_codes import anchor_factor, holding_data
 
@@ -457,11 +458,9 @@ def _seeds(scatter: Array) -> Band | None:
     Criteria are judged at the end of the one-sided 95 % interval of that mean (Student), since few realisations leave
     it uncertain.
     """
-    from scipy.special import stdtrit
-
     if scatter.size < 2 or not np.isfinite(scatter).all():
         return None
-    mean, reach = float(scatter.mean()), float(stdtrit(scatter.size - 1, 0.95)) * _standard_error(scatter)
+    mean, reach = float(scatter.mean()), student_quantile(0.9, scatter.size - 1) * _standard_error(scatter)
     of = f"{scatter.size} realisations; criteria at the 95 % end of their mean"
     ends = (mean - reach, mean + reach)
     return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)

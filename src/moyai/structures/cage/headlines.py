@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.headline import Band, Headline
-from moyai.core.maxima import maximum_of
+from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 
 if TYPE_CHECKING:

@@ -18,12 +18,12 @@ from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea.environment import Environment
+from moyai.series.snap_statistics import SnapLaw
 from moyai.structures.curtain.dynamic.runs import DynamicSettings
 from moyai.structures.curtain.limits.utilisation import Strength
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule
 from moyai.structures.curtain.snaps.flow import SkirtVelocity
-from moyai.structures.curtain.snaps.statistics import SnapLaw
 from moyai.structures.curtain.statics.drag import DragLaw
 from moyai.structures.curtain.statics.hanging import FloatLine
 from moyai.structures.curtain.statics.section import LoadLaw, Skirt

@@ -14,7 +14,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulate import simulate
-from moyai.flexible.snap import SnapRecord
+from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.headline import Band, Headline
-from moyai.core.maxima import Maximum, maximum_of
 from moyai.flexible.sensitivity import PeakSensitivity
+from moyai.series.block_maxima import Maximum, maximum_of
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import band_of
 

@@ -22,7 +22,7 @@ from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.flexible.simulate import simulate
-from moyai.flexible.snap import SnapRecord
+from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 
 #: Bars times steps that both further runs together may take: of any run, and of one whose peak is doubtful. The

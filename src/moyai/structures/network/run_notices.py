@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.flexible.result import History
-from moyai.flexible.snap import SnapRecord
+from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.runs import RunPlan

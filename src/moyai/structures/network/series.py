@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.flexible.result import History
 from moyai.flexible.sheets import sheet_stress
-from moyai.flexible.snap import SnapRecord, find_snaps
+from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRun
 from moyai.structures.network.equilibrium import AXES, MEASURES, TURNS, highest_pulls, line_numbers, named_points, pulls

@@ -13,12 +13,10 @@ from moyai.case.reader import read_block
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.units import parse_unit
-from moyai.records.detrend import Detrend
 from moyai.records.reading.quality import QualityOptions
 from moyai.records.reading.record import FloatArray
 from moyai.records.reading.sensors import QUANTITIES, Sensor
 from moyai.records.reading.sources import ClockCorrection, ColumnSource, LoggerSource, TimeSource
-from moyai.records.spectra import WelchOptions
 from moyai.records.survey.case.schema import ChannelEntry, Logger, QualityKeys, RecordsFile
 from moyai.records.survey.model import (
     UNITS_OF_KINDS,
@@ -32,8 +30,10 @@ from moyai.records.survey.model import (
     Survey,
     TensionUse,
 )
-from moyai.records.waves import WaveOptions
 from moyai.sea.water import Water
+from moyai.series.detrend import Detrend
+from moyai.series.spectra import WelchOptions
+from moyai.series.zero_crossing import WaveOptions
 
 
 def load_survey(path: str | os.PathLike[str]) -> Survey:

@@ -14,11 +14,11 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import BodyHistory
 from moyai.coupled.planar import PlanarBody, PlanarCarrier
 from moyai.coupled.simulate import CoupledHistory, simulate_coupled
-from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.time import CumminsModel, Simulation, choose_time_step
+from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.lines.drag import line_drag_rows

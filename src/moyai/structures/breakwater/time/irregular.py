@@ -19,7 +19,7 @@ from moyai.floating.frequency import solve_motions
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation
 from moyai.sea.irregular import synthesise
-from moyai.sea.statistics import zero_crossing
+from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import SECTOR

@@ -15,13 +15,13 @@ from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.far_field import far_field
 from moyai.floating.forcing import Forcing, RegularForcing
-from moyai.floating.harmonics import Harmonics, fit_harmonics
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
 from moyai.floating.moving_water import MovingWater
 from moyai.floating.time import CumminsModel, Simulation
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
+from moyai.series.harmonics import Harmonics, fit_last_periods
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel, motion_ratio
 from moyai.structures.breakwater.hydrodynamics import wavelengths
@@ -250,7 +250,7 @@ def _settling_time(model: FrequencyModel, cummins: CumminsModel, hydro: Hydrodyn
 
 
 def _harmonics(run: Simulation, period: float, settings: TimeSettings) -> Harmonics:
-    return fit_harmonics(run.time, run.position, 2.0 * math.pi / period, periods=settings.analysed_periods)
+    return fit_last_periods(run.time, run.position, 2.0 * math.pi / period, periods=settings.analysed_periods)
 
 
 def _summary(
@@ -310,7 +310,7 @@ def _steadiness(run: Simulation, period: float, settings: TimeSettings, where: s
         return ()
     last = _harmonics(run, period, settings)
     earlier = run.time <= run.time[-1] - window
-    before = fit_harmonics(
+    before = fit_last_periods(
         run.time[earlier], run.position[earlier], 2.0 * math.pi / period, periods=settings.analysed_periods
     )
     size = np.maximum(np.abs(last.first), 1e-3 * np.max(np.abs(last.first)) + 1e-12)

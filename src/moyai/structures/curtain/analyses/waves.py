@@ -17,6 +17,7 @@ from moyai.core.wording import spoken
 from moyai.sea import dispersion
 from moyai.sea.breaking import linear_wavelength
 from moyai.sea.states import IrregularSea, RegularSea, SeaState
+from moyai.series.snap_statistics import SnapFit, fit_snaps
 from moyai.structures.curtain.analyses.impact import drag_coefficient, impact_of
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.impact.cable import Impact, speed_factor
@@ -25,7 +26,6 @@ from moyai.structures.curtain.impact.settling import SettledCycles, settled_cycl
 from moyai.structures.curtain.model import Settings, WaveSettings
 from moyai.structures.curtain.snaps.events import SeaSnaps, snaps_in_sea, suggested_time_step
 from moyai.structures.curtain.snaps.flow import SkirtFlow, check_samples, depth_mean_factor, flow_over_skirt
-from moyai.structures.curtain.snaps.statistics import SnapFit, fit_snaps
 from moyai.structures.curtain.variables import labelled
 
 if TYPE_CHECKING:
@@ -370,4 +370,4 @@ def _maximum(fit: SnapFit | None, hours: float) -> dict[str, float]:
         found = None
     if found is None:
         return dict.fromkeys(names, math.nan)
-    return dict(zip(names, (found.value, found.low, found.high)))
+    return dict(zip(names, (found.value, found.lower, found.upper)))

@@ -15,8 +15,8 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
 from moyai.flexible.sheets import sheet_stress
 from moyai.flexible.simulate import simulate
-from moyai.flexible.snap import SnapRecord, find_snaps
 from moyai.sea.water import Water
+from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.curtain.dynamic.assembly import build_span
 from moyai.structures.curtain.dynamic.model import CurtainNetwork, CurtainSpan, Mesh
 

@@ -17,6 +17,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
+from moyai.series.intervals import student_quantile
 from moyai.structures.curtain.seas.squared_velocity import surface_speed
 
 Array = NDArray[np.float64]
@@ -226,9 +227,7 @@ def calibrate(
     keep = ~np.eye(count, dtype=bool)
     without = np.array([_root(rule, amplitude[row], speed[row]) for row in keep])
     error = math.sqrt((count - 1) / count * float(np.sum((without - without.mean()) ** 2)))
-    from scipy.special import stdtrit
-
-    reach = float(stdtrit(count - 1, 0.975)) * error
+    reach = student_quantile(0.95, count - 1) * error
     bounds = (max(root - reach, 0.0) ** 2, (root + reach) ** 2)
     return Calibration(rule, root**2, 2.0 * root * error, bounds, root * speed, amplitude)
 

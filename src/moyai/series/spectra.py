@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 
-ComplexArray = NDArray[np.complex128]
 Window = Literal["hann", "rectangular", "cosine_tenth"]
 
 
@@ -56,7 +55,7 @@ class WelchOptions:
 
 
 @checks_words
-def taper(kind: Window, size: int) -> FloatArray:
+def taper(kind: Window, size: int) -> Array:
     """Return the window of ``size`` samples (periodic form)."""
     place = np.arange(size) / size
     if kind == "hann":
@@ -86,7 +85,7 @@ class CrossSpectra:
     notices : tuple of Notice
     """
 
-    frequency: FloatArray
+    frequency: Array
     matrix: ComplexArray
     degrees_of_freedom: float
     segments: int
@@ -94,11 +93,11 @@ class CrossSpectra:
     resolution: float
     notices: tuple[Notice, ...] = ()
 
-    def auto(self, channel: int = 0) -> FloatArray:
+    def auto(self, channel: int = 0) -> Array:
         """Return the spectrum of a channel [unit2/Hz]."""
         return np.asarray(self.matrix[:, channel, channel].real)
 
-    def coherence(self, first: int, second: int) -> FloatArray:
+    def coherence(self, first: int, second: int) -> Array:
         """Return the squared coherence of two channels [-]; 0 where one has no energy."""
         power = self.auto(first) * self.auto(second)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -136,8 +135,8 @@ class MeasuredSpectrum:
     notices : tuple of Notice
     """
 
-    frequency: FloatArray
-    density: FloatArray
+    frequency: Array
+    density: Array
     degrees_of_freedom: float
     segments: int = 1
     left_out: int = 0
@@ -198,7 +197,7 @@ FIGURES = (
 )
 
 
-def _peak_frequency(frequency: FloatArray, density: FloatArray) -> float:
+def _peak_frequency(frequency: Array, density: Array) -> float:
     place = int(np.argmax(density))
     if 0 < place < frequency.size - 1:
         left, here, right = density[place - 1 : place + 2]
@@ -298,7 +297,7 @@ def spectrum_of(step: float, values: ArrayLike, options: WelchOptions) -> Measur
     return cross_spectra(step, values, options).spectrum()
 
 
-def degrees_of_freedom(window: FloatArray, shift: int, segments: int, bands: int = 1) -> float:
+def degrees_of_freedom(window: Array, shift: int, segments: int, bands: int = 1) -> float:
     """Return the equivalent degrees of freedom of overlapping segments; equation [eq:records-freedom].
 
     Parameters

@@ -11,11 +11,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-Array = NDArray[np.float64]
+from moyai.series.intervals import student_quantile
 
 
 @dataclass(frozen=True)
@@ -82,14 +82,6 @@ def _pairs(x: ArrayLike, y: ArrayLike, least: int) -> tuple[Array, Array]:
     return one[known], two[known]
 
 
-def _quantile(confidence: float, freedom: int) -> float:
-    from scipy.special import stdtrit
-
-    if not 0.0 < confidence < 1.0:
-        raise InputError(f"confidence is {confidence:g}", path="confidence", allowed="between 0 and 1")
-    return float(stdtrit(freedom, 0.5 + 0.5 * confidence))
-
-
 def _result(
     form: str,
     names: Sequence[str],
@@ -104,7 +96,7 @@ def _result(
     freedom = y.size - values.size
     variance = float(residual @ residual) / freedom
     covariance: Array = np.asarray(variance * np.linalg.pinv(jacobian.T @ jacobian), dtype=np.float64)
-    reach = _quantile(confidence, freedom)
+    reach = student_quantile(confidence, freedom)
     errors = np.sqrt(np.diag(covariance))
     about = float(np.sum((y - y.mean()) ** 2))
     return Fit(
@@ -279,7 +271,7 @@ def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.
     ratio = float(two.sum() / one.sum())
     left = (two.sum() - two) / (one.sum() - one)
     error = math.sqrt((one.size - 1) / one.size * float(np.sum((left - left.mean()) ** 2)))
-    reach = _quantile(confidence, one.size - 1) * error
+    reach = student_quantile(confidence, one.size - 1) * error
     return line, Estimate(ratio, error, ratio - reach, ratio + reach)
 
 
@@ -348,7 +340,7 @@ def fit_by_direction(
             fit = fit_line(one[chosen], two[chosen], through_origin=True, confidence=confidence)
             off = (two[chosen] - common.predict(one[chosen])) / float(two[chosen].mean())
             error = float(off.std(ddof=1)) / math.sqrt(count)
-            reach = _quantile(confidence, count - 1) * error
+            reach = student_quantile(confidence, count - 1) * error
             mean = float(off.mean())
             departure = Estimate(mean, error, mean - reach, mean + reach)
         classes.append(ClassFit(float(low), float(high), count, fit, departure))

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.records.spectra import WelchOptions, cross_spectra, spectrum_of
 from moyai.sea import spectra as sea_spectra
 from moyai.sea.irregular import synthesise
 from moyai.sea.water import Water
+from moyai.series.spectra import WelchOptions, cross_spectra, spectrum_of
 
 
 @pytest.mark.parametrize("size", [100, 101, 1024])

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.records.detrend import Detrend, detrended, slow_part, slow_response
-from moyai.records.waves import WaveOptions, find_waves, fit_rayleigh, fit_weibull, share_of
-from moyai.sea import statistics
+from moyai.series.detrend import Detrend, detrended, slow_part, slow_response
+from moyai.series.wave_statistics import fit_rayleigh, fit_weibull
+from moyai.series.zero_crossing import WaveOptions, find_waves, share_of, zero_crossing
 
 
 def sea(random, size=6000, step=0.5, height=2.0, period=7.0):
@@ -50,7 +50,7 @@ def test_against_an_independent_count(seed, band):
     np.testing.assert_allclose(waves.period, np.diff(instants), atol=1e-9)
     np.testing.assert_allclose(waves.height, heights, atol=1e-12)
     if band == 0.0:
-        other = statistics.zero_crossing(time, values, mean_level=0.0)
+        other = zero_crossing(time, values, mean_level=0.0)
         np.testing.assert_allclose(waves.height, other.height, atol=1e-12)
 
 
@@ -199,10 +199,10 @@ def test_weibull_and_rayleigh_recover_what_was_drawn(seed):
         for change in (0.99, 1.01):
             s, k = (fit.scale * change, fit.shape) if name == "scale" else (fit.scale, fit.shape * change)
             r = heights / s
-            assert np.sum(np.log(k / s) + (k - 1.0) * np.log(r) - r**k) < fit.log_likelihood
+            assert np.sum(np.log(k / s) + (k - 1.0) * np.log(r) - r**k) < fit.fitted.log_likelihood
     rayleigh = fit_rayleigh(scale * np.sqrt(-np.log(random.random(4000))))
     assert rayleigh.shape == 2.0
     assert rayleigh.scale == pytest.approx(scale, rel=0.05)
-    assert rayleigh.exceedance(rayleigh.quantile(0.013)) == pytest.approx(0.013)
+    assert rayleigh.fitted.exceedance(rayleigh.fitted.level(0.013)) == pytest.approx(0.013)
     with pytest.raises(InputError):
         fit_weibull([1.0, 1.0])

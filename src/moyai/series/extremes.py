@@ -10,14 +10,16 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
+from moyai.series.intervals import Interval, reflected_interval
+from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
 
-Array = NDArray[np.float64]
 Family = Literal["gumbel", "weibull", "generalised_pareto"]
 
 _LEAST = {"gumbel": 5, "weibull": 5, "generalised_pareto": 10}
@@ -104,24 +106,6 @@ class Fit:
     def sample(self, count: int, generator: np.random.Generator) -> Array:
         """Draw values."""
         return self.level(np.clip(generator.random(count), 1e-300, 1.0 - 1e-16))
-
-
-@dataclass(frozen=True)
-class Interval:
-    """An estimate with its confidence interval.
-
-    Parameters
-    ----------
-    value, lower, upper : float
-        Of the unit of the data.
-    confidence : float
-        Probability that the interval covers.
-    """
-
-    value: float
-    lower: float
-    upper: float
-    confidence: float
 
 
 @checks_words
@@ -212,16 +196,8 @@ def _gumbel(data: Array) -> Fit:
 
 
 def _weibull(data: Array, location: float) -> Fit:
-    excess = data - location
-    log = np.log(excess / np.max(excess))
-
-    def residual(shape: float) -> float:
-        power = np.exp(shape * log)
-        return float(np.sum(power * log) / np.sum(power) - 1.0 / shape - np.mean(log))
-
-    shape = float(brentq(residual, 1e-3, 1e3, xtol=1e-13, rtol=1e-12))
-    scale = float(np.max(excess) * np.mean(np.exp(shape * log)) ** (1.0 / shape))
-    y = excess / scale
+    shape, scale = weibull_likelihood(data - location)
+    y = (data - location) / scale
     likelihood = float(data.size * math.log(shape / scale) + (shape - 1.0) * np.sum(np.log(y)) - np.sum(y**shape))
     return Fit("weibull", location, scale, shape, data.size, likelihood)
 
@@ -260,40 +236,10 @@ def _weibull_tail(data: Array, location: float, threshold: float) -> Fit:
 
 
 def _pareto(data: Array, location: float) -> Fit:
-    excess = data - location
-    unit = float(np.mean(excess))
-    x = excess / unit
-    largest = float(np.max(x))
-
-    def shape_of(theta: float) -> float:
-        return float(np.mean(np.log1p(theta * x)))
-
-    def minus_likelihood(theta: float) -> float:
-        # Profile likelihood of theta = shape / scale; the exponential is its limit at zero
-        if abs(theta) < 1e-7:
-            return float(x.size * (math.log(np.mean(x)) + 1.0))
-        shape = shape_of(theta)
-        ratio = shape / theta
-        return float(x.size * (math.log(ratio) + shape + 1.0)) if ratio > 0.0 else math.inf
-
-    # Below a shape of -1 the likelihood has no maximum (it grows without end as the end point meets the largest value)
-    low = -1.0 / largest * (1.0 - 1e-6)
-    grid = np.concatenate([low * np.geomspace(1.0, 1e-4, 60), [0.0], np.geomspace(1e-4, 50.0, 80)])
-    values = np.array([minus_likelihood(theta) if shape_of(theta) > -0.95 else math.inf for theta in grid])
-    best = int(np.argmin(values))
-    if not math.isfinite(values[best]) or best == grid.size - 1:
-        raise ConvergenceError(
-            "the likelihood of the generalised Pareto fit has no maximum",
-            path="values",
-            remedy="choose another threshold, or a Weibull fit",
-        )
-    lower, upper = grid[max(best - 1, 0)], grid[best + 1]
-    found = minimize_scalar(minus_likelihood, bounds=(lower, upper), method="bounded", options={"xatol": 1e-12})
-    theta = float(found.x) if found.fun <= values[best] else float(grid[best])
-    shape = shape_of(theta) if abs(theta) >= 1e-7 else 0.0
-    scale = shape / theta if abs(theta) >= 1e-7 else float(np.mean(x))
-    likelihood = -minus_likelihood(theta) - x.size * math.log(unit)
-    return Fit("generalised_pareto", location, scale * unit, shape, data.size, likelihood)
+    shape, scale = pareto_likelihood(data - location)
+    # The mean of log(1 + shape y / scale) is the shape itself; the mean excess is the scale of the exponential
+    likelihood = -data.size * (math.log(scale) + shape + 1.0)
+    return Fit("generalised_pareto", location, scale, shape, data.size, likelihood)
 
 
 def refit(fitted: Fit, values: ArrayLike) -> Fit:
@@ -346,16 +292,16 @@ def maximum_interval(
             continue
         found.append(level(again))
     value = level(fitted)
-    tail = 50.0 * (1.0 - confidence)
-    if fitted.family == "gumbel":
-        low, high = np.percentile(found, [tail, 100.0 - tail])
-        return Interval(value, float(2.0 * value - high), float(2.0 * value - low), confidence)
-    distance = np.log(np.maximum(np.array(found) - fitted.location, 1e-300) / (value - fitted.location))
-    low, high = np.percentile(distance, [tail, 100.0 - tail])
-    reach = value - fitted.location
-    return Interval(
-        value, fitted.location + reach * math.exp(-high), fitted.location + reach * math.exp(-low), confidence
-    )
+    base = None if fitted.family == "gumbel" else fitted.location
+    return reflected_interval(value, found, confidence, base=base)
+
+
+def kolmogorov_distance(fitted: Fit, values: ArrayLike) -> float:
+    """Return the largest difference of the empirical and the fitted distribution [-]."""
+    data = np.sort(np.asarray(values, dtype=float).ravel())
+    below = 1.0 - fitted.exceedance(data)
+    steps = np.arange(data.size + 1) / data.size
+    return float(max(np.max(steps[1:] - below), np.max(below - steps[:-1])))
 
 
 def check_fit(fitted: Fit, values: ArrayLike) -> tuple[Notice, ...]:

@@ -1,6 +1,7 @@
-"""Mean and harmonics of a periodic record by least squares over whole periods.
+"""Mean and harmonics of a periodic series by least squares over whole periods.
 
-Complex amplitudes follow ``Re(X exp(-i n omega t))``, so that they compare with computed ones without a change of sign.
+Complex amplitudes follow ``Re(X exp(-i n omega t))``, so that measured ones compare with computed ones without a change
+of sign.
 """
 
 from __future__ import annotations
@@ -11,10 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +24,12 @@ class Harmonics:
     ----------
     omega : float
         Angular frequency of the first harmonic [rad/s].
-    mean : ndarray, shape (channels,)
-        Mean value, in the unit of the channel.
-    amplitudes : ndarray, shape (harmonics, channels)
+    mean : ndarray, shape (...)
+        Mean value, in the unit of the channel; the shape of one row of the series.
+    amplitude : ndarray, shape (harmonics, ...)
         Complex amplitudes X_1, X_2, ... of ``Re(X_n exp(-i n omega t))``.
-    residual : ndarray, shape (channels,)
-        Root mean square of what mean and harmonics leave unexplained.
+    residual : ndarray, shape (...)
+        Root mean square of what mean and harmonics leave unexplained: unsteadiness or noise.
     periods : int
         Number of whole periods that were used.
     start, end : float
@@ -38,17 +37,17 @@ class Harmonics:
     """
 
     omega: float
-    mean: FloatArray
-    amplitudes: ComplexArray
-    residual: FloatArray
+    mean: Array
+    amplitude: ComplexArray
+    residual: Array
     periods: int
     start: float
     end: float
 
     @property
     def first(self) -> ComplexArray:
-        """Complex amplitudes of the first harmonic."""
-        return self.amplitudes[0]
+        """Complex amplitude of the first harmonic."""
+        return self.amplitude[0]
 
 
 def fit_harmonics(
@@ -70,14 +69,14 @@ def fit_harmonics(
     ----------
     time : array_like, shape (samples,)
         Increasing instants [s]; steps may be unequal.
-    values : array_like, shape (samples,) or (samples, channels)
-        Record, any unit, without gaps.
+    values : array_like, shape (samples, ...)
+        Series of one or more channels, any unit, without gaps.
     omega : float
         Angular frequency of the first harmonic [rad/s].
     count : int
         Number of harmonics.
     start, end : float, optional
-        Window [s]; the whole record when absent.
+        Window [s]; the whole series when absent. The periods are counted from its start.
 
     Returns
     -------
@@ -88,17 +87,9 @@ def fit_harmonics(
     InputError
         When the window holds less than one whole period, too few samples, or values that are not finite.
     """
-    instants = np.asarray(time, dtype=float)
-    channels = np.asarray(values, dtype=float)
-    channels = channels[:, None] if channels.ndim == 1 else channels
-    if instants.ndim != 1 or channels.shape[0] != instants.size:
-        raise InputError(f"{channels.shape[0]} rows of values for {instants.size} instants", path="values")
-    if not (math.isfinite(omega) and omega > 0.0) or count < 1:
-        raise InputError("the angular frequency and the number of harmonics must be positive", path="omega")
-    if instants.size < 2 or not np.all(np.diff(instants) > 0.0):
-        raise InputError("the instants must increase", path="time", remedy="sort the record or cut it at the reset")
+    instants, channels = _checked(time, values, omega, count)
     step = float(np.median(np.diff(instants)))
-    first = instants[0] if start is None else max(float(start), float(instants[0]))
+    first = float(instants[0] if start is None else max(float(start), float(instants[0])))
     last = instants[-1] + step if end is None else min(float(end), float(instants[-1]) + step)
     period = 2.0 * math.pi / omega
     # A millionth of a period forgives the rounding of the time column
@@ -111,7 +102,73 @@ def fit_harmonics(
         )
     stop = first + periods * period
     chosen = (instants >= first - 1e-9 * period) & (instants < stop - 1e-3 * step)
+    return _least_squares(instants, channels, chosen, omega, count, periods, (first, stop))
+
+
+def fit_last_periods(
+    time: ArrayLike, values: ArrayLike, omega: float, *, periods: int | None = None, count: int = 3
+) -> Harmonics:
+    """Fit mean and ``count`` harmonics to the last whole periods of a series, where a simulation is steadiest.
+
+    Equation [eq:harmonic-model]; the same least squares as :func:`fit_harmonics`.
+
+    Parameters
+    ----------
+    time, values, omega, count
+        As in :func:`fit_harmonics`.
+    periods : int, optional
+        Whole periods at the end; as many as there are when absent.
+
+    Returns
+    -------
+    Harmonics
+
+    Raises
+    ------
+    InputError
+        When the series does not hold the periods, has too few samples, or values that are not finite.
+    """
+    instants, channels = _checked(time, values, omega, count)
+    period = 2.0 * math.pi / omega
+    duration = float(instants[-1] - instants[0])
+    step = duration / (len(instants) - 1)
+    available = math.floor((duration + step) / period + 1e-6)
+    whole = available if periods is None else periods
+    if whole < 1 or whole > available:
+        raise InputError(
+            f"{whole} whole periods of {period:.4g} s do not fit into {duration:.4g} s",
+            path="periods",
+            allowed=f"at most {available}",
+            remedy="simulate longer or analyse fewer periods",
+        )
+    # The first instant of the window belongs to the period before, so that no phase counts twice
+    chosen = instants > instants[-1] - whole * period + 1e-6 * step
+    window = (float(instants[chosen][0]), float(instants[-1] + step))
+    return _least_squares(instants, channels, chosen, omega, count, whole, window)
+
+
+def _checked(time: ArrayLike, values: ArrayLike, omega: float, count: int) -> tuple[Array, Array]:
+    instants, channels = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    if instants.ndim != 1 or channels.ndim < 1 or len(channels) != instants.size:
+        raise InputError(f"values of shape {channels.shape} for {instants.size} instants", path="values")
+    if not (math.isfinite(omega) and omega > 0.0) or count < 1:
+        raise InputError("the angular frequency and the number of harmonics must be positive", path="omega")
+    if instants.size < 2 or not np.all(np.diff(instants) > 0.0):
+        raise InputError("the instants must increase", path="time", remedy="sort the record or cut it at the reset")
+    return instants, channels
+
+
+def _least_squares(
+    instants: Array,
+    channels: Array,
+    chosen: NDArray[np.bool_],
+    omega: float,
+    count: int,
+    periods: int,
+    window: tuple[float, float],
+) -> Harmonics:
     t, y = instants[chosen], channels[chosen]
+    # Twice as many samples as unknowns: with fewer the residual says nothing
     if t.size < 4 * count + 2:
         raise InputError(f"{t.size} samples are too few for {count} harmonics", path="count")
     if not np.all(np.isfinite(y)):
@@ -122,11 +179,21 @@ def fit_harmonics(
     middle = 0.5 * (t[0] + t[-1])
     angles = omega * (t - middle)[:, None] * np.arange(1, count + 1)
     design = np.column_stack([np.ones_like(t), np.cos(angles), np.sin(angles)])
-    solution, *_ = np.linalg.lstsq(design, y, rcond=None)
-    residual = np.sqrt(np.mean((y - design @ solution) ** 2, axis=0))
+    flat = y.reshape(t.size, -1)
+    solution, *_ = np.linalg.lstsq(design, flat, rcond=None)
+    residual = np.sqrt(np.mean((flat - design @ solution) ** 2, axis=0))
     order = np.arange(1, count + 1)[:, None]
-    amplitudes = (solution[1 : count + 1] + 1j * solution[count + 1 :]) * np.exp(1j * order * omega * middle)
-    return Harmonics(omega, solution[0], amplitudes, residual, periods, float(first), float(stop))
+    # a cos + b sin = Re((a + i b) exp(-i phase))
+    amplitude = (solution[1 : count + 1] + 1j * solution[count + 1 :]) * np.exp(1j * order * omega * middle)
+    shape = channels.shape[1:]
+    return Harmonics(
+        omega,
+        solution[0].reshape(shape),
+        amplitude.reshape(count, *shape),
+        residual.reshape(shape),
+        periods,
+        *window,
+    )
 
 
 def sliding_fits(

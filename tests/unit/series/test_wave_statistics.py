@@ -7,13 +7,15 @@ import pytest
 from scipy.special import comb
 
 from moyai.core.errors import InputError
-from moyai.sea import irregular, spectra, statistics
+from moyai.sea import irregular, spectra
 from moyai.sea.water import Water
+from moyai.series import wave_statistics
+from moyai.series.zero_crossing import zero_crossing
 
 
 def test_cycles_of_a_sine():
     time = np.arange(0.0, 100.0, 0.01)
-    cycles = statistics.zero_crossing(time, 3.0 + 2.0 * np.sin(2.0 * math.pi * (time - 0.3) / 8.0), mean_level=3.0)
+    cycles = zero_crossing(time, 3.0 + 2.0 * np.sin(2.0 * math.pi * (time - 0.3) / 8.0), mean_level=3.0)
     assert len(cycles) == 12
     np.testing.assert_allclose(cycles.period, 8.0, atol=1e-4)
     np.testing.assert_allclose(cycles.start, 0.3 + 8.0 * np.arange(12), atol=1e-4)
@@ -35,7 +37,7 @@ def test_planted_waves_are_found_again():
         periods.append(4 * quarter * 0.5)
     # one more cycle of descent opens the first and closes the last crossing
     series = np.concatenate([[-0.5], *pieces, [0.5]])
-    cycles = statistics.zero_crossing(np.arange(series.size) * 0.5, series, mean_level=0.0)
+    cycles = zero_crossing(np.arange(series.size) * 0.5, series, mean_level=0.0)
     np.testing.assert_allclose(cycles.height, heights, rtol=1e-12)
     np.testing.assert_allclose(cycles.period, periods, rtol=1e-12)
     order = np.sort(heights)[::-1]
@@ -47,35 +49,35 @@ def test_planted_waves_are_found_again():
 def test_parabolic_crests_recover_what_sampling_lost():
     time = np.arange(0.0, 200.0, 0.5)
     series = np.cos(2.0 * math.pi * time / 5.3 + 0.2)
-    plain = statistics.zero_crossing(time, series, mean_level=0.0)
-    fine = statistics.zero_crossing(time, series, mean_level=0.0, parabolic=True)
+    plain = zero_crossing(time, series, mean_level=0.0)
+    fine = zero_crossing(time, series, mean_level=0.0, parabolic=True)
     assert abs(fine.height.mean() - 2.0) < 0.1 * abs(plain.height.mean() - 2.0)
 
 
 def test_significant_values_and_exceedance():
     values = np.arange(1.0, 10.0)
-    assert statistics.significant(values) == 8.0
-    assert statistics.significant(values, 1.0) == 5.0
-    assert statistics.significant([2.0]) == 2.0
-    assert math.isnan(statistics.significant([]))
-    ordered, probability = statistics.exceedance([1.0, 3.0, 2.0])
+    assert wave_statistics.significant(values) == 8.0
+    assert wave_statistics.significant(values, 1.0) == 5.0
+    assert wave_statistics.significant([2.0]) == 2.0
+    assert math.isnan(wave_statistics.significant([]))
+    ordered, probability = wave_statistics.exceedance([1.0, 3.0, 2.0])
     np.testing.assert_array_equal(ordered, [3.0, 2.0, 1.0])
     np.testing.assert_allclose(probability, [0.25, 0.5, 0.75])
 
 
 def test_rayleigh_constants():
-    assert statistics.rayleigh_significant(1.0 / 3.0) == pytest.approx(1.41573, abs=5e-6)
-    assert statistics.rayleigh_significant(0.1) == pytest.approx(1.79992, abs=5e-6)
-    assert statistics.rayleigh_significant(1.0) == pytest.approx(math.sqrt(math.pi) / 2.0, rel=1e-14)
+    assert wave_statistics.rayleigh_significant(1.0 / 3.0) == pytest.approx(1.41573, abs=5e-6)
+    assert wave_statistics.rayleigh_significant(0.1) == pytest.approx(1.79992, abs=5e-6)
+    assert wave_statistics.rayleigh_significant(1.0) == pytest.approx(math.sqrt(math.pi) / 2.0, rel=1e-14)
     for count, expected in ((100, 1.5974), (200, 1.7030), (500, 1.8333), (1000, 1.9259)):
-        assert statistics.rayleigh_expected_maximum(count) == pytest.approx(expected, abs=6e-5)
+        assert wave_statistics.rayleigh_expected_maximum(count) == pytest.approx(expected, abs=6e-5)
     # the alternating sum is exact for few waves
     for count in (1, 2, 5, 12):
         total = sum((-1) ** (n + 1) * comb(count, n) / math.sqrt(n) for n in range(1, count + 1))
-        exact = 0.5 * math.sqrt(math.pi) * total / statistics.rayleigh_significant(1.0 / 3.0)
-        assert statistics.rayleigh_expected_maximum(count) == pytest.approx(exact, rel=1e-10)
-    median = statistics.rayleigh_maximum_quantile(1000, 0.5)
-    assert (1.0 - float(statistics.rayleigh_exceedance(median, 1.0))) ** 1000 == pytest.approx(0.5, rel=1e-9)
+        exact = 0.5 * math.sqrt(math.pi) * total / wave_statistics.rayleigh_significant(1.0 / 3.0)
+        assert wave_statistics.rayleigh_expected_maximum(count) == pytest.approx(exact, rel=1e-10)
+    median = wave_statistics.rayleigh_maximum_quantile(1000, 0.5)
+    assert (1.0 - float(wave_statistics.rayleigh_exceedance(median, 1.0))) ** 1000 == pytest.approx(0.5, rel=1e-9)
 
 
 def test_narrow_sea_has_rayleigh_heights():
@@ -83,7 +85,7 @@ def test_narrow_sea_has_rayleigh_heights():
     narrow = spectra.Spectrum(omega, 1.0 - ((omega - 0.8) / 0.05) ** 2 + 1e-12, "narrow")
     sea = irregular.synthesise(narrow, Water(math.inf, 1025.0, 9.81), duration=80000.0, time_step=0.5, seed=4)
     time = np.arange(160000) * 0.5
-    cycles = statistics.zero_crossing(time, sea.elevation(time), parabolic=True)
+    cycles = zero_crossing(time, sea.elevation(time), parabolic=True)
     assert cycles.significant_height() == pytest.approx(4.0043 * math.sqrt(narrow.variance), rel=0.01)
     assert cycles.period.mean() == pytest.approx(narrow.zero_crossing_period, rel=1e-3)
 
@@ -98,13 +100,13 @@ def test_narrow_sea_has_rayleigh_heights():
 )
 def test_bad_series_are_named(time, values, message):
     with pytest.raises(InputError, match=message):
-        statistics.zero_crossing(time, values)
+        zero_crossing(time, values)
 
 
 def test_a_series_without_cycles():
-    cycles = statistics.zero_crossing(np.arange(10.0), np.arange(10.0))
+    cycles = zero_crossing(np.arange(10.0), np.arange(10.0))
     assert len(cycles) == 0
     assert math.isnan(cycles.significant_height())
     assert math.isnan(cycles.significant_period())
     with pytest.raises(InputError, match="fraction"):
-        statistics.significant([1.0], 0.0)
+        wave_statistics.significant([1.0], 0.0)

@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.design.extremes import Fit, Interval, refit
-
-Array = NDArray[np.float64]
+from moyai.series.extremes import Fit, refit
+from moyai.series.intervals import Interval, reflected_interval
+from moyai.series.zero_crossing import zero_crossing
 
 SLACK_SHARE = 0.1
 """Share of the mean tension below which a line counts as slack: lifting slings are kept above a tenth of their static
@@ -51,16 +52,13 @@ def peaks_of(series: ArrayLike, *, slack_share: float = SLACK_SHARE) -> tuple[Ar
     if x.size < 3:
         return nothing
     mean = float(np.mean(x))
-    above = x > mean
-    crossings = np.flatnonzero(~above[:-1] & above[1:]) + 1
-    if crossings.size < 2:
+    waves = zero_crossing(np.arange(x.size, dtype=float), x, mean_level=mean)
+    if not len(waves):
         return nothing
-    whole = x[: crossings[-1]]
-    peaks = np.maximum.reduceat(whole, crossings[:-1])
-    # Between the up-crossing before and this one lies the trough that the peak rises from
-    starts = np.concatenate([[0], crossings[:-2]]) if crossings.size > 2 else np.array([0])
-    troughs = np.array([x[start:end].min() for start, end in zip(starts, crossings[:-1])])
-    return peaks, troughs < slack_share * mean
+    # The trough that a peak rises from lies in the wave before it; before the first wave, in what goes before it
+    before = float(x[: math.ceil(waves.start[0])].min())
+    troughs = np.concatenate([[before], mean + waves.trough[:-1]])
+    return mean + waves.crest, troughs < slack_share * mean
 
 
 @dataclass(frozen=True)
@@ -167,8 +165,4 @@ def interval_of_kinds(
             continue
     if len(found) < repetitions // 2:
         return Interval(value, math.nan, math.nan, confidence)
-    tail = 50.0 * (1.0 - confidence)
-    distance = np.log(np.maximum(np.array(found) - base, 1e-300) / (value - base))
-    low, high = np.percentile(distance, [tail, 100.0 - tail])
-    reach = value - base
-    return Interval(value, base + reach * math.exp(-high), base + reach * math.exp(-low), confidence)
+    return reflected_interval(value, found, confidence, base=base)

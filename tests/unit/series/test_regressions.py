@@ -8,7 +8,7 @@ from scipy import stats
 from scipy.optimize import curve_fit
 
 from moyai.core.errors import InputError
-from moyai.records.survey.regressions import (
+from moyai.series.regressions import (
     correlation,
     fit_by_direction,
     fit_cosine,

@@ -1,4 +1,4 @@
-"""Individual waves of a record by zero crossing, with every choice explicit; statistics and fits of their heights."""
+"""Individual waves of a series by zero crossing: of records with every choice explicit, of simulations in one call."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
-from moyai.records.detrend import Detrend, detrended
-from moyai.records.reading.record import FloatArray
+from moyai.series.detrend import Detrend, detrended
 
 Rounding = Literal["nearest", "down", "up"]
 
@@ -72,11 +72,11 @@ class Waves:
     notices : tuple of Notice
     """
 
-    start: FloatArray
-    period: FloatArray
-    height: FloatArray
-    crest: FloatArray
-    trough: FloatArray
+    start: Array
+    period: Array
+    height: Array
+    crest: Array
+    trough: Array
     options: WaveOptions
     notices: tuple[Notice, ...] = ()
 
@@ -92,9 +92,17 @@ class Waves:
         return float(self.height[order].mean()), float(self.period[order].mean())
 
     @property
-    def end(self) -> FloatArray:
+    def end(self) -> Array:
         """Closing crossing of each wave [s]."""
         return self.start + self.period
+
+    def significant_height(self) -> float:
+        """Return the mean height of the highest third; NaN where there is no wave."""
+        return self.highest(1.0 / 3.0)[0]
+
+    def significant_period(self) -> float:
+        """Return the mean period of the waves with the highest third of heights [s]; NaN where there is no wave."""
+        return self.highest(1.0 / 3.0)[1]
 
     def statistics(self) -> dict[str, float]:
         """Return the usual figures; NaN where there is no wave.
@@ -164,7 +172,7 @@ def share_of(count: int, fraction: float, rounding: Rounding = "nearest") -> int
 
 
 @njit(cache=True, error_model="numpy")
-def _find_waves(values: FloatArray, times: FloatArray, band: float, parabola: bool, gap: float, out: FloatArray) -> int:
+def _find_waves(values: Array, times: Array, band: float, parabola: bool, gap: float, out: Array) -> int:
     """Fill ``out[:, wave]`` with start, period, crest, trough; return the number of waves.
 
     A NaN, and a step longer than ``gap``, end the wave at hand without counting it.
@@ -274,7 +282,7 @@ def find_waves(time: ArrayLike, values: ArrayLike, options: WaveOptions, *, gap:
 
 
 def _notices(
-    values: FloatArray, time: FloatArray, kept: NDArray[np.bool_], count: int, gap: float, options: WaveOptions
+    values: Array, time: Array, kept: NDArray[np.bool_], count: int, gap: float, options: WaveOptions
 ) -> tuple[Notice, ...]:
     notices = []
     missing = int(np.count_nonzero(~np.isfinite(values)))
@@ -307,102 +315,46 @@ def _notices(
     return tuple(notices)
 
 
-# ------------------------------------------------------------------------------------------------------- fits
+def zero_crossing(
+    time: ArrayLike, values: ArrayLike, *, mean_level: float | None = None, parabolic: bool = False
+) -> Waves:
+    """Split a series without gaps, such as a simulated one, into the waves between its up-crossings.
 
-
-@dataclass(frozen=True)
-class WeibullFit:
-    """Distribution 1 - exp(-(x / scale)^shape) of heights; equation [eq:records-weibull].
+    Parts before the first and after the last crossing are left out; crossings are interpolated linearly.
 
     Parameters
     ----------
-    scale, shape : float
-        Scale [unit of the heights] and shape [-] (2: Rayleigh).
-    scale_error, shape_error : float
-        Standard errors by the observed information.
-    log_likelihood : float
-    distance : float
-        Largest distance of the empirical from the fitted distribution (Kolmogorov) [-].
-    count : int
-    """
-
-    scale: float
-    shape: float
-    scale_error: float
-    shape_error: float
-    log_likelihood: float
-    distance: float
-    count: int
-
-    def exceedance(self, values: ArrayLike) -> FloatArray:
-        """Return the probability that a height exceeds each value."""
-        return np.asarray(np.exp(-((np.asarray(values, dtype=float) / self.scale) ** self.shape)))
-
-    def quantile(self, exceedance: ArrayLike) -> FloatArray:
-        """Return the height that is exceeded with the given probability."""
-        return np.asarray(self.scale * (-np.log(np.asarray(exceedance, dtype=float))) ** (1.0 / self.shape))
-
-
-def fit_rayleigh(heights: ArrayLike) -> WeibullFit:
-    """Fit a Rayleigh distribution: its scale is the root mean square height [eq:records-weibull]."""
-    x = _heights(heights)
-    scale = math.sqrt(float(np.mean(x**2)))
-    return _fit(x, scale, 2.0, scale / (2.0 * math.sqrt(x.size)), 0.0)
-
-
-def fit_weibull(heights: ArrayLike) -> WeibullFit:
-    """Fit scale and shape by maximum likelihood [eq:records-weibull].
+    time : array_like
+        Times [s], increasing (uniform for ``parabolic``).
+    values : array_like
+        The series, of any unit.
+    mean_level : float, optional
+        Level whose crossings count; by default the mean of the series.
+    parabolic : bool
+        Refine crests and troughs by a parabola through three samples.
 
     Raises
     ------
     InputError
-        With fewer than three different positive heights.
+        When lengths differ, times do not increase, or a value is NaN.
     """
-    from scipy.optimize import brentq
-
-    x = _heights(heights)
-    top = float(x.max())
-    y = x / top
-    logs = np.log(y)
-    mean_log = float(logs.mean())
-
-    def slope(shape: float) -> float:
-        weight = y**shape
-        return float(np.sum(weight * logs) / np.sum(weight)) - 1.0 / shape - mean_log
-
-    low, high = 1e-3, 2.0
-    while slope(high) < 0.0 and high < 1e4:
-        high *= 2.0
-    shape = float(brentq(slope, low, high, xtol=1e-12))
-    scale = top * float(np.mean(y**shape)) ** (1.0 / shape)
-    # Observed information of (shape, scale)
-    z = np.log(x / scale)
-    power = (x / scale) ** shape
-    n = x.size
-    information = np.array(
-        [
-            [n / shape**2 + float(np.sum(power * z**2)), -float(np.sum(power * (1.0 + shape * z)) - n) / scale],
-            [0.0, n * shape**2 / scale**2],
-        ]
+    t = np.ascontiguousarray(time, dtype=np.float64)
+    v = np.ascontiguousarray(values, dtype=np.float64)
+    if t.ndim != 1 or t.shape != v.shape or t.size < 2:
+        raise InputError(
+            f"series of shape {v.shape} over times of shape {t.shape}", path="values", allowed="equal, 1-D"
+        )
+    for name, array in (("time", t), ("values", v)):
+        if not np.isfinite(array).all():
+            place = int(np.argmin(np.isfinite(array)))
+            raise InputError(f"{name}[{place}] is not a number", path=name, remedy="fill or cut gaps before")
+    if (np.diff(t) <= 0.0).any():
+        raise InputError("times do not increase", path="time", allowed="strictly increasing")
+    level = float(np.mean(v)) if mean_level is None else float(mean_level)
+    out = np.empty((4, t.size))
+    count = _find_waves(v - level, t, 0.0, parabolic, math.inf, out)
+    start, period, crest, trough = (out[row, :count].copy() for row in range(4))
+    options = WaveOptions(
+        detrend=Detrend("mean" if mean_level is None else "none"), crest="parabola" if parabolic else "sample"
     )
-    information[1, 0] = information[0, 1]
-    errors = np.sqrt(np.diag(np.linalg.inv(information)))
-    return _fit(x, scale, shape, float(errors[1]), float(errors[0]))
-
-
-def _heights(heights: ArrayLike) -> FloatArray:
-    x = np.asarray(heights, dtype=np.float64).reshape(-1)
-    x = x[np.isfinite(x)]
-    if np.unique(x).size < 3 or (x <= 0.0).any():
-        raise InputError(f"{x.size} heights", path="heights", allowed="three or more different, all greater than 0")
-    return x
-
-
-def _fit(x: FloatArray, scale: float, shape: float, scale_error: float, shape_error: float) -> WeibullFit:
-    ratio = x / scale
-    likelihood = float(np.sum(math.log(shape / scale) + (shape - 1.0) * np.log(ratio) - ratio**shape))
-    ordered = np.sort(x)
-    fitted = -np.expm1(-((ordered / scale) ** shape))
-    steps = np.arange(x.size + 1) / x.size
-    distance = float(max(np.max(steps[1:] - fitted), np.max(fitted - steps[:-1])))
-    return WeibullFit(scale, shape, scale_error, shape_error, likelihood, distance, int(x.size))
+    return Waves(start, period, crest - trough, crest, trough, options)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-Array = NDArray[np.float64]
+from moyai.series.wave_statistics import exceedance
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,7 @@ class SnapRecord:
 
     def exceedance(self) -> tuple[Array, Array]:
         """Return the peaks of the snaps, falling [N], and the part of snaps that reaches each (Weibull positions)."""
-        peaks = np.sort([contact.peak for contact in self.snaps])[::-1]
-        return peaks, np.arange(1, peaks.size + 1) / (peaks.size + 1.0)
+        return exceedance([contact.peak for contact in self.snaps])
 
 
 def _crossing(time: Array, tension: Array, i: int, level: float) -> float:

@@ -7,37 +7,26 @@ intervals come from samples drawn from the fit and fitted again, the number of p
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from moyai.core.errors import InputError
+from moyai.core.arrays import Array
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
+from moyai.series.extremes import Family, Fit, kolmogorov_distance
+from moyai.series.intervals import Interval, reflected_interval
+from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
 
-Array = NDArray[np.float64]
 SnapLaw = Literal["weibull", "pareto"]
 
 _FEWEST = 10
 _FEW = 30
-_SHAPES = 60
-
-
-@dataclass(frozen=True)
-class Interval:
-    """A number with its bounds.
-
-    Parameters
-    ----------
-    value, low, high : float
-        Estimate and bounds.
-    """
-
-    value: float
-    low: float
-    high: float
+_FAMILY: dict[str, Family] = {"weibull": "weibull", "pareto": "generalised_pareto"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +71,7 @@ class SnapFit:
 
     def exceedance(self, tension: ArrayLike) -> Array:
         """Return the probability that a peak above the threshold exceeds a tension [N]."""
-        return np.exp(
-            _log_exceedance(self.law, np.asarray(tension) - self.threshold, self.shape.value, self.scale.value)
-        )
+        return self._distribution(self.shape.value, self.scale.value).exceedance(tension)
 
     @property
     def empirical(self) -> Array:
@@ -115,26 +102,17 @@ class SnapFit:
         if not 0.0 < probability < 1.0:
             raise InputError(f"probability is {probability:g}", path="probability", allowed="between 0 and 1")
         lack = -math.log(probability)
+        return self._interval(
+            lambda shape, scale, rate: _excess_at(self.law, min(lack / (rate * hours), 1.0), shape, scale)
+        )
 
-        def quantile(shape: float, scale: float, rate: float) -> float:
-            return _excess_at(self.law, min(lack / (rate * hours), 1.0), shape, scale)
+    def _distribution(self, shape: float, scale: float) -> Fit:
+        return Fit(_FAMILY[self.law], self.threshold, scale, shape, self.peaks.size, math.nan)
 
-        return self._interval(quantile)
-
-    def _interval(self, function) -> Interval:  # type: ignore[no-untyped-def]
-        values = np.array([function(*row) for row in self.resampled])
-        best = function(self.shape.value, self.scale.value, self.rate.value)
-        found = _reflected(best, values, self.confidence, in_proportion=True)
-        return Interval(self.threshold + found.value, self.threshold + found.low, self.threshold + found.high)
-
-
-def _reflected(value: float, samples: Array, confidence: float, *, in_proportion: bool) -> Interval:
-    """Return bounds from fits of drawn samples, reflected at the estimate: so their bias is taken off, not doubled."""
-    tail = 50.0 * (1.0 - confidence)
-    low, high = (float(bound) for bound in np.percentile(samples, [tail, 100.0 - tail]))
-    if in_proportion and value > 0.0 and low > 0.0:
-        return Interval(value, value * value / high, value * value / low)
-    return Interval(value, 2.0 * value - high, 2.0 * value - low)
+    def _interval(self, excess: Callable[[float, float, float], float]) -> Interval:
+        values = self.threshold + np.array([excess(*row) for row in self.resampled])
+        best = self.threshold + excess(self.shape.value, self.scale.value, self.rate.value)
+        return reflected_interval(best, values, self.confidence, base=self.threshold)
 
 
 def _check_hours(hours: float) -> None:
@@ -142,22 +120,11 @@ def _check_hours(hours: float) -> None:
         raise InputError(f"hours is {hours:g}", path="hours", allowed="greater than 0")
 
 
-def _log_exceedance(law: SnapLaw, excess: ArrayLike, shape: float, scale: float) -> Array:
-    z = np.maximum(np.asarray(excess, dtype=np.float64), 0.0) / scale
-    if law == "weibull":
-        return -(z**shape)
-    if abs(shape) < 1e-9:
-        return -z
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(1.0 + shape * z > 0.0, -np.log1p(np.maximum(shape * z, -1.0)) / shape, -np.inf)
-
-
 def _excess_at(law: SnapLaw, probability: float, shape: float, scale: float) -> float:
     """Return the excess that is exceeded with a probability."""
-    lack = -math.log(probability)
-    if law == "weibull":
-        return float(scale * lack ** (1.0 / shape))
-    return scale * lack if abs(shape) < 1e-9 else scale * math.expm1(shape * lack) / shape
+    if probability >= 1.0:
+        return 0.0
+    return float(Fit(_FAMILY[law], 0.0, scale, shape, 0, math.nan).level(probability))
 
 
 def _mode(law: SnapLaw, shape: float, scale: float, count: float) -> float:
@@ -175,53 +142,6 @@ def _mode(law: SnapLaw, shape: float, scale: float, count: float) -> float:
             break
         t = new
     return float(scale * t ** (1.0 / shape))
-
-
-def _weibull(excess: Array) -> tuple[float, float]:
-    """Return shape and scale of greatest likelihood."""
-    logs = np.log(excess)
-    top, mean = float(logs.max()), float(logs.mean())
-    spread = float(logs.std())
-    shape = 1.28 / spread if spread > 0.0 else 1e3
-    for _ in range(_SHAPES):
-        weight = np.exp(shape * (logs - top))
-        total = float(weight.sum())
-        first, second = float(weight @ logs) / total, float(weight @ (logs * logs)) / total
-        value = first - 1.0 / shape - mean
-        step = value / (second - first * first + 1.0 / shape**2)
-        shape = max(shape - step, 0.2 * shape)
-        if abs(step) <= 1e-12 * shape:
-            break
-    return shape, math.exp(top + math.log(float(np.mean(np.exp(shape * (logs - top))))) / shape)
-
-
-def _pareto(excess: Array) -> tuple[float, float]:
-    """Return shape and scale of greatest likelihood, along Grimshaw's line of one parameter."""
-    from scipy.optimize import minimize_scalar
-
-    mean, largest = float(excess.mean()), float(excess.max())
-
-    def cost(ratio: float) -> float:
-        # ratio = shape/scale in units of the mean excess
-        rate = ratio / mean
-        if abs(ratio) < 1e-9:
-            return math.log(mean) + 1.0
-        shape = float(np.mean(np.log1p(rate * excess)))
-        # shapes below -1/2 have no regular maximum
-        return math.log(shape / rate) + shape + 1.0 if shape > -0.5 else 1e9
-
-    border = -mean / largest
-    grid = np.concatenate([border * (1.0 - np.geomspace(1e-4, 1.0, 30, endpoint=False)), np.geomspace(1e-3, 20.0, 40)])
-    grid.sort()
-    shapes = np.log1p(np.outer(grid / mean, excess)).mean(axis=1)
-    values = np.where(shapes > -0.5, np.log(np.abs(shapes * mean / grid)) + shapes + 1.0, 1e9)
-    best = int(np.argmin(values))
-    low, high = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    found = float(minimize_scalar(cost, bounds=(low, high), method="bounded", options={"xatol": 1e-9}).x)
-    if abs(found) < 1e-7:
-        return 0.0, mean
-    shape = float(np.mean(np.log1p(found / mean * excess)))
-    return shape, shape * mean / found
 
 
 @checks_words
@@ -258,6 +178,8 @@ def fit_snaps(
     ------
     InputError
         When fewer than ten peaks are above the threshold, they are all equal, or a number is out of range.
+    ConvergenceError
+        Where the likelihood has no maximum.
     """
     _check_hours(hours)
     given = np.asarray(peaks, dtype=np.float64).reshape(-1)
@@ -279,35 +201,37 @@ def fit_snaps(
             allowed=f"at least {_FEWEST}, not all equal",
             remedy="simulate a longer sea, more seeds, or lower the threshold",
         )
-    fit = _weibull if law == "weibull" else _pareto
-    excess = chosen - threshold
-    shape, scale = fit(excess)
+    search = weibull_likelihood if law == "weibull" else pareto_likelihood
+    shape, scale = search(chosen - threshold)
+    fitted = Fit(_FAMILY[law], threshold, scale, shape, chosen.size, math.nan)
     rng = np.random.default_rng(seed)
-    counts = np.maximum(rng.poisson(chosen.size, resamples), 5)
-    rows = np.empty((resamples, 3))
-    for row, count in zip(rows, counts):
-        uniform = np.maximum(rng.random(count), 1e-300)
-        lack = -np.log(uniform)
-        if law == "weibull":
-            sample = scale * lack ** (1.0 / shape)
-        else:
-            sample = scale * (lack if abs(shape) < 1e-9 else np.expm1(shape * lack) / shape)
-        row[:2] = fit(np.maximum(sample, 1e-300))
-        row[2] = count / hours
-    below = -np.expm1(_log_exceedance(law, excess[::-1], shape, scale))
-    steps = np.arange(chosen.size + 1) / chosen.size
-    distance = float(np.maximum(np.abs(below - steps[1:]), np.abs(below - steps[:-1])).max())
+    rows = []
+    for count in np.maximum(rng.poisson(chosen.size, resamples), 5):
+        sample = replace(fitted, location=0.0).sample(int(count), rng)
+        try:
+            rows.append((*search(np.maximum(sample, 1e-300)), count / hours))
+        except ConvergenceError:
+            # A few Pareto peaks may have no likeliest fit
+            continue
+    if len(rows) < resamples // 2:
+        raise ConvergenceError(
+            f"only {len(rows)} of {resamples} samples drawn from the {law} fit can be fitted again",
+            path="peaks",
+            remedy="simulate a longer sea, more seeds, or lower the threshold",
+        )
+    drawn = np.array(rows)
+    distance = kolmogorov_distance(fitted, chosen)
     return SnapFit(
         law,
         threshold,
-        _reflected(shape, rows[:, 0], confidence, in_proportion=law == "weibull"),
-        _reflected(scale, rows[:, 1], confidence, in_proportion=True),
+        reflected_interval(shape, drawn[:, 0], confidence, base=0.0 if law == "weibull" else None),
+        reflected_interval(scale, drawn[:, 1], confidence, base=0.0),
         poisson_rate(chosen.size, hours, confidence),
         chosen,
         hours,
         confidence,
         distance,
-        rows,
+        drawn,
         _check_fit(law, chosen.size, shape, distance),
     )
 
@@ -319,7 +243,7 @@ def poisson_rate(count: int, hours: float, confidence: float = 0.95) -> Interval
     _check_hours(hours)
     tail = 0.5 * (1.0 - confidence)
     low = 0.5 * float(chdtri(2 * count, 1.0 - tail)) if count > 0 else 0.0
-    return Interval(count / hours, low / hours, 0.5 * float(chdtri(2 * count + 2, tail)) / hours)
+    return Interval(count / hours, low / hours, 0.5 * float(chdtri(2 * count + 2, tail)) / hours, confidence)
 
 
 def dispersion(time: ArrayLike, start: float, duration: float, blocks: int) -> float:

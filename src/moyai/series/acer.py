@@ -9,14 +9,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 from scipy.special import ndtri
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.design.extremes import Interval
-
-Array = NDArray[np.float64]
+from moyai.series.intervals import Interval
 
 
 @dataclass(frozen=True)

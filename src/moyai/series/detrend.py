@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.records.reading.record import FloatArray
 
 
 @checks_words
@@ -35,13 +35,13 @@ class Detrend:
             raise InputError("high_pass needs a cut-off period", path="cutoff", allowed="greater than 0 s")
 
 
-def detrended(time: ArrayLike, values: ArrayLike, detrend: Detrend) -> FloatArray:
+def detrended(time: ArrayLike, values: ArrayLike, detrend: Detrend) -> Array:
     """Return a record with its slow part taken off; NaN stays NaN."""
     t, v = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     return np.asarray(v - trend_of(t, v, detrend))
 
 
-def trend_of(time: FloatArray, values: FloatArray, detrend: Detrend) -> FloatArray:
+def trend_of(time: Array, values: Array, detrend: Detrend) -> Array:
     """Return what :func:`detrended` takes off."""
     if detrend.kind == "none":
         return np.zeros_like(values)
@@ -58,7 +58,7 @@ def trend_of(time: FloatArray, values: FloatArray, detrend: Detrend) -> FloatArr
     return np.asarray(design @ coefficients)
 
 
-def slow_part(time: ArrayLike, values: ArrayLike, cutoff: float) -> FloatArray:
+def slow_part(time: ArrayLike, values: ArrayLike, cutoff: float) -> Array:
     """Return the part of a record that varies slower than ``cutoff``; equation [eq:records-slow].
 
     Local parabolas, fitted under a window of cosine shape whose length is chosen for an amplitude response of one half
@@ -115,7 +115,7 @@ def slow_part(time: ArrayLike, values: ArrayLike, cutoff: float) -> FloatArray:
 _HALF_WIDTH = 0.8830072602438066
 
 
-def _local_parabolas(x: FloatArray, y: FloatArray, weight: FloatArray, half: float) -> FloatArray:
+def _local_parabolas(x: Array, y: Array, weight: Array, half: float) -> Array:
     """Return local quadratic fits at ``x``, NaN where fewer than four bins are near."""
     out = np.full(x.size, np.nan)
     first = np.searchsorted(x, x - half)
@@ -136,7 +136,7 @@ def _local_parabolas(x: FloatArray, y: FloatArray, weight: FloatArray, half: flo
     return out
 
 
-def slow_response(period_ratio: ArrayLike) -> FloatArray:
+def slow_response(period_ratio: ArrayLike) -> Array:
     """Return the amplitude response of :func:`slow_part` to a wave of ``period / cutoff`` [eq:records-slow]."""
     ratio = np.atleast_1d(np.asarray(period_ratio, dtype=float))
     d, weights = np.polynomial.legendre.leggauss(400)

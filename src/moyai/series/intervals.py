@@ -1,0 +1,75 @@
+"""Confidence intervals: of draws from a fitted distribution, and by Student's distribution."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from moyai.core.errors import InputError
+
+
+@dataclass(frozen=True)
+class Interval:
+    """An estimate with its confidence interval.
+
+    Parameters
+    ----------
+    value, lower, upper : float
+        Of the unit of the data.
+    confidence : float
+        Probability that the interval covers.
+    """
+
+    value: float
+    lower: float
+    upper: float
+    confidence: float
+
+
+def reflected_interval(value: float, drawn: ArrayLike, confidence: float, *, base: float | None = None) -> Interval:
+    """Return the basic bootstrap interval: draws reflected at the estimate, which takes their bias off, not doubles it.
+
+    Parameters
+    ----------
+    value : float
+        The estimate.
+    drawn : array_like
+        Estimates from samples that were drawn from what was fitted.
+    confidence : float
+    base : float, optional
+        Lower end of the values: the logarithmic distance from it is reflected, so that the interval never falls below
+        it. The values themselves are reflected when absent, or where estimate or draws do not lie above it.
+    """
+    found, tail = np.asarray(drawn, dtype=float), 50.0 * (1.0 - confidence)
+    low, high = (float(bound) for bound in np.percentile(found, [tail, 100.0 - tail]))
+    if base is None or value <= base or low <= base:
+        return Interval(value, 2.0 * value - high, 2.0 * value - low, confidence)
+    reach = value - base
+    distance = np.log(np.maximum(found - base, 1e-300) / reach)
+    low, high = (float(bound) for bound in np.percentile(distance, [tail, 100.0 - tail]))
+    return Interval(value, base + reach * math.exp(-high), base + reach * math.exp(-low), confidence)
+
+
+def student_quantile(confidence: float, freedom: float) -> float:
+    """Return the half width of a two-sided interval over the standard error, by Student's distribution.
+
+    Parameters
+    ----------
+    confidence : float
+        Between 0 and 1; for a one-sided bound at probability ``p`` give ``2 p - 1``.
+    freedom : float
+        Degrees of freedom; fewer than one count as one.
+
+    Raises
+    ------
+    InputError
+        For a confidence out of range.
+    """
+    from scipy.special import stdtrit
+
+    if not 0.0 < confidence < 1.0:
+        raise InputError(f"confidence is {confidence:g}", path="confidence", allowed="between 0 and 1")
+    return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * confidence))
