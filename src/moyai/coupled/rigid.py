@@ -188,11 +188,6 @@ class RigidBody:
         return RigidCarrier(self, water, flow or Flow(), time)
 
 
-def site_points(body: RigidBody) -> dict[str, Array]:
-    """Return where the carried points of a body stand at the start, in site axes [m]."""
-    return body.points_at_start
-
-
 def about(matrix: ArrayLike, offset: ArrayLike) -> Array:
     """Return a 6x6 matrix about a point that lies ``offset`` from the old one."""
     x, y, z = np.asarray(offset, dtype=float)

@@ -49,35 +49,6 @@ def travel_time(network: Network, strand: int) -> float:
     return float(np.sum(network.bars.length[bars] / speed))
 
 
-def fronts_of_rows(network: Network, time: Array, bars: NDArray[np.int64], tension: Array) -> list[Front]:
-    """Return the highest rise of every strand within a quarter of the travel time of the elastic wave, from rows.
-
-    Rows further apart than half the travel time cannot tell: the explicit scheme looks at every step instead
-    (:class:`moyai.flexible.watch.Watch`).
-
-    Parameters
-    ----------
-    network : Network
-        The network.
-    time, bars, tension : ndarray
-        Rows, kept bars and their tensions as in :class:`moyai.flexible.result.History`.
-    """
-    if time.size < 3:
-        return []
-    interval, found = float(time[1] - time[0]), []
-    for number, strand in enumerate(network.strands):
-        travel = travel_time(network, number)
-        columns = np.flatnonzero(np.isin(bars, strand.bars))
-        if columns.size == 0 or interval > 0.5 * travel or strand.bars.size < 2:
-            continue
-        record = tension[:, columns[int(np.argmax(tension[:, columns].max(axis=0)))]]
-        rows = max(1, round(WINDOW * travel / interval))
-        if record.size > rows:
-            rise = float(np.max(record[rows:] - record[:-rows]))
-            found.append(Front(number, float(record.max()), rise, rows * interval, travel, 0.0))
-    return found
-
-
 def front_notices(network: Network, fronts: list[Front]) -> tuple[Notice, ...]:
     """Return a notice for each strand whose tension jumps within a part of the travel time of the elastic wave.
 

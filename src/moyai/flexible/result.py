@@ -98,10 +98,6 @@ class History:
         energy = self.kinetic_energy + self.elastic_energy
         return energy - energy[0] - (self.work - self.work[0])
 
-    def tension_at(self, bar: int) -> Array:
-        """Return the tension of one bar over the rows [N]."""
-        return self.tension[:, self._column(bar)]
-
     def peak_at(self, bar: int) -> Array:
         """Return the highest tension of one bar in every row [N]."""
         return self.tension_peak[:, self._column(bar)]

@@ -190,24 +190,3 @@ def ring_forces(x: Any, rings: Any, force: Any) -> float:
     """Add the forces of all rings to ``force`` (n, 3); return their energy [J]."""
     moments = np.empty((rings[0].size, 3))
     return ring_loads(x[:, 0], x[:, 1], x[:, 2], rings, force[:, 0], force[:, 1], force[:, 2], moments)
-
-
-@njit(cache=True, error_model="numpy")
-def ring_tangent(rings: Any, triples: Any, blocks: Any) -> None:
-    """Write node triples (h, 3) and blocks (h, 3, 3, 3, 3) of minus the derivative of the forces, twist held.
-
-    Without the turn of the rest curvature: an upper bound of the stiffness that serves Newton's method.
-    """
-    nodes, first, rows = rings
-    for r in range(first.size - 1):
-        a, b = first[r], first[r + 1]
-        for k in range(a, b):
-            triples[k, 0] = nodes[k - 1] if k > a else nodes[b - 1]
-            triples[k, 1] = nodes[k]
-            triples[k, 2] = nodes[k + 1] if k + 1 < b else nodes[a]
-            part = (rows[k, 1], -rows[k, 1] - rows[k, 2], rows[k, 2])
-            for i in range(3):
-                for j in range(3):
-                    for one in range(3):
-                        for two in range(3):
-                            blocks[k, i, j, one, two] = rows[k, 0] * part[i] * part[j] if one == two else 0.0

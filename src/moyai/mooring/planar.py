@@ -63,10 +63,6 @@ class PlanarLineSystem:
         full = self.system.stiffness(_space(position), (about[0], 0.0, about[1]))
         return full[..., _KEPT, :][..., :, _KEPT]
 
-    def out_of_plane_force(self, position: ArrayLike) -> FloatArray:
-        """Return what the planar view leaves out: (F_y, M_x, M_z) (..., 3) [N, N m]."""
-        return self.system.forces(_space(position))[..., [1, 3, 5]]
-
     def restoring_curve(
         self, direction: str | ArrayLike, offsets: ArrayLike, position: ArrayLike = (0.0, 0.0, 0.0)
     ) -> RestoringCurve:

@@ -392,8 +392,3 @@ def wave_number_in_current(
             remedy="give a weaker current, a longer period, or another heading",
         )
     return result
-
-
-def intrinsic_frequency(wave_number: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike) -> Any:
-    """Return the frequency [rad/s] seen by an observer who drifts with the current; see :func:`angular_frequency`."""
-    return angular_frequency(wave_number, water_depth, gravity)

@@ -23,7 +23,6 @@ from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
 Family = Literal["gumbel", "weibull", "generalised_pareto"]
 
 _LEAST = {"gumbel": 5, "weibull": 5, "generalised_pareto": 10}
-_EULER = 0.5772156649015329
 
 
 @checks_words
@@ -362,8 +361,3 @@ def gumbel_of_peaks(peaks: Fit, count: float) -> Fit:
     y = math.log(count)
     scale = peaks.scale / peaks.shape * y ** (1.0 / peaks.shape - 1.0)
     return Fit("gumbel", peaks.most_probable_maximum(count), scale, 0.0, peaks.count, math.nan)
-
-
-def mean_of_gumbel(fitted: Fit) -> float:
-    """Return the mean of a Gumbel distribution, its mode plus 0.5772 of its scale."""
-    return fitted.location + _EULER * fitted.scale

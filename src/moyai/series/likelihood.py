@@ -33,7 +33,7 @@ def weibull_likelihood(excess: Array) -> tuple[float, float]:
     logs = np.log(excess)
     top, mean, spread = float(logs.max()), float(logs.mean()), float(logs.std())
     # The logarithm of Weibull values scatters by pi / sqrt(6) over the shape
-    shape = 1.28 / spread if spread > 0.0 else 0.0
+    shape = 1.28 / spread if top > float(logs.min()) else 0.0
     for _ in range(_STEPS if shape > 0.0 else 0):
         weight = np.exp(shape * (logs - top))
         total = float(weight.sum())

@@ -6,7 +6,6 @@ import hashlib
 import math
 import os
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -352,8 +351,3 @@ def _replace(lines: list[str], document: Document, place: KeyPath, new: str) -> 
     if found is None:
         raise InputError(f"line {at.line} of the case cannot be rewritten", path=str(place[-1]))
     return [*lines[: at.line - 1], head + new + tail[found.end() :], *lines[at.line :]]
-
-
-def names_of(parameters: Sequence[tuple[Parameter, str]]) -> tuple[str, ...]:
-    """Return the paths of the parameters."""
-    return tuple(item.name for item, _ in parameters)

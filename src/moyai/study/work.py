@@ -112,15 +112,4 @@ def _listener(cancelled: Callable[[], bool] | None, progress: Progress) -> Progr
     return listen
 
 
-def run_chunk(task: Task, chunk: tuple[Combination, ...], cancelled: Callable[[], bool] | None = None) -> list[Record]:
-    """Run several cases one after the other; stop between two when cancelled."""
-    records: list[Record] = []
-    for combination in chunk:
-        record = run_case(task, combination, cancelled)
-        if record is None:
-            break
-        records.append(record)
-    return records
-
-
-__all__: list[Any] = ["Task", "run_case", "run_chunk"]
+__all__: list[Any] = ["Task", "run_case"]

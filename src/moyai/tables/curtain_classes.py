@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from moyai.core.errors import InputError
-from moyai.tables.reader import Record, read_notes, read_table
+from moyai.tables.reader import Record, read_table
 
 _FILE = "curtain_classes.csv"
 
@@ -71,11 +71,6 @@ def _read(record: Record) -> CurtainClass:
 def curtain_classes() -> tuple[CurtainClass, ...]:
     """Return all classes."""
     return tuple(_read(record) for record in read_table(_FILE))
-
-
-def curtain_class_sources() -> str:
-    """Return the sources and the meaning of the columns."""
-    return read_notes(_FILE)
 
 
 def curtain_class(name: str) -> CurtainClass:

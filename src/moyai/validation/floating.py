@@ -19,7 +19,7 @@ from moyai.core.validation import ValidationCase
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping
 from moyai.floating.drift import DriftedMotions, DriftProblem, solve_with_drift
-from moyai.floating.far_field import dissipated_fraction, far_field
+from moyai.floating.far_field import dissipated_fraction
 from moyai.floating.forcing import CalmWater, RegularForcing
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.floating.hydrostatics import Hydrostatics, hydrostatics, inertia_matrix, righting_curve
@@ -276,13 +276,6 @@ def _fixed_quantity(name: str, period: float) -> float:
         "K11": found.mooring_stiffness[index, 0, 0],
     }
     return float(values[name])
-
-
-def _combined_transmission(period: float) -> float:
-    hydro = paper_hydrodynamics(period_grid())
-    displacement = np.zeros((len(hydro.omega), 1, 3), dtype=complex)
-    displacement[row(period), 0] = paper_time(period)[1].first / WAVE_AMPLITUDE
-    return abs(far_field(hydro, displacement).transmission[row(period), 0])
 
 
 def exact_linear_motion() -> float:

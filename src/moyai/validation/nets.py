@@ -70,11 +70,6 @@ def _planted(quiet: bool) -> float:
     return float(np.mean(found))
 
 
-def _shelter() -> float:
-    net = Net.from_solidity(1e-3, 0.25)
-    return float(wake_factor("loland", net_law("loland"), net, speed=1.0, viscosity=_NU))
-
-
 def _third_harmonic() -> float:
     """Third over first harmonic of u|u|, the part that a low-pass between them deletes."""
     angle = 2.0 * math.pi * np.arange(4000) / 4000

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import brentq
 
 from moyai.core.validation import ValidationCase
 from moyai.potential.multipole_circle import half_immersed_circle, submerged_circle
@@ -77,17 +76,6 @@ def shallow_heave_damping() -> float:
     omega = 1e-3 * math.sqrt(9.81 / 4.0)
     solution = solve_rectangle(3.0, 1.5, water, omega, centre=(0.0, 0.0))
     return float(solution.radiation_damping[0, 1, 1]) / (0.5 * 1000.0 * 9.0 * math.sqrt(9.81 / 4.0))
-
-
-def deep_heave_resonance() -> float:
-    """Return K a at which a half circle resonates in heave: K a (pi/2) (1 + added mass) = 2."""
-    return float(
-        brentq(
-            lambda ka: 0.5 * math.pi * ka * (1.0 + half_immersed_circle(ka, "heave", multipoles=64).added_mass) - 2.0,
-            0.3,
-            2.0,
-        )
-    )
 
 
 def image_dipoles(submergence: float) -> float:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
@@ -461,17 +461,3 @@ def quality_notices(
                 )
             )
     return tuple(notices)
-
-
-@dataclass(frozen=True)
-class QualityTotals:
-    """Sums over the blocks of a record, gathered on the way."""
-
-    counts: dict[str, dict[str, int]] = field(default_factory=dict)
-
-    def add(self, quality: Quality) -> None:
-        """Add a block."""
-        for channel, kinds in quality.counts.items():
-            mine = self.counts.setdefault(channel, {})
-            for kind, count in kinds.items():
-                mine[kind] = mine.get(kind, 0) + count

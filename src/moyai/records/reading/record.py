@@ -175,10 +175,3 @@ def instant_text(seconds: float, dated: bool) -> str:
     if not dated:
         return f"{seconds:.6g} s"
     return datetime.fromtimestamp(float(seconds), UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-3] + "Z"
-
-
-def nominal_step(time: FloatArray) -> float:
-    """Return the most common step of a clock [s]: the median of the steps."""
-    if time.size < 2:
-        return float("nan")
-    return float(np.median(np.diff(time)))

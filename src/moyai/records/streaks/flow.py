@@ -213,18 +213,6 @@ class OrbitalFlow:
         """2 pi / period [rad/s]."""
         return 2.0 * math.pi / self.period
 
-    def without_model(self) -> OrbitalFlow:
-        """Return the same waves without the section, as measured in a run without model."""
-        return OrbitalFlow(
-            None,
-            self.period,
-            self.amplitude_x,
-            self.amplitude_z,
-            mass_transport=self.mass_transport,
-            decay=self.decay,
-            settling=self.settling,
-        )
-
 
 def track_particles(
     flow: OrbitalFlow, start: ArrayLike, times: ArrayLike, *, steps_per_period: int = 400

@@ -59,12 +59,6 @@ class IrregularSeparation:
     segments: int
     notices: tuple[Notice, ...]
 
-    @property
-    def reflection_by_frequency(self) -> FloatArray:
-        """Root of the ratio of the densities [-]."""
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return np.sqrt(self.reflected / self.incident)
-
 
 def _design(k: FloatArray, x: FloatArray) -> tuple[ComplexArray, FloatArray, FloatArray]:
     """Return the inverse maps (frequencies, 2, gauges) to x = 0, condition numbers, and noise gains of an amplitude."""

@@ -160,11 +160,6 @@ def role_of(roles: Iterable[ModelRole], model: str) -> Role:
     return next((item.role for item in roles if item.model == model), "out of range")
 
 
-def counts_as_load(roles: Iterable[ModelRole], model: str) -> bool:
-    """Whether a model's load enters a governing number: it governs, or it is the bound that stands in for it."""
-    return role_of(roles, model) in ("governs", "bound")
-
-
 def hierarchy_dataset(roles: tuple[ModelRole, ...]) -> xr.Dataset:
     """Return the group ``models``: the table 'Which model governs'."""
     import xarray as xr
@@ -193,7 +188,6 @@ __all__ = [
     "STRAIGHT",
     "ModelRole",
     "Role",
-    "counts_as_load",
     "hierarchy",
     "hierarchy_dataset",
     "role_of",

@@ -308,13 +308,6 @@ class NetworkProblem:
     case_hash: str = ""
     criteria: tuple[Criterion, ...] = ()
 
-    @property
-    def has_still_points(self) -> bool:
-        """Whether some driven point is held where it is."""
-        return any(point.kind == "driven" and not point.motion for point in self.points) or any(
-            net.first_row == "driven" and not net.motion for net in self.nets
-        )
-
 
 #: Name of the motion of driven points that are held still.
 STILL = "held still"

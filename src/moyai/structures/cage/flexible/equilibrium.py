@@ -125,11 +125,6 @@ def _newton(model: FlexibleCage, network: Network, flow: Flow, start: State) -> 
     return found if float(away.max()) < ASTRAY * max(model.design.size, model.spacing) else None
 
 
-def stress_around(model: FlexibleCage, rest: CageRest, position: Array, tension: Array) -> list[list[Array]]:
-    """Return the largest stress at every node of each ring of each collar [Pa] [eq:cage-collar-stress]."""
-    return [[values["stress"] for values in rings] for rings in collar_forces(model, rest, position, tension)]
-
-
 def collar_forces(model: FlexibleCage, rest: CageRest, position: Array, tension: Array) -> list[list[dict[str, Array]]]:
     """Return axial force, moments and stress around the rings of each collar.
 
@@ -190,5 +185,5 @@ def horizontal_balance(rest: CageRest) -> tuple[Array, Array]:
 
 
 __all__ = [
-    "PARTS", "CageRest", "collar_forces", "horizontal_balance", "ring_shape", "solve_rest", "stress_around",
+    "PARTS", "CageRest", "collar_forces", "horizontal_balance", "ring_shape", "solve_rest",
 ]  # fmt: skip

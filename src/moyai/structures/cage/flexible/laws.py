@@ -14,10 +14,10 @@ from moyai.morison.net_law_choice import METAL, LawChoice, law_choice
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.equilibrium import (
     CageRest,
+    collar_forces,
     horizontal_balance,
     ring_shape,
     solve_rest,
-    stress_around,
 )
 from moyai.structures.cage.flexible.loads import pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage
@@ -108,5 +108,5 @@ def _collar_stress(model: FlexibleCage, rest: CageRest) -> float:
     """Return the largest stress of the collars [Pa]; NaN for a collar that is rigid or a plain frame."""
     if not rest.built.cages[0].collar_bars or model.design.collar.rigid:
         return math.nan
-    around = stress_around(model, rest, rest.state.position, rest.tension)
-    return max(float(ring.max()) for rings in around for ring in rings)
+    forces = collar_forces(model, rest, rest.state.position, rest.tension)
+    return max(float(ring["stress"].max()) for rings in forces for ring in rings)

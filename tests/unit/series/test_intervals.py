@@ -1,0 +1,70 @@
+"""Confidence intervals against scipy's distributions and by hand."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.series.extremes import Fit, fit, kolmogorov_distance
+from moyai.series.intervals import reflected_interval, student_quantile
+from moyai.series.likelihood import pareto_likelihood, weibull_likelihood
+
+
+@pytest.mark.parametrize("freedom", [1, 2, 7.5, 60])
+def test_student_quantile_is_that_of_scipy(freedom):
+    assert student_quantile(0.95, freedom) == pytest.approx(stats.t.ppf(0.975, freedom), rel=1e-12)
+    # One-sided 95 % is the upper end of two-sided 90 %
+    assert student_quantile(0.9, freedom) == pytest.approx(stats.t.isf(0.05, freedom), rel=1e-12)
+
+
+def test_fewer_than_one_degree_of_freedom_counts_as_one():
+    assert student_quantile(0.95, 0.3) == student_quantile(0.95, 1.0)
+    with pytest.raises(InputError, match="confidence"):
+        student_quantile(1.0, 5.0)
+
+
+def test_draws_are_reflected_at_the_estimate():
+    drawn = np.linspace(11.0, 15.0, 401)
+    plain = reflected_interval(12.0, drawn, 0.5)
+    assert (plain.lower, plain.upper) == pytest.approx((24.0 - 14.0, 24.0 - 12.0))
+    # Distances 2 of the estimate, 2 to 8 of the draws in equal steps of their logarithm: middle half 2.83 to 5.66
+    above = reflected_interval(12.0, 10.0 + np.geomspace(2.0, 8.0, 401), 0.5, base=10.0)
+    assert (above.lower, above.upper) == pytest.approx((10.0 + 4.0 / 2.0**2.5, 10.0 + 4.0 / 2.0**1.5))
+    # Draws at the lower end have no logarithmic distance
+    end = reflected_interval(12.0, np.full(5, 10.0), 0.9, base=10.0)
+    assert (end.lower, end.upper) == (14.0, 14.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_kolmogorov_distance_is_that_of_scipy(seed):
+    values = np.random.default_rng(seed).weibull(1.4, 60)
+    fitted = Fit("weibull", 0.0, 1.1, 1.3, 60, 0.0)
+    expected = stats.kstest(values, stats.weibull_min(1.3, scale=1.1).cdf).statistic
+    assert kolmogorov_distance(fitted, values) == pytest.approx(expected, abs=1e-14)
+
+
+@pytest.mark.parametrize("shape", [0.3, 1.0, 40.0])
+def test_weibull_likelihood_has_no_slope_at_its_top(shape):
+    values = np.random.default_rng(3).weibull(shape, 80) * 1e5
+    found, scale = weibull_likelihood(values)
+    power = (values / scale) ** found
+    assert np.mean(power) == pytest.approx(1.0, rel=1e-10)
+    assert np.mean((power - 1.0) * np.log(values / scale)) * found == pytest.approx(1.0, rel=1e-9)
+
+
+def test_equal_values_have_no_likeliest_distribution():
+    with pytest.raises(ConvergenceError):
+        weibull_likelihood(np.full(10, 3.0))
+    with pytest.raises(InputError):
+        fit(np.full(10, 3.0), "weibull", location=0.0)
+
+
+@pytest.mark.parametrize("shape", [-0.6, 0.0, 0.3])
+def test_pareto_likelihood_is_at_least_that_of_scipy(shape):
+    values = stats.genpareto.rvs(shape, scale=2.0, size=200, random_state=4)
+    found, scale = pareto_likelihood(values)
+    other = stats.genpareto.fit(values, floc=0.0)
+    assert (
+        np.sum(stats.genpareto.logpdf(values, found, scale=scale))
+        >= np.sum(stats.genpareto.logpdf(values, other[0], scale=other[2])) - 1e-6
+    )
