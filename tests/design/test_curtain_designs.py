@@ -47,7 +47,9 @@ settings:
 {more}"""
 BASE = {
     "depth": 10.0, "speed": 0.5, "daily": 0.4, "storm": 0.8, "period": 3.5, "span": 20.0, "length": 22.5, "skirt": 5.0,
-    "toe": "free", "chain": 15.0, "lower": "", "buoyancy": 2352.0, "weight": 300.0, "drag": 1.5, "more": "",
+    "toe": "free", "chain": 15.0, "lower": "", "buoyancy": 2352.0, "weight": 300.0, "drag": 1.5,
+    # the bounds of the plate alone; the tests of the whole span take the default
+    "more": "  dynamic: {by_default: false}\n",
     "analyses": "statics, impact, waves, anchor_loads",
 }  # fmt: skip
 LOWER = "    lower: {axial_stiffness: 850 kN, breaking_load: 130 kN}\n"
@@ -119,7 +121,8 @@ def test_depth_of_a_free_toe_is_that_of_the_closed_form(designs, name: str) -> N
     reserve = headline(result, "float_reserve")
     statics = result.tree["SWL/statics"]
     hung = float(statics["slack_float_reserve_ratio"])
-    assert reserve.value == min(hung, float(statics["float_reserve_ratio"].sel(drag_case="given")))
+    found = float(statics["float_reserve_ratio"].sel(drag_case="given"))
+    assert reserve.value == pytest.approx(min(hung, found), rel=1e-12)
 
 
 @pytest.mark.parametrize("name", FREE)
@@ -207,7 +210,11 @@ def test_a_straight_held_plate_governs(designs, tmp_path: Path) -> None:
 def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     """H 0.4 m at 3, 4, 5 s: with 120 periods left out the numbers are the same, and no chance of a start is in them."""
     _, result = designs("strong current")
-    _, late = ran(tmp_path, analyses="waves", more="  waves: {settled_periods: 120, realisations: 1}\n")
+    _, late = ran(
+        tmp_path,
+        analyses="waves",
+        more="  waves: {settled_periods: 120, realisations: 1}\n  dynamic: {by_default: false}\n",
+    )
     tables = [found.tree["/SWL/waves/daily"].to_dataset() for found in (result, late)]
     numbers = [table["maximum_tension"].values for table in tables]
     assert numbers[0] == pytest.approx(numbers[1], rel=0.015)
@@ -219,6 +226,84 @@ def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     assert float(storm["maximum_tension"]) > numbers[0].max()
     cable = headline(late, "cable_tension")
     assert cable.value == pytest.approx(float(late.tree["/SWL/waves/daily"]["maximum_tension"].max()), rel=0.35)
+
+
+def test_the_whole_span_gives_the_peaks_of_a_snap_by_default(designs, tmp_path: Path) -> None:
+    """A free toe in 0.5 m/s: 27 kN by meshes from 12 by 4 to 20 by 7 cells, the plate bounds it at four times that."""
+    _, bound = designs("strong current")
+    _, result = ran(tmp_path, analyses="statics, impact", more="")
+    runs = result.tree["/SWL/dynamic"].to_dataset()
+    assert set(runs["run_of"].values) == {"snap in the current"} and runs.sizes["run"] == 2
+    for name, key in (("cable_tension", "upper_peak"), ("anchor_load", "anchor_peak")):
+        found, most = headline(result, name), headline(bound, name)
+        assert found.model == models.SPAN and not found.bound and most.bound == "at most"
+        assert found.value == float(runs[key].max()) < 0.5 * most.value
+        assert found.band.high == found.value > found.band.low == float(runs[key].min())
+    # the second peak, where the swing of the skirt ends, and not the first of 16 kN
+    assert float(runs["upper_peak"].min()) == pytest.approx(26.7e3, rel=0.05)
+    roles = result.tree["/SWL/models"].to_dataset()
+    assert str(roles["model_role"].sel(model=models.SPAN).values) == "governs"
+    assert str(roles["model_role"].sel(model=models.IMPACT).values) == "comparison"
+    # utilisation is one number, with the safety factor, on page and in the table
+    used = float(result.tree["/SWL/loads"]["utilisation"].sel(component="anchor"))
+    assert f"utilisation {used:.3g} with the factor 1.5" in headline(result, "anchor_utilisation").detail
+
+
+def test_bounds_are_one_number_at_the_upper_end(designs) -> None:
+    """A bound is that of the worst realisation: it has no mean next to it and no band."""
+    _, result = designs("strong current")
+    for found in result.headlines:
+        if found.bound == "at most":
+            assert found.band is None
+    loads = result.tree["/SWL/loads"].to_dataset().sel(component="upper cable")
+    storm = result.tree["/SWL/waves/storm"].to_dataset()
+    top, high = float(storm["maximum_tension"]), float(storm["maximum_tension_high"])
+    added = float(loads["wave_load"]) + float(loads["steady_load"])
+    assert high > top and added == pytest.approx(high, rel=0.02)
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_floats_drown_by_their_own_drag(designs, name: str) -> None:
+    """Awash, floats of diameter D take rho/2 1.2 U^2 D; the lines pull them down by that times the slope."""
+    given, result = designs(name)
+    statics = result.tree["/SWL/statics"].to_dataset()
+    speed = float(statics["drowning_speed"])
+    buoyancy = given["buoyancy"]
+    diameter = math.sqrt(4.0 * buoyancy / (SEA * GRAVITY) / math.pi)
+    slope = math.asin(given["depth"] / 40.0)
+    whole = weights(given)[1]
+    # the skirt adds at most its weights to the load; its weight down lies between nothing and all
+    ends = [
+        math.sqrt(((buoyancy - given["weight"] - down) / math.tan(slope) - along) / (0.6 * SEA * diameter))
+        for down, along in ((whole, whole), (0.0, 0.0))
+    ]
+    assert ends[0] <= speed <= 1.02 * ends[1]
+    assert "searched up to 10 m/s" in headline(result, "float_reserve").detail
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_steady_numbers_have_one_band(designs, name: str) -> None:
+    """Clearance and reserve move with the causes of load and depth: water less depth, 1 less the used share."""
+    given, result = designs(name)
+    statics = result.tree["/SWL/statics"].to_dataset()
+    for low, high in (("low", "high"), ("high", "low")):
+        depth = float(statics[f"steady_effective_depth_{high}"])
+        assert float(statics[f"steady_toe_gap_{low}"]) == pytest.approx(given["depth"] - depth, abs=1e-6)
+        load = float(statics[f"steady_float_load_{high}"])
+        assert float(statics[f"steady_float_reserve_ratio_{low}"]) == pytest.approx(1.0 - load / given["buoyancy"])
+
+
+def test_a_joint_bears_no_more_than_its_line(tmp_path: Path) -> None:
+    """A unit as long as the span collects twice what each of its ends bears: the joint lies in line with the cable."""
+    more = "  dynamic: {by_default: false}\n"
+    file = tmp_path / "case.yaml"
+    text = CASE.format(**(BASE | {"analyses": "statics, impact", "more": more}))
+    file.write_text(text.replace("  drag:", "  joints: {distance: 20 m, strength: 300 kN}\n  drag:"), encoding="utf-8")
+    loads = moyai.run(moyai.load_case(file)).tree["/SWL/loads"].to_dataset()
+    joint, cable = (loads.sel(component=name) for name in ("joint", "upper cable"))
+    assert float(joint["governing_load"]) == float(cable["governing_load"]) > 1e5
+    assert float(joint["steady_load"]) == float(cable["steady_load"])
+    assert float(joint["utilisation"]) == pytest.approx(3.0 * float(joint["governing_load"]) / 300e3)
 
 
 @pytest.mark.slow  # five runs of a whole span through time

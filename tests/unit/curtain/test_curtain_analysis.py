@@ -236,7 +236,8 @@ def test_limit_height_is_where_a_component_is_used_up(small):
         statics = unit.site.statics(unit.hanging, float(speed))
         for share, below in ((1.0 - 1e-6, True), (1.0 + 1e-3, False)):
             added = loads.added(statics, share * float(height), float(speed), unit.water)
-            parts = utilisation(statics, unit.requirements, 0.0, added)
+            state = unit.site.with_floats(statics, float(speed))
+            parts = utilisation(state, unit.requirements, 0.0, added)
             assert (max(parts.values()) <= 1.0) is below, (speed, height, name)
             if below:
                 assert max(parts, key=lambda key: parts[key]) == name

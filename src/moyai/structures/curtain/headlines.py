@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.headline import Band, Bound, Headline
+from moyai.core.headline import Band, Bound, Criterion, Headline, judge
 from moyai.core.wording import spoken
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
@@ -30,6 +30,13 @@ _USED = (
     ("joint_utilisation", "Joints, load over strength", ("joint",)),
     ("fabric_utilisation", "Sheet, load over strength", ("skirt",)),
 )
+#: Number of the statics that is the steady load of a component
+_STEADY_NAMES = {
+    "upper cable": "upper_tension", "lower cable": "lower_tension", "skirt": "sheet_tension",
+    "anchor line": "anchor_line_tension", "anchor": "anchor_force",
+}  # fmt: skip
+#: Energy factors that fitted the measured anchor lines of the field and of the flume [-]
+ENERGY_FACTORS = (0.2, 0.5)
 _REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
@@ -74,8 +81,10 @@ class _Load:
         return self.words(f"{how}_source") if how in ("wave", "impact", "dynamic") else "in the current alone"
 
 
-def curtain_headlines(groups: Groups, levels: Sequence[str]) -> tuple[Headline, ...]:
-    """Return the headlines of a run, the most used component first.
+def curtain_headlines(
+    groups: Groups, levels: Sequence[str], criteria: Sequence[Criterion] = ()
+) -> tuple[Headline, ...]:
+    """Return the headlines of a run: those that fail, the most used component with its load, the others, the bounds.
 
     Parameters
     ----------
@@ -83,18 +92,34 @@ def curtain_headlines(groups: Groups, levels: Sequence[str]) -> tuple[Headline, 
         Datasets of the run by their path, as docs/result_layout.md has them; what is absent gives no headline.
     levels : sequence of str
         Water levels; of each number the least favourable one counts and is named.
+    criteria : sequence of Criterion
+        That decide the order.
     """
     loads = [load for level in levels for load in _loads_of(groups, level)]
     # by use of the strength with its safety factor; what is only a bound does not govern and stands behind the values
     ranked = sorted(_used(loads), key=lambda item: (math.isnan(item[1].value), item[1].bound != "", -item[0]))
     used = [headline for _, headline in ranked]
-    found = [*_tensions(loads), *used, *_steady(groups, levels), *_depths(groups, levels), *_limits(groups, levels)]
+    found = [
+        *_tensions(loads, groups),
+        *used,
+        *_steady(groups, levels),
+        *_depths(groups, levels),
+        *_limits(groups, levels),
+    ]
     if used and not math.isnan(used[0].value):
         # the load behind the most used component stands beside it
         first = used[0]
         behind = "anchor_load" if first.name.startswith("anchor") else "cable_tension"
         found.sort(key=lambda item: (item.name != first.name, item.name != behind))
-    return tuple(found)
+    failing = _failing(found, criteria)
+    # what fails, then what decides, then what is only bounded or not known
+    return tuple(sorted(found, key=lambda item: (item.name not in failing, item.bound != "" or math.isnan(item.value))))
+
+
+def _failing(found: Sequence[Headline], criteria: Sequence[Criterion]) -> set[str]:
+    """Return the names of the headlines that fail a criterion."""
+    judged = judge(found, criteria, computed=True).judgements
+    return {item.criterion.headline for item in judged if item.outcome == "does not hold"}
 
 
 def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
@@ -108,7 +133,32 @@ def _loads_of(groups: Groups, level: str) -> Iterator[_Load]:
             yield replace(load, band=_band(groups, load))
 
 
-def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
+def _at_rest_words(load: _Load, groups: Groups) -> str:
+    """Return the steady part of a load, called a pretension where it is that and no load of the current."""
+    steady = load.number("steady_load")
+    if not math.isfinite(steady):
+        return ""
+    statics = groups.get(f"/{load.level}/statics")
+    name = _STEADY_NAMES.get(load.component, "")
+    current = math.nan if statics is None else _at_rest(statics, name)
+    if load.component.startswith("anchor") and steady > current * (1.0 + 1e-9):
+        return f"pretension {_kilo(steady)}, more than the {_kilo(current)} of the current"
+    return f"steady {_kilo(steady)}"
+
+
+def _bounded_by(load: _Load) -> str:
+    """Return the bound of an upright plate next to the value of the whole span."""
+    if load.words("governing") != "dynamic":
+        return ""
+    steady = load.number("steady_load")
+    more = [load.number(name) for name in ("wave_load", "impact_load")]
+    bound = steady + max((one for one in more if math.isfinite(one)), default=0.0)
+    if not bound > load.number("governing_load"):
+        return ""
+    return f"an upright plate bounds it at {_kilo(bound)}"
+
+
+def _tensions(loads: Sequence[_Load], groups: Groups) -> Iterator[Headline]:
     for name, words, components in _LOADS:
         load = max(
             (one for one in loads if one.component in components), key=lambda one: one.number("governing_load"),
@@ -116,13 +166,12 @@ def _tensions(loads: Sequence[_Load]) -> Iterator[Headline]:
         )  # fmt: skip
         if load is None:
             continue
-        steady = load.number("steady_load")
-        detail = f"steady {_kilo(steady)}" if math.isfinite(steady) else ""
+        detail = "; ".join(part for part in (_at_rest_words(load, groups), _bounded_by(load)) if part)
         label = "Largest tension of a cable" if words == "cable" else "Largest tension of an anchor line"
         yield Headline(
             name, label, load.number("governing_load"), "N",
             where=f"{load.component}, {load.source}: {load.level}",
-            model=load.model, band=_bounded(load), bound=load.bound,
+            model=load.model, band=load.band, bound=load.bound,
             detail="; ".join(part for part in (detail, _REMEDY if load.bound == "at most" else "") if part),
         )  # fmt: skip
 
@@ -140,6 +189,7 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
         strength = load.number("capacity")
         unit = load.words("load_unit")
         of = f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}"
+        of += f", utilisation {load.number('utilisation'):.3g} with the factor {load.number('safety_factor'):.3g}"
         where = f"{load.component}, {load.source}: {load.level}"
         if load.bound == "at least":
             # what only waits for its snap is no number to design with
@@ -149,7 +199,7 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
             )
             yield load.number("utilisation"), headline
             continue
-        band = _bounded(load)
+        band = load.band
         if band is not None:
             band = Band(band.low / strength, band.high / strength, band.of, band.decides)
         yield (
@@ -160,18 +210,18 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
         )
 
 
-def _bounded(load: _Load) -> Band | None:
-    """Return the band of a load; that of a bound is judged at its upper end, since a mean bounds nothing."""
-    if load.bound != "at most" or load.band is None:
-        return load.band
-    return replace(load.band, decides=True)
-
-
 def _band(groups: Groups, load: _Load) -> Band | None:
-    """Return what the governing load of a component varies with: mesh, realisations, or the drag coefficient."""
+    """Return what the governing load of a component varies with: mesh, realisations, or the drag coefficient.
+
+    A bound is given at the upper end of what it varies with and has no band.
+    """
+    if load.bound == "at most":
+        return None
     how, value = load.words("governing"), load.number("governing_load")
     if how == "dynamic":
         return _moving_band(groups, load, value)
+    if how == "steady and wave" and load.words("wave_source").startswith("energy model"):
+        return _energy_band(groups, load)
     if how == "steady and wave":
         return _scatter(groups, load)
     if how == "steady":
@@ -184,6 +234,8 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
     run = groups.get(f"/{load.level}/dynamic/{load.words('dynamic_source')}")
     if run is None or "line_peak" not in run:
         return None
+    if "run_of" in groups[f"/{load.level}/dynamic"]:
+        return _mesh_band(groups[f"/{load.level}/dynamic"], load, value)
     # the load of an anchor is that of its line, turned to the horizontal
     line = "anchor line" if load.component == "anchor" else load.component
     mine = [row for row, name in enumerate(run["line"].values) if str(name).startswith(line)]
@@ -201,6 +253,38 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
     if peaks.size < 2:
         return None
     return Band(float(peaks.mean()), value, f"{peaks.size} periods, mean to highest", decides=False)
+
+
+def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
+    """Return the peaks of a run on its two meshes, of which the larger counts."""
+    name = load.words("dynamic_source")
+    base = str(table["run_of"].sel(run=name).values)
+    key = {"upper cable": "upper_peak", "lower cable": "lower_peak", "skirt": "skirt_peak"}.get(
+        load.component, "anchor_peak"
+    )
+    peaks = table[key].values[table["run_of"].values == base]
+    factor = value / float(table[key].sel(run=name))
+    low, high = factor * float(peaks.min()), factor * float(peaks.max())
+    return Band(low, max(high, value), "two meshes, the larger counts") if peaks.size > 1 else None
+
+
+def _energy_band(groups: Groups, load: _Load) -> Band | None:
+    """Return what the energy factor makes of a load of the anchor line: 0.2 fitted the field, 0.5 the flume.
+
+    The wave part solves T^2 + 2 T T_0 = M m_B K u^2, so that a factor on M is one on T^2 + 2 T T_0 [eq:curtain-energy].
+    """
+    table = groups.get(f"/{load.level}/anchor_loads")
+    if table is None:
+        return None
+    given, held = float(table["energy_factor"]), float(table["pretension"])
+    whole, steady, wave = (load.number(name) for name in ("governing_load", "steady_load", "wave_load"))
+    slope = (
+        math.cos(float(groups[f"/{load.level}"].attrs.get("anchor_slope", 0.0))) if load.component == "anchor" else 1
+    )
+    rise = wave / slope
+    energy = rise * (rise + 2.0 * held)
+    ends = [steady + slope * (math.hypot(held, math.sqrt(energy * m / given)) - held) for m in ENERGY_FACTORS]
+    return Band(min(whole, *ends), max(whole, *ends), "energy factor 0.2 (field) to 0.5 (flume)")
 
 
 def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:
@@ -232,10 +316,7 @@ def _scatter(groups: Groups, load: _Load) -> Band | None:
 
 
 def _steady_band(groups: Groups, load: _Load) -> Band | None:
-    name = {
-        "upper cable": "upper_tension", "lower cable": "lower_tension", "skirt": "sheet_tension",
-        "anchor line": "anchor_line_tension", "anchor": "anchor_force",
-    }.get(load.component)  # fmt: skip
+    name = _STEADY_NAMES.get(load.component)
     statics = groups.get(f"/{load.level}/statics")
     if name is None or statics is None:
         return None
@@ -320,14 +401,23 @@ def _plain(value: float, unit: str) -> str:
 def _beside(name: str, statics: xr.Dataset, value: float) -> str:
     """Return the one more fact that a depth needs."""
     if name == "effective_depth":
-        return f"{100.0 * value / float(statics['skirt_length']):.0f} % of the skirt"
+        share = f"{100.0 * value / float(statics['skirt_length']):.0f} % of the skirt"
+        causes = statics["steady_cause"].values if "steady_cause" in statics.coords else ()
+        if any("no shape" in str(cause) for cause in causes):
+            # pressure normal to the sheet everywhere turns a light skirt over
+            share += "; the lower end leaves out the other load law, which has no shape in this current"
+        return share
     if name == "toe_clearance":
         speed, ratio = _at_rest(statics, "toe_speed"), _at_rest(statics, "toe_speed_ratio")
         if math.isfinite(speed) and math.isfinite(ratio):
             return f"{speed:.3g} m/s under the toe, {ratio:.3g} times the current there"
         return ""
     drowning = float(statics["drowning_speed"])
-    return f"they drown at {drowning:.3g} m/s" if math.isfinite(drowning) else "no current up to 10 m/s drowns them"
+    return (
+        f"they drown at {drowning:.3g} m/s, their own drag counted, searched up to 10 m/s"
+        if math.isfinite(drowning)
+        else "no current in the range searched, up to 10 m/s, drowns them"
+    )
 
 
 def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
@@ -360,11 +450,19 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
+        if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
+            details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
+        if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":
+            details.append(jump)
         band = _limit_band(table) if key == "speed_limit" else None
         if limit <= 0.0 and bound == "at least":
             # a bound that fails proves nothing about the curtain
             words = f"the load of an upright plate, a bound, is already too much for the {governing} without waves"
-            detail = f"{words}; {_REMEDY}"
+            run = groups.get(f"/{level}/dynamic")
+            more = (
+                _REMEDY if run is None else "the whole span is run in the seas of the case alone, to be run in others"
+            )
+            detail = f"{words}; {more}"
             yield Headline(name, label, math.nan, unit, where=f"{where}: {level}", detail=detail, text="not known")
             continue
         yield Headline(

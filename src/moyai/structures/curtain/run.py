@@ -12,17 +12,18 @@ from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.sea.states import RegularSea
 from moyai.structures.curtain.analyses.anchor import anchor_checks, anchor_dataset, anchor_notices
-from moyai.structures.curtain.analyses.dynamic import dynamic_answer
+from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, dynamic_answer
 from moyai.structures.curtain.analyses.impact import ImpactAnswer, impact_checks, impact_notices, solve_impact
 from moyai.structures.curtain.analyses.impact_groups import impact_groups
 from moyai.structures.curtain.analyses.limits import fastest_water, limits_dataset
-from moyai.structures.curtain.analyses.loads import NOT_MOVED, DynamicLoads, dynamic_loads_dataset, loads_dataset
+from moyai.structures.curtain.analyses.loads import NOT_MOVED, dynamic_loads_dataset, loads_dataset
 from moyai.structures.curtain.analyses.record import record_dataset, record_ratios
+from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peaks
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.structures.curtain.analyses.waves import wave_answer
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
 from moyai.structures.curtain.headlines import curtain_headlines
-from moyai.structures.curtain.hierarchy import hierarchy, hierarchy_dataset
+from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_dataset, role_of
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.seas.states import DesignWave, design_waves, significant_height
@@ -125,7 +126,9 @@ def _level_steps(
             for name, data in found.groups.items():
                 collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
             collected.notices.extend(found.notices)
-            oscillator.append((sea.name, found.maximum_tension))
+            # a bound is the upper end of what it varies with: a mean bounds nothing
+            bounds = role_of(roles, CYCLES) == "bound"
+            oscillator.append((sea.name, found.highest_tension if bounds else found.maximum_tension))
             yield
     if "anchor_loads" in settings.analyses and settings.anchor_loads is not None and waves:
         loads = anchor_dataset(unit, settings.anchor_loads, settings.limits, waves)
@@ -133,9 +136,15 @@ def _level_steps(
         collected.checks.extend(anchor_checks(unit, loads))
         collected.notices.extend(anchor_notices(unit, settings.anchor_loads, waves))
         yield
-    tensions: DynamicLoads = NOT_MOVED
+    moved: DynamicAnswer | None = None
     if "dynamic" in settings.analyses and settings.dynamic is not None:
         moved = dynamic_answer(unit, settings, seas, progress)
+    elif peaks_wanted(unit, settings):
+        moved = span_peaks(unit, settings, seas, progress)
+        if moved is not None and moved.loads:
+            roles = hierarchy(unit, replace(settings, analyses=(*settings.analyses, "dynamic")))
+            collected.groups[f"{root}/models"] = hierarchy_dataset(roles)
+    if moved is not None:
         collected.groups.update(
             {f"{root}/dynamic" + (f"/{name}" if name else ""): data for name, data in moved.groups.items()}
         )
@@ -143,8 +152,8 @@ def _level_steps(
         collected.notices.extend(moved.notices)
         if moved.interrupted:
             raise KeyboardInterrupt
-        tensions = moved.loads
         yield
+    tensions = NOT_MOVED if moved is None else moved.loads
     if not {"statics", "impact", "waves", "anchor_loads", "limits"} & set(settings.analyses):
         collected.groups[f"{root}/loads"] = dynamic_loads_dataset(unit, tensions)
         yield
@@ -175,6 +184,7 @@ def _header(unit: LevelCurtain) -> xr.Dataset:
             "water_level": unit.level,
             "water_depth": unit.water.depth,
             "normal_heading": unit.curtain.normal,
+            "anchor_slope": unit.hanging.anchor_slope,
             "toe": "on the bed" if resting else toe,
         }
     )
@@ -191,7 +201,9 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         attributes,
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
         notices=_placed(collected, len(problem.environment.water_levels)),
-        headlines=curtain_headlines(collected.groups, [name for name, _ in problem.environment.water_levels]),
+        headlines=curtain_headlines(
+            collected.groups, [name for name, _ in problem.environment.water_levels], problem.criteria
+        ),
         fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
         criteria=problem.criteria,
     )

@@ -308,6 +308,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "upper_peak": ("N", "highest tension of the upper cable"),
     "lower_peak": ("N", "highest tension of the lower cable"),
     "anchor_peak": ("N", "highest tension of an anchor line"),
+    "run_of": ("", "run that was made on this and another mesh"),
     "skirt_peak": ("N/m", "highest principal tension of the skirt"),
     "half_step_peak": ("N", "highest sum of the cables at half the step"),
     "half_mesh_peak": ("N", "highest sum of the cables with half as many cells both ways"),

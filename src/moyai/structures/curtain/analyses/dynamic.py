@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 #: Over the skirt's length, to either side of a section: what waves fold more finely than this turns no added mass.
 _NORMAL_REACH = 1.0 / 3.0
-#: Times that the run of a snap is doubled while the tension still rises at its end.
-_LONGER = 4
+#: Times that the run of a snap is doubled while its highest tension stands late, and the growth that ends it.
+_LONGER, _SAME = 4, 0.01
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def dynamic_answer(
     for number, plan in enumerate(plans):
         progress(f"dynamic, {plan.name}", number, len(plans))
         place = f"dynamic, {plan.name}"
-        plan, run, told = _through(span, given.mesh, plan, progress, place)
+        plan, run, told = through(span, given.mesh, plan, progress, place)
         notices.extend(told)
         worth: Worth | None = None
         interrupted = run.history.status == "interrupted"
@@ -103,10 +103,10 @@ def dynamic_answer(
     models = _models(unit, settings)
     if models is not None:
         groups[""] = groups[""].merge(models)
-    return DynamicAnswer(groups, tuple(checks), tuple(notices), _loads(plans, rows), interrupted)
+    return DynamicAnswer(groups, tuple(checks), tuple(notices), peaks_of_runs(plans, rows), interrupted)
 
 
-def _loads(plans: list[Plan], rows: list[dict[str, float]]) -> dict[str, tuple[float, str]]:
+def peaks_of_runs(plans: Sequence[Plan], rows: Sequence[Mapping[str, float]]) -> dict[str, tuple[float, str]]:
     """Return the highest tension of each component over the runs, and the run in which it stands."""
     keys = {"upper cable": "upper_peak", "lower cable": "lower_peak", "skirt": "skirt_peak",
             "anchor line": "anchor_peak"}  # fmt: skip
@@ -118,7 +118,7 @@ def _loads(plans: list[Plan], rows: list[dict[str, float]]) -> dict[str, tuple[f
     return found
 
 
-def _through(
+def through(
     span: CurtainSpan, mesh: Mesh, plan: Plan, progress: Progress, place: str
 ) -> tuple[Plan, DynamicRun, tuple[Notice, ...]]:
     """Run a plan, a snap until it is past its peak.
@@ -146,8 +146,12 @@ def _until_peak(span: CurtainSpan, mesh: Mesh, plan: Plan, progress: Progress) -
     for _ in range(_LONGER if plan.open else 0):
         if run.history.status != "converged" or not still_rises(run):
             break
+        before = run.peak("both")[0]
         plan = replace(plan, arguments={**plan.arguments, "duration": 2.0 * plan.arguments["duration"]})
         run = run_span(span, mesh, progress=progress, **plan.arguments)
+        if run.peak("both")[0] <= (1.0 + _SAME) * before:
+            # it has come to its steady tension
+            break
     return plan, run
 
 
@@ -192,4 +196,4 @@ def _models(unit: LevelCurtain, settings: Settings) -> xr.Dataset | None:
     return labelled(xr.Dataset({"dynamic_model_tension": ("dynamic_model", peaks)}, coords={"dynamic_model": names}))
 
 
-__all__ = ["DynamicAnswer", "dynamic_answer"]
+__all__ = ["DynamicAnswer", "dynamic_answer", "peaks_of_runs", "through"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -16,7 +17,7 @@ from moyai.core.progress import Progress
 from moyai.sea.breaking import breaking_limit
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.assembly import LevelCurtain
-from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, Role, hierarchy, role_of
+from moyai.structures.curtain.hierarchy import CYCLES, IMPACT, STRAIGHT, Role, hierarchy, role_of
 from moyai.structures.curtain.limits.loads import fastest_water, impact_load, sea_loads
 from moyai.structures.curtain.limits.search import Limit
 from moyai.structures.curtain.limits.utilisation import height_limit, speed_limit, utilisation
@@ -196,6 +197,8 @@ def _limits_group(
                 "speed_limit_bound": found.most_bound,
                 "speed_limit_text": speed_text(most),
                 "limit_not_monotone": _not_monotone(found, alone, alone[source]),
+                "limit_jump": _jump(unit, counted, found),
+                "least_effective_depth": unit.requirements.least_depth,
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
@@ -276,6 +279,21 @@ def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
     )
 
 
+def _jump(unit: LevelCurtain, counted: _Counted, found: _Found) -> str:
+    """Say from which current on the upright plate counts otherwise, where the heights jump for it."""
+    if not counted.with_plate or unit.curtain.toe == "free":
+        return ""
+    roles = [counted.role(speed) for speed in found.speeds]
+    for n, (before, after) in enumerate(itertools.pairwise(roles)):
+        if before != after:
+            low, high = found.speeds[n : n + 2]
+            return (
+                f"between {low:.3g} and {high:.3g} m/s the depth falls below {100.0 * STRAIGHT:.0f} % of the length: "
+                "the snap of an upright plate is a value below and a bound above, and the heights may jump there"
+            )
+    return ""
+
+
 def _speeds(unit: LevelCurtain, settings: Settings, limit: Limit) -> tuple[float, ...]:
     """Return the speeds of the table: as given, or up past the limit, with the limit and the current of the case."""
     if settings.limits.speeds is not None:
@@ -316,8 +334,9 @@ def _grid(unit: LevelCurtain, by_speed: list[SeaLoads], speeds: tuple[float, ...
     out = np.full((len(speeds), heights.size, len(PARTS)), math.nan)
     for i, speed in enumerate(speeds):
         statics, loads = _statics(unit, speed), by_speed[i]
+        state = None if statics is None else unit.site.with_floats(statics, speed)
         for j, height in enumerate(heights):
-            if statics is None or _breaks(unit, loads, float(height)):
+            if statics is None or state is None or _breaks(unit, loads, float(height)):
                 out[i, j] = math.inf
                 continue
             try:
@@ -325,7 +344,7 @@ def _grid(unit: LevelCurtain, by_speed: list[SeaLoads], speeds: tuple[float, ...
             except InputError:
                 out[i, j] = math.inf
                 continue
-            parts = utilisation(statics, required, 0.0, more)
+            parts = utilisation(state, required, 0.0, more)
             out[i, j] = [parts.get(name, math.nan) for name in PARTS]
     return out
 

@@ -111,7 +111,7 @@ def _table(
 ) -> xr.Dataset:
     import xarray as xr
 
-    rows = [_decided(unit, row, moved, roles) for row in rows]
+    rows = _with_joint(unit, [_decided(unit, row, moved, roles) for row in rows])
     columns = {key: [row[key] for row in rows] for key in rows[0]}
     known = [row for row in rows if math.isfinite(row["utilisation"])]  # type: ignore[arg-type]
     governing = max(known, key=lambda row: float(row["utilisation"]), default=None)
@@ -144,6 +144,26 @@ def _decided(
         "utilisation": strength.utilisation(governing) if judged else math.nan,
         "utilisation_high": strength.utilisation(above) if judged else math.nan,
     }
+
+
+def _with_joint(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> list[dict[str, float | str]]:
+    """Return the rows with the joint loaded by no more than the load line in which it lies [eq:curtain-joint-load]."""
+    cables = [row for row in rows if row["component"] in ("upper cable", "lower cable")]
+    strength = _strength(unit, "joint")
+    for row in rows:
+        if row["component"] != "joint":
+            continue
+        for load, used in (("steady_low", ""), ("steady_load", ""), ("steady_high", ""),
+                           ("governing_load", "utilisation"), ("governing_high", "utilisation_high")):  # fmt: skip
+            known = [float(cable[load]) for cable in cables if math.isfinite(float(cable[load]))]
+            if not known or not float(row[load]) > sum(known):
+                continue
+            row[load] = sum(known)
+            if load == "governing_load":
+                row["load_bound"] = row["load_bound"] or "at most"
+            if used and math.isfinite(float(row[used])):
+                row[used] = strength.utilisation(sum(known))
+    return rows
 
 
 def _wave_sources(

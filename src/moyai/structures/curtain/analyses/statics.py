@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
+#: Difference of two blockages up to which they are the same
+_LIKE_BLOCKAGE = 0.05
 DRAG_CASES = ("low", "given", "high")
 #: Distance of the anchors up to which a limit is sought, over the span of the case [-]
 _LONGEST_SPANS = 3.0
@@ -278,6 +280,22 @@ def _plan(unit: LevelCurtain, cases: tuple[CurtainStatics, ...]) -> xr.Dataset:
     return labelled(xr.Dataset(data, coords={"drag_case": list(DRAG_CASES)}))
 
 
+def _given_blockage(unit: LevelCurtain) -> list[Notice]:
+    """Tell which of two blockages governs: that of the case, or that of the skirt as it hangs."""
+    given, found = unit.curtain.drag.given_blockage, unit.statics.section.blockage
+    if math.isnan(given) or abs(given - found) <= _LIKE_BLOCKAGE * given:
+        return []
+    why = "its skirt flares" if found < given else "its skirt hangs deeper than that"
+    return [
+        Notice(
+            "curtain-blockage-given",
+            f"the blockage of the case, {given:.3g}, governs the drag coefficient; the curtain in equilibrium fills "
+            f"{found:.3g} of the depth, since {why}",
+            found, given, "information", "leave 'structure.drag.blockage' out to take that of the equilibrium",
+        )
+    ]  # fmt: skip
+
+
 def statics_notices(unit: LevelCurtain, significant_height: float) -> tuple[Notice, ...]:
     """Return where the curtain at rest leaves practice, its class, or the range of its formulas."""
     statics, curtain = unit.statics, unit.curtain
@@ -285,6 +303,7 @@ def statics_notices(unit: LevelCurtain, significant_height: float) -> tuple[Noti
     if curtain.drag.name != "constant":
         # the coefficient was taken at a blockage that the case gives
         notices = [notice for notice in notices if notice.code != "curtain-blockage"]
+    notices += _given_blockage(unit)
     if unit.site.on_bed:
         notices += check_on_bed(statics, unit.water)
     if curtain.curtain_class:

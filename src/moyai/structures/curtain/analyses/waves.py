@@ -48,13 +48,14 @@ class WaveAnswer:
     ----------
     groups : dict
         Name under the sea's group ("" is that group itself) and dataset.
-    maximum_tension : float
-        Of both cables together [N].
+    maximum_tension, highest_tension : float
+        Of both cables together [N]: the number of the sea, and the upper end of its scatter.
     notices : tuple of Notice
     """
 
     groups: dict[str, xr.Dataset]
     maximum_tension: float
+    highest_tension: float
     notices: tuple[Notice, ...]
 
 
@@ -135,7 +136,8 @@ def _regular(
     groups[""] = labelled(
         xr.Dataset(data, coords={"period": list(sea.periods)}, attrs={"kind": "regular", "height": sea.height})
     )
-    return WaveAnswer(groups, max(row["maximum_tension"] for row in rows), tuple(notices))
+    top, high = (max(row[name] for row in rows) for name in ("maximum_tension", "maximum_tension_high"))
+    return WaveAnswer(groups, top, max(top, high), tuple(notices))
 
 
 def _shown(found: SettledCycles) -> tuple[float, float]:
@@ -291,7 +293,7 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
         ),
     }
     told = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in shown.notices)
-    return WaveAnswer(groups, float(tops.mean()), (*told, *notices))
+    return WaveAnswer(groups, float(tops.mean()), float(tops.max()), (*told, *notices))
 
 
 def _realisation(

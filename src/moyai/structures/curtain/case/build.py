@@ -39,6 +39,8 @@ from moyai.structures.curtain.statics.section import Skirt
 from moyai.tables.flume_materials import available_flume_materials, flume_material
 from moyai.tables.lines import line_type
 
+#: Finer mesh of the runs of the whole span that are made without being asked for: seconds a sea.
+PEAK_CELLS = (12, 4)
 _CHAIN_DENSITY = 7850.0  # steel [kg/m3]
 _CASE = "case file"
 
@@ -259,7 +261,7 @@ def _drag(entry: Any) -> DragLaw:
     ends = [law.coefficient(low) * entry.range[0], law.coefficient(high) * entry.range[1]]
     value = law.coefficient(middle)
     bounds = (min(ends[0] / value, 1.0), max(ends[1] / value, 1.0))
-    return DragLaw(f"{law.name} at a blockage of {middle:g}", (0.0,), (value,), bounds, _CASE)
+    return DragLaw(f"{law.name} at a blockage of {middle:g}", (0.0,), (value,), bounds, _CASE, middle)
 
 
 def _strengths(model: schema.CurtainCase, upper: float, lower: float) -> Strengths:
@@ -342,16 +344,20 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
 
 
 def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
-    """Return how the whole span is run, ``None`` where it is not asked for.
+    """Return how the whole span is run, ``None`` where it is neither asked for nor to be run by default.
 
     Raises
     ------
     InputError
         When the mass of the sheet is not known.
     """
-    if "dynamic" not in model.analyses:
-        return None
     given, skirt = model.settings.dynamic, model.structure.skirt
+    asked = "dynamic" in model.analyses
+    if not asked and not given.by_default:
+        return None
+    cells = (given.cells_along, given.cells_down)
+    if not asked and not {"cells_along", "cells_down"} & given.model_fields_set:
+        cells = PEAK_CELLS
     mass, volume = given.sheet_mass, math.nan
     support, loads = given.support_mass, model.settings.anchor_loads
     if support is None and loads is not None:
@@ -364,7 +370,7 @@ def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
         film = flume_material(skirt.film.material)
         mass, volume = film.density * skirt.film.thickness, skirt.film.thickness
     return DynamicSettings(
-        mesh=Mesh(given.cells_along, given.cells_down, given.cable_viscosity, given.skirt_damping_time),
+        mesh=Mesh(*cells, given.cable_viscosity, given.skirt_damping_time),
         sheet_mass=mass,
         sheet_volume=volume,
         span_stiffness=given.span_stiffness,
@@ -381,6 +387,7 @@ def dynamic_settings(model: schema.CurtainCase) -> DynamicSettings | None:
         sensitivity=given.sensitivity,
         slack_level=given.slack_level,
         threshold=given.snap_threshold,
+        by_default=given.by_default,
     )
 
 

@@ -252,7 +252,8 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
     """Check what the dynamic analysis needs beyond the others."""
     given, unit = model.settings.dynamic, model.structure
     if "dynamic" not in model.analyses:
-        if "dynamic" in model.settings.model_fields_set:
+        serves = given.by_default and bool({"impact", "waves"} & set(model.analyses))
+        if "dynamic" in model.settings.model_fields_set and not serves:
             findings.warn(("settings", "dynamic"), "the analysis 'dynamic' is not asked for; these settings do nothing")
         return
     if not model.waves and model.current is None and model.settings.impact.start_speed is None:

@@ -15,8 +15,10 @@ Array = NDArray[np.float64]
 #: Part of the energy of a span that viscosity may take in a period: a snap loses some per cent, crumpling much more.
 MOST_VISCOUS = 0.3
 #: Part of the skirt's depth that is left below which a risen toe is told; change of the peaks of two periods beyond
-#: which a motion has not settled; part of a run at its end in which a peak is not known to be one.
-_RISEN, _UNSETTLED, _AT_END = 0.8, 0.1, 0.02
+#: which a motion has not settled.
+_RISEN, _UNSETTLED = 0.8, 0.1
+#: Share of a run after which its highest tension may still be exceeded.
+_LATER = 0.5
 #: The same below which the added mass of the whole depth is far too large; peak of the first half of what is counted
 #: of an irregular sea over that of the second, from which it is taken for that of the start.
 _FLAT, _STARTED = 0.5, 1.5
@@ -93,9 +95,19 @@ def plain(value: float) -> str:
 
 
 def still_rises(run: DynamicRun) -> bool:
-    """Return whether the highest tension of both cables stands at the very end, where it is not known to be a peak."""
+    """Return whether the highest tension stands in the later half of the run, where a higher one may still follow.
+
+    A skirt with a free toe bears a first snap while it is upright and a higher one where its swing ends, several rises
+    of model A later; a run that ends between both shows the first one as its peak.
+    """
     time = run.history.time
-    return run.peak("both")[1] > float(time[-1]) - _AT_END * float(time[-1] - time[0])
+    middle = float(time[0]) + _LATER * float(time[-1] - time[0])
+    return any(run.peak(name)[1] > middle for name in ("both", *run.names) if _leads(run, name))
+
+
+def _leads(run: DynamicRun, name: str) -> bool:
+    """Return whether a line bears enough for its peak to matter."""
+    return run.peak(name)[0] > 0.5 * max(run.peak(other)[0] for other in run.names)
 
 
 def _risen(run: DynamicRun, place: str) -> Notice | None:
@@ -162,7 +174,8 @@ def _short(run: DynamicRun, place: str, rise: float) -> Notice | None:
     if still_rises(run):
         return Notice(
             "dynamic-short",
-            f"{place}: the highest tension stands at the end of the run of {length:.3g} s: it may still rise",
+            f"{place}: the highest tension stands in the later half of the run of {length:.3g} s: a higher one may "
+            "follow",
             length, length, "warning", "give a longer 'settings.dynamic.duration'", "time of the highest tension",
         )  # fmt: skip
     return None

@@ -55,13 +55,16 @@ class DynamicSettings:
     wave_count : int
         Peak periods that count around the highest crest of an irregular sea.
     duration : float or None
-        Of the run in a current alone [s]; None: four rises of model A, longer while the tension still rises.
+        Of the run in a current alone [s]; None: four rises of model A, longer while its highest tension stands in the
+        later half.
     start : {"auto", "at_rest", "drifting"}
         Curtain at rest in water that begins to move, or drifting and just taut; auto: at rest in waves.
     sensitivity : bool
         Whether runs with half the step, a mesh of half as many cells and twice the viscosity follow.
     slack_level, threshold : float or None
         Of the snap statistics [N]; None: 1 % of the highest tension, twice the mean of the taut times.
+    by_default : bool
+        Whether peaks are taken from the span where it is not asked for and an upright plate only bounds them.
     """
 
     mesh: Mesh
@@ -81,6 +84,7 @@ class DynamicSettings:
     sensitivity: bool = True
     slack_level: float | None = None
     threshold: float | None = None
+    by_default: bool = True
 
 
 @dataclass(frozen=True, eq=False)

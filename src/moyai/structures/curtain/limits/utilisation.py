@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
+
+import numpy as np
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
@@ -22,8 +24,11 @@ from moyai.sea.water import Water
 from moyai.structures.curtain.limits.search import Limit, search
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height
-from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, solve_statics
+from moyai.structures.curtain.statics.hanging import CurtainStatics, HangingCurtain, loaded_section, solve_statics
 from moyai.structures.curtain.statics.on_bed import solve_on_bed
+from moyai.structures.curtain.statics.plan import PlanLoad
+from moyai.structures.curtain.statics.section import SectionShape
+from moyai.structures.curtain.statics.steady_load import SteadyState, with_floats
 
 #: Share of the range that stands for nothing at all where a state at 0 does not exist [-]
 _LEAST = 1e-4
@@ -128,14 +133,14 @@ class AddedLoads:
 
 
 def utilisation(
-    statics: CurtainStatics, required: Requirements, wave_tension: float, *added: AddedLoads
+    state: SteadyState, required: Requirements, wave_tension: float, *added: AddedLoads
 ) -> dict[str, float]:
     """Return the utilisation of each component, 1 at its limit.
 
     Parameters
     ----------
-    statics : CurtainStatics
-        Steady state.
+    state : SteadyState
+        Steady loads, with the drag of the floats where they have one.
     required : Requirements
         Strengths.
     wave_tension : float
@@ -150,18 +155,21 @@ def utilisation(
     more = AddedLoads(anchor_line=wave_tension)
     for loads in added:
         more = more.larger(loads)
-    slope = math.cos(statics.curtain.anchor_slope)
+    at = state.quantity
+    slope = math.cos(state.statics.curtain.anchor_slope)
+    upper, lower = at("upper_tension") + more.upper_cable, at("lower_tension") + more.lower_cable
     parts = {
-        "upper cable": required.upper_cable.utilisation(statics.upper_tension + more.upper_cable),
-        "lower cable": required.lower_cable.utilisation(statics.lower_tension + more.lower_cable),
-        "sheet": required.sheet.utilisation(statics.section.sheet_tension + more.sheet),
-        "anchor line": required.anchor_line.utilisation(statics.anchor_line_tension + more.anchor_line),
-        "anchor": required.anchor.utilisation(statics.anchor_force + more.anchor_line * slope),
-        "floats": (1.0 - statics.reserve_ratio) / (1.0 - required.least_reserve),
-        "effective depth": required.least_depth / statics.section.effective_depth,
+        "upper cable": required.upper_cable.utilisation(upper),
+        "lower cable": required.lower_cable.utilisation(lower),
+        "sheet": required.sheet.utilisation(at("sheet_tension") + more.sheet),
+        "anchor line": required.anchor_line.utilisation(at("anchor_line_tension") + more.anchor_line),
+        "anchor": required.anchor.utilisation(at("anchor_force") + more.anchor_line * slope),
+        "floats": (1.0 - at("float_reserve_ratio")) / (1.0 - required.least_reserve),
+        "effective depth": required.least_depth / at("effective_depth"),
     }
     if required.joint is not None:
-        load = (statics.section.load + more.line_load) * required.joint_distance
+        # a joint lies in the load line, which bears no more than its tension [eq:curtain-joint-load]
+        load = min((at("line_load") + more.line_load) * required.joint_distance, upper + lower)
         parts["joint"] = required.joint.utilisation(load)
     return parts
 
@@ -182,6 +190,10 @@ class Site:
         Share of the held flow that goes under the toe [-].
     on_bed : bool
         Whether the skirt may lie on the bed (:mod:`moyai.structures.curtain.statics.on_bed`).
+
+    Notes
+    -----
+    What was solved is kept in ``solved`` and ``loaded``; both are empty again in a site that :func:`replace` makes.
     """
 
     water: Water
@@ -190,18 +202,34 @@ class Site:
     chord_normal: float
     passing_fraction: float
     on_bed: bool = False
+    solved: dict[tuple[HangingCurtain, float], CurtainStatics] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+    loaded: dict[tuple[object, ...], tuple[SectionShape, PlanLoad]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     def statics(self, curtain: HangingCurtain, speed: float) -> CurtainStatics:
-        """Return the curtain at rest at a surface speed [m/s]."""
-        solve = solve_on_bed if self.on_bed else solve_statics
-        return solve(
-            curtain,
-            self.current(speed),
-            self.flow_heading,
-            self.chord_normal,
-            self.water,
-            passing_fraction=self.passing_fraction,
-        )
+        """Return the curtain at rest at a surface speed [m/s]; solved once, its sections once for all spans."""
+        key = (curtain, speed)
+        if key not in self.solved:
+            current, headings = self.current(speed), (self.flow_heading, self.chord_normal)
+            passing = self.passing_fraction
+            if self.on_bed:
+                self.solved[key] = solve_on_bed(curtain, current, *headings, self.water, passing_fraction=passing)
+            else:
+                alike = (curtain.skirt, curtain.drag, curtain.law, curtain.toe, curtain.friction, speed)
+                if alike not in self.loaded:
+                    self.loaded[alike] = loaded_section(curtain, current, *headings, self.water)
+                self.solved[key] = solve_statics(
+                    curtain, current, *headings, self.water, passing_fraction=passing, loaded=self.loaded[alike]
+                )
+        return self.solved[key]
+
+    def with_floats(self, statics: CurtainStatics, speed: float) -> SteadyState:
+        """Return a state at a surface speed [m/s] with the drag of its floats."""
+        surface = self.current(speed).component(np.zeros(1), self.chord_normal)
+        return with_floats(statics, self.water, float(surface[0]))
 
 
 class WaveLoading(Protocol):
@@ -307,13 +335,15 @@ def speed_limit(
             more = () if waves is None else (waves.added(statics, 0.0, speed, site.water),)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
-        return _worst(utilisation(statics, required, wave_tension, *more))
+        return _worst(utilisation(site.with_floats(statics, speed), required, wave_tension, *more))
 
     return search(worst, highest, start=_LEAST * highest)
 
 
 def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> float:
     """Return the surface speed [m/s] at which the float reserve is used up, infinite when not below ``highest``.
+
+    The drag of the floats counts: it loads the anchor lines, which pull the floats down.
 
     Raises
     ------
@@ -330,7 +360,7 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
 
     def worst(speed: float) -> tuple[float, str]:
         try:
-            return 1.0 - site.statics(curtain, speed).reserve_ratio, "floats"
+            return 1.0 - site.with_floats(site.statics(curtain, speed), speed).quantity("float_reserve_ratio"), "floats"
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
 
@@ -356,6 +386,7 @@ def height_limit(
         statics = site.statics(curtain, speed)
     except (InputError, ConvergenceError):
         return Limit(0.0, "no equilibrium", (), highest, math.inf)
+    state = site.with_floats(statics, speed)
 
     def worst(height: float) -> tuple[float, str]:
         if height > 0.0 and waves.height_ratio * height > breaking_limit(waves.period(height), site.water).height:
@@ -364,7 +395,7 @@ def height_limit(
             more = waves.added(statics, height, speed, site.water)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
-        return _worst(utilisation(statics, required, 0.0, more))
+        return _worst(utilisation(state, required, 0.0, more))
 
     return search(worst, highest)
 
@@ -434,7 +465,7 @@ def anchor_spacing(
             statics = site.statics(replace(curtain, span=span, length=ratio * span), speed)
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
-        parts = utilisation(statics, required, wave_tension)
+        parts = utilisation(SteadyState("", statics), required, wave_tension)
         return _worst({name: load_factor * parts[name] for name in _BY_SPAN})
 
     return search(worst, longest, start=0.01 * longest)
@@ -442,7 +473,7 @@ def anchor_spacing(
 
 def fixed_failures(statics: CurtainStatics, required: Requirements) -> tuple[str, ...]:
     """Return the components that fail at any distance of the anchors, by the steady load alone."""
-    parts = utilisation(statics, required, 0.0)
+    parts = utilisation(SteadyState("", statics), required, 0.0)
     return tuple(name for name, value in parts.items() if name not in _BY_SPAN and value > 1.0)
 
 

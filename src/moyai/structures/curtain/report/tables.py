@@ -14,7 +14,7 @@ from moyai.structures.curtain.report.reading import CurtainLevel, components, go
 # Name, words, unit of the statics that follow the drag coefficient
 _BY_DRAG = (
     ("drag_coefficient", "drag coefficient C_D", ""),
-    ("blockage", "blockage", ""),
+    ("blockage", "blockage, depth reached over water depth", ""),
     ("effective_depth", "effective depth", "m"),
     ("flare", "flare", "m"),
     ("toe_gap", "toe gap", "m"),

@@ -30,6 +30,8 @@ class DragLaw:
         Multipliers (low, high) of the coefficient that bound what is known, for instance (0.8, 1.4).
     source : str
         Where it comes from.
+    given_blockage : float
+        Blockage that the case gives, at which the one coefficient was taken [-]; NaN where it follows from the shape.
     """
 
     name: str
@@ -37,6 +39,7 @@ class DragLaw:
     coefficients: tuple[float, ...]
     range: tuple[float, float]
     source: str
+    given_blockage: float = math.nan
 
     def __post_init__(self) -> None:
         if len(self.blockage) != len(self.coefficients) or not self.blockage or np.any(np.diff(self.blockage) <= 0.0):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw, under_toe_flow
-from moyai.structures.curtain.statics.plan import PlanShape, section_load, solve_plan
+from moyai.structures.curtain.statics.plan import PlanLoad, PlanShape, section_load, solve_plan
 from moyai.structures.curtain.statics.section import LoadLaw, SectionShape, Skirt, solve_section
 
 
@@ -163,6 +163,7 @@ def solve_statics(
     passing_fraction: float,
     top_depth: float = 0.0,
     below_bed: bool = False,
+    loaded: tuple[SectionShape, PlanLoad] | None = None,
 ) -> CurtainStatics:
     """Return shape and forces of a curtain at rest.
 
@@ -182,6 +183,8 @@ def solve_statics(
         Depth of the top [m]; more than 0 for a curtain held under water.
     below_bed : bool
         As :func:`moyai.structures.curtain.statics.section.solve_section`: for a long skirt whose toe the current lifts.
+    loaded : tuple of SectionShape and PlanLoad, optional
+        Of :func:`loaded_section` with the same arguments, where they are known: no span changes them.
 
     Raises
     ------
@@ -192,35 +195,16 @@ def solve_statics(
     -----
     Forces of the supports: [eq:curtain-anchor]; floats: [eq:curtain-float-reserve].
     """
-    settings = {
-        "law": curtain.law,
-        "toe": curtain.toe,
-        "top_depth": top_depth,
-        "below_bed": below_bed,
-        "friction": curtain.friction,
-    }
-    section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, **settings)  # type: ignore[arg-type]
-    if section.load <= 0.0:
-        raise InputError(
-            f"the current loads the curtain with {section.load:g} N/m along its heading",
-            path="current",
-            remedy="give a current, and the heading in which it flows",
-        )
-    load = section_load(
-        curtain.skirt,
-        current,
-        flow_heading,
-        chord_normal,
-        water,
-        curtain.drag,
-        **settings,  # type: ignore[arg-type]
+    section, load = loaded or loaded_section(
+        curtain, current, flow_heading, chord_normal, water, top_depth=top_depth, below_bed=below_bed
     )
     plan = solve_plan(curtain.span, curtain.length, curtain.axial_stiffness, load)
     local = plan.angle + load.flow_angle
     turn = float(np.clip(0.0, local.min(), local.max()))
     if turn != 0.0:
         # no part of the span lies across so oblique a current
-        section = solve_section(curtain.skirt, current, flow_heading - turn, water, curtain.drag, **settings)  # type: ignore[arg-type]
+        settings = _settings(curtain, top_depth, below_bed)
+        section = solve_section(curtain.skirt, current, flow_heading - turn, water, curtain.drag, **settings)
     share = section.toe_hold / section.load
     first, second = plan.downstream_end_forces
     lean = abs(plan.inward_end_forces[0] - plan.inward_end_forces[1])
@@ -245,6 +229,41 @@ def solve_statics(
         anchor_line_tension=inner / math.cos(curtain.anchor_slope),
         float_reserve=curtain.floats.buoyancy - curtain.floats.weight - down_pull,
     )
+
+
+def loaded_section(
+    curtain: HangingCurtain,
+    current: CurrentProfile,
+    flow_heading: float,
+    chord_normal: float,
+    water: Water,
+    *,
+    top_depth: float = 0.0,
+    below_bed: bool = False,
+) -> tuple[SectionShape, PlanLoad]:
+    """Return the section across the flow and the load of sections at every angle to it, whatever the span is.
+
+    Arguments and errors as :func:`solve_statics`.
+    """
+    settings = _settings(curtain, top_depth, below_bed)
+    section = solve_section(curtain.skirt, current, flow_heading, water, curtain.drag, **settings)
+    if section.load <= 0.0:
+        raise InputError(
+            f"the current loads the curtain with {section.load:g} N/m along its heading",
+            path="current",
+            remedy="give a current, and the heading in which it flows",
+        )
+    return section, section_load(curtain.skirt, current, flow_heading, chord_normal, water, curtain.drag, **settings)
+
+
+def _settings(curtain: HangingCurtain, top_depth: float, below_bed: bool) -> dict[str, Any]:
+    return {
+        "law": curtain.law,
+        "toe": curtain.toe,
+        "top_depth": top_depth,
+        "below_bed": below_bed,
+        "friction": curtain.friction,
+    }
 
 
 def drag_range(

@@ -28,6 +28,8 @@ SOURCED_FACTORS = (0.8, 1.4)
 SKIN_FRICTION = 0.02
 #: Circular cylinder below the critical Reynolds number [-], for floats at the surface
 FLOAT_DRAG = 1.2
+#: Times that floats sink by the drag that their draught of before made
+_SINKING = 50
 _MOST_BLOCKED = 0.95
 _POINTS = 200
 
@@ -44,6 +46,8 @@ QUANTITIES: tuple[tuple[str, str, str], ...] = (
     ("anchor_line_tension", "N", "tension of the anchor line of an inner support"),
     ("float_load", "N/m", "weight and downward pull that the floats carry"),
     ("effective_depth", "m", "vertical reach of the skirt"),
+    ("toe_gap", "m", "clearance between toe and bed"),
+    ("float_reserve_ratio", "1", "buoyancy left over buoyancy"),
 )
 
 
@@ -73,15 +77,17 @@ class SteadyState:
         borne = scale * _borne(statics)
         # of the float line's own load per that of the section
         more = (borne + self.extra) / borne
-        slope = statics.curtain.anchor_slope
-        carried = statics.curtain.floats.buoyancy - statics.float_reserve
+        slope, buoyancy = statics.curtain.anchor_slope, statics.curtain.floats.buoyancy
+        carried = buoyancy - statics.float_reserve
         further = (scale * more - 1.0) * statics.anchor_force * math.tan(slope) / statics.curtain.span
         plain = {
             "line_load": scale * section.load + self.extra,
             "sheet_tension": scale * section.sheet_tension,
             "lower_tension": scale * statics.lower_tension,
             "effective_depth": section.effective_depth,
+            "toe_gap": statics.toe_gap if math.isfinite(statics.toe_gap) else math.nan,
             "float_load": carried + further,
+            "float_reserve_ratio": 1.0 - (carried + further) / buoyancy,
             "upper_tension": scale * (more * statics.plan.tension - statics.lower_tension),
         }
         if name in plain:
@@ -187,11 +193,30 @@ def float_drag(statics: CurtainStatics, water: Water, surface_speed: float) -> f
     surface_speed : float
         Of the current along the normal [m/s].
     """
-    floats = statics.curtain.floats
-    area = floats.buoyancy / (water.density * water.gravity)
-    share = min(max(1.0 - statics.reserve_ratio, 0.0), 1.0)
-    draught = math.sqrt(4.0 * area / math.pi) * _segment_depth(share)
+    return _drag_at(1.0 - statics.reserve_ratio, statics, water, surface_speed)
+
+
+def _drag_at(sunk: float, statics: CurtainStatics, water: Water, surface_speed: float) -> float:
+    """Return the drag of floats per length [N/m] of whose buoyancy a share is used [-]."""
+    area = statics.curtain.floats.buoyancy / (water.density * water.gravity)
+    draught = math.sqrt(4.0 * area / math.pi) * _segment_depth(min(max(sunk, 0.0), 1.0))
     return 0.5 * water.density * FLOAT_DRAG * surface_speed**2 * draught
+
+
+def with_floats(statics: CurtainStatics, water: Water, surface_speed: float) -> SteadyState:
+    """Return a state at rest with the drag of its floats, which lie as deep as that drag pulls them.
+
+    Arguments as :func:`float_drag`. The anchor lines pull the floats down with what the floats collect.
+    """
+    at_rest = SteadyState("with the drag of the floats", statics, float_drag(statics, water, surface_speed))
+    sunk = 1.0 - at_rest.quantity("float_reserve_ratio")
+    for _ in range(_SINKING):
+        state = replace(at_rest, extra=_drag_at(sunk, statics, water, surface_speed))
+        deeper = 1.0 - state.quantity("float_reserve_ratio")
+        if min(deeper, 1.0) - min(sunk, 1.0) <= 1e-6:
+            break
+        sunk = deeper
+    return state
 
 
 def _segment_depth(share: float) -> float:
@@ -222,7 +247,8 @@ def _changes(curtain: HangingCurtain, toe_range: tuple[float, float], passing_fr
     found += [
         _Change(f"toe weight times {factor:.3g}", "toe", weighed(factor)) for factor in toe_range if factor != 1.0
     ]
-    if known and passing_fraction > 0.0:
+    # a coefficient at a blockage that the case gives holds the closing of the gap already
+    if known and math.isnan(curtain.drag.given_blockage) and passing_fraction > 0.0:
         found.append(
             _Change(
                 f"gap under the toe closes: {passing_fraction:.3g} of the held flow under it",
