@@ -1,13 +1,18 @@
 """The storm that came out several times too low without slow drift: defaults, switches, and lines out of range."""
 
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 import pytest
 from breakwater_designs import DESIGNS
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
+from moyai.structures.breakwater.report.reading import all_numbers, water_levels
+from moyai.structures.breakwater.report.tables import governing_tables
 from moyai.structures.breakwater.run import run
+from moyai.tables.lines import line_type
 
 STORM = DESIGNS[-1]
 
@@ -58,6 +63,14 @@ def test_a_light_line_is_a_judgement_of_the_design_not_of_the_computation(tmp_pa
     result = result_of(tmp_path, design, analyses="statics, frequency")
     assert result.status == "converged"
     assert float(result.tree["SWL/frequency/storm"].to_dataset().maximum_utilisation.max()) > 0.5
+    # lines at rest are far out of their range here: the row says so, the headline is not known, nothing holds
+    (row,) = all_numbers(water_levels(result))
+    ratio = result.tree["SWL/frequency/storm"].to_dataset()
+    assert row.beyond_range == pytest.approx(float((ratio.maximum_tension / ratio.mean_tension).max()))
+    (loads, _) = governing_tables((row,), None)
+    marks = next(column for column in loads.columns if column.label == "Range of the line model")
+    assert marks.values[0].startswith("OUT OF RANGE")
+    assert headline(result, "line_utilisation").text == "not known" and result.verdict.outcome != "holds"
 
 
 @pytest.mark.slow  # five realisations and five windows with lines in motion: half a minute
@@ -71,4 +84,38 @@ def test_the_storm_with_all_defaults(tmp_path):
     time = result.tree["SWL/time/storm"].to_dataset()
     assert tension.value < float(time.maximum_tension_lines_at_rest.max())
     assert headline(result, "anchor_uplift").value > 0.0
+    # every event whose tension with lines at rest passes the largest in motion was rerun, or bounds what is judged
+    assert float(time.events_in_motion.max()) >= 1.0
+    line = int(time.maximum_tension.values.argmax())
+    bound = time.maximum_tension_bound_of_realisation.values[:, line]
+    assert np.all(bound >= time.maximum_tension_of_realisation.values[:, line])
+    # the factor is that of dynamic analysis
+    factors = {item.criterion.analysis: item for item in result.verdict.judgements if item.criterion.as_factor}
+    assert 1.0 / factors["dynamic"].criterion.limit == pytest.approx(1.67)
     assert {"realisation", "event"} <= set(result.tree["SWL/time/storm"].children)
+
+
+@pytest.mark.slow  # three hours of sea at two levels: two minutes
+def test_the_first_example_holds():
+    result = run(build(load_case(Path(__file__).parents[2] / "examples" / "pontoon.yaml")))
+    assert result.status == "converged" and result.verdict.outcome == "holds"
+    assert headline(result, "anchor_uplift").text == "none"
+    # by hand: the chain that lifts off under the largest pull of a realisation, sqrt(h^2 + 2 h H/w), is shorter than it
+    time = result.tree["LWL/time/design storm"].to_dataset()
+    statics = result.tree["LWL/statics"].to_dataset()
+    pull = float(time.maximum_anchor_horizontal_tension_of_realisation.max())
+    given = line_type("studless_chain_R3", 0.068)
+    weight = 9.81 * (given.mass_per_length - 1025.0 * given.volume_per_length)
+    drop = 10.0 - float(statics.draught)
+    assert np.sqrt(drop**2 + 2.0 * drop * pull / weight) < 95.0
+
+
+def test_steady_load_and_its_parts_by_hand(tmp_path):
+    result = result_of(tmp_path, analyses="statics, frequency")
+    load = headline(result, "steady_load")
+    wind = 0.5 * 1.225 * 1.2 * STORM.length * (STORM.hull - STORM.draught) * STORM.wind**2
+    current = 0.5 * 1025.0 * 1.5 * STORM.length * STORM.draught * STORM.current**2
+    drift = float(result.tree["SWL/frequency/storm"].to_dataset().mean_drift_force)
+    assert load.value == pytest.approx(wind + current + drift, rel=1e-6)
+    assert load.detail.startswith(f"wind {wind / 1e3:.3g} kN, current {current / 1e3:.3g} kN, mean drift")
+    assert "one line lost" in headline(result, "not_judged").text

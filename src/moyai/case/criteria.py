@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from moyai.case.line_code import code_criterion
+from moyai.case.line_code import code_criteria, code_criterion
 from moyai.case.schema_criteria import LineCriteria
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion, Sense
@@ -76,11 +76,11 @@ def criteria_of(model: Any) -> tuple[Criterion, ...]:
 
 def _breakwater(model: Any, given: Any) -> Iterator[Criterion]:
     moored = [line for line in model.lines if line.kind == "catenary"]
-    moving = bool(moored) and "time" in model.analyses and all(line.dynamic is True for line in moored)
+    # Whether lines run in motion is decided by the run: each number is judged by the factor of its own analysis
     yield from _lines(
         given,
         DEFAULT_CODE if moored else "",
-        "dynamic" if moving else "quasi_static",
+        "",
         [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
     )
     if given.greatest_uplift is None and moored:
@@ -207,13 +207,18 @@ def _member(model: Any, given: Any) -> Iterator[Criterion]:
 
 
 def _lines(given: LineCriteria, default: str, analysis: str, names: Iterable[str | None]) -> Iterator[Criterion]:
-    """Yield the criterion of the lines: a factor, a code, or the default code (empty: none)."""
+    """Yield the criterion of the lines: a factor, a code, or the default code (empty: none).
+
+    An empty ``analysis`` leaves it to the run: one criterion for the numbers of either analysis.
+    """
     factor = given.line_safety_factor
     if factor is not None:
         yield Criterion(
             "line_safety_factor", "line_utilisation", 1.0 / factor, "at most", CASE,
             "factor of safety of the lines", as_factor=True,
         )  # fmt: skip
+    elif (given.code or default) and not analysis:
+        yield from code_criteria(given.code or default, names, assumed=not given.code)
     elif given.code or default:
         yield code_criterion(given.code or default, analysis, names, assumed=not given.code)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from moyai.core.errors import InputError
@@ -14,6 +15,26 @@ _WORDS = "factor of safety of the lines"
 _CHARACTERISTIC = 0.95
 #: Analyses whose factors stand in where a code has none for the analysis at hand: the safer one.
 _STAND_IN = {"static": "quasi_static"}
+
+
+def code_criteria(given: Any, names: Iterable[str | None], *, assumed: bool = False) -> tuple[Criterion, ...]:
+    """Return the criteria of a code for tensions of either analysis, each for the numbers that its analysis gave.
+
+    Parameters are those of :func:`code_criterion`; a code block that names its ``analysis`` has one criterion.
+    """
+    names = tuple(names)
+    if not isinstance(given, str) and given.analysis:
+        return (code_criterion(given, given.analysis, names, assumed=assumed),)
+    still = code_criterion(given, "quasi_static", names, assumed=assumed)
+    try:
+        moving = code_criterion(given, "dynamic", names, assumed=assumed)
+    except InputError:
+        # a code without a value for dynamic analysis: that of the quasi-static one asks no less
+        return (still,)
+    return tuple(
+        replace(criterion, analysis=analysis, label=f"{criterion.label}, {analysis.replace('_', '-')} analysis")
+        for criterion, analysis in ((moving, "dynamic"), (still, "quasi_static"))
+    )
 
 
 def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, assumed: bool = False) -> Criterion:

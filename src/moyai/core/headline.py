@@ -78,6 +78,8 @@ class Headline:
         part of a tension apart need it. None where it is not known.
     shown : bool
         Whether it stands on the first page; one that does not and has a sea is judged only by a criterion at that sea.
+    analysis : str
+        ``dynamic``, ``quasi_static`` or ``static`` where criteria depend on the analysis that gave the number.
 
     Notes
     -----
@@ -98,6 +100,7 @@ class Headline:
     sea: str = ""
     mean: float | None = None
     shown: bool = True
+    analysis: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])
@@ -148,6 +151,8 @@ class Criterion:
         Weight of the mean of a value over time, that of its varying part being 1 (codes with partial factors).
     assumed : bool
         Whether the program assumed it: the case file does not name it.
+    analysis : str
+        Analysis whose numbers it is for; empty: of any.
     """
 
     name: str
@@ -161,6 +166,7 @@ class Criterion:
     as_factor: bool = False
     mean_weight: float = 1.0
     assumed: bool = False
+    analysis: str = ""
 
     @property
     def words(self) -> str:
@@ -249,6 +255,11 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
     found: list[Judgement] = []
     for criterion in criteria:
         members = _judged_by(criterion, numbers)
+        if criterion.analysis:
+            given = [member for member in members if member.analysis in ("", criterion.analysis)]
+            if members and not given:
+                continue  # every number is of another analysis, which has its own criterion
+            members = given
         if not members:
             found.append(Judgement(criterion, math.nan, "not judged", _absent(criterion)))
         found.extend(_judge_one(criterion, member) for member in members)

@@ -51,6 +51,8 @@ class PlanarBody:
         [eq:coupled-rest].
     initial_position, initial_velocity : array_like (3,)
         Motion at the start, relative to rest.
+    initial_memory : array_like or None
+        States of the memory at the start, one per pole; empty when left out.
 
     Raises
     ------
@@ -68,6 +70,7 @@ class PlanarBody:
     reaction_at_rest: ArrayLike = (0.0, 0.0, 0.0)
     initial_position: ArrayLike = (0.0, 0.0, 0.0)
     initial_velocity: ArrayLike = (0.0, 0.0, 0.0)
+    initial_memory: ArrayLike | None = None
 
     def __post_init__(self) -> None:
         if len(self.model.modes) != 3:
@@ -121,6 +124,8 @@ class PlanarCarrier:
         memory = body.model.memory
         assert isinstance(memory, StateSpaceMemory)
         self._memory, self.z = memory, np.zeros(len(memory.poles), np.complex128)
+        if body.initial_memory is not None:
+            self.z = np.array(body.initial_memory, dtype=np.complex128)
         shortest = body.forcing.shortest_period
         grid = body.duration / 64.0
         if np.isfinite(shortest):

@@ -19,6 +19,7 @@ from moyai.core.options import checks_words
 from moyai.floating.arrays import ComplexArray, FloatArray, finite, positive
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.sea.components import WaveComponents
+from moyai.sea.time_sum import sum_in_window, window_pays
 
 
 class Forcing(Protocol):
@@ -313,6 +314,8 @@ def complex_sum(omega: FloatArray, amplitude: ComplexArray, step: float, count: 
     if length == 0:
         return np.asarray(_direct_sum(omega, np.ascontiguousarray(amplitude), step, count))
     bins = np.rint(omega * step * length / (2.0 * math.pi)).astype(int)
+    if window_pays(bins, count, length):
+        return np.ascontiguousarray(sum_in_window(bins, amplitude.T, count, length).T)
     result = np.empty((count, amplitude.shape[1]), dtype=np.complex128)
     for column in range(amplitude.shape[1]):
         spectrum = np.zeros(length, dtype=np.complex128)

@@ -86,6 +86,20 @@ class StateSpaceMemory:
         )
         return np.asarray(0.5 * (first + second) + self.dashpot, dtype=np.complex128)
 
+    def states_after(self, time: ArrayLike, velocity: ArrayLike) -> ComplexArray:
+        """Return the states (n,) at the end of a known motion, empty at its beginning [eq:floating-state-space].
+
+        Parameters
+        ----------
+        time : array_like (k,)
+            Evenly spaced [s]; the trapezoidal rule is taken over it.
+        velocity : array_like (k, m)
+        """
+        instants, rates = np.asarray(time, dtype=float), np.asarray(velocity, dtype=float)
+        faded = np.exp(self.poles[:, None] * (instants[-1] - instants)[None, :])
+        drive = self.inputs @ rates.T
+        return np.asarray(np.trapezoid(faded * drive, instants, axis=1), dtype=np.complex128)
+
     @classmethod
     def none(cls, size: int) -> StateSpaceMemory:
         """Return no memory."""

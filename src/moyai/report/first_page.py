@@ -129,7 +129,9 @@ def criteria_note(items: Iterable[Judgement]) -> str:
 def without_limit(result: Result) -> str:
     """Return which numbers of the first page no criterion judges; empty where all are judged."""
     judged = {item.criterion.headline for item in result.verdict.judgements}
-    left = [item for item in result.headlines if item.shown and item.name not in judged]
+    # a tension is judged by its utilisation
+    judged |= {name.replace("utilisation", "tension") for name in judged}
+    left = [item for item in result.headlines if item.shown and item.name not in judged and math.isfinite(item.value)]
     names = dict.fromkeys(_within_a_sentence(item.label) for item in left)
     return f"No limit is given for: {', '.join(names)}." if names else ""
 

@@ -18,6 +18,9 @@ _SHORTEST = 8
 #: Cost of a point of a Fourier transform, per factor of two of its length, over that of a component at one time.
 _FOURIER_COST = 3.0
 
+#: Points of transforms that a window takes, over those of its components and times.
+_WINDOW_COST = 6
+
 
 def uniform_step(time: Array) -> float | None:
     """Return the step of a uniform, increasing time axis [s], or None."""
@@ -32,10 +35,49 @@ def uniform_step(time: Array) -> float | None:
     return step if float(np.max(np.abs(time - straight))) <= allowed else None
 
 
+def sum_in_window(number: NDArray[np.int64], rows: ComplexArray, count: int, period: int) -> ComplexArray:
+    """Return ``sum_i rows_i exp(-2 pi i number_i k / period)`` (r, count) for the first ``count`` of all k.
+
+    Bluestein's algorithm: a short window of a long record costs transforms as long as its components and times.
+
+    Parameters
+    ----------
+    number : ndarray of int (n,)
+        Whole frequencies of the components.
+    rows : ndarray (r, n)
+        Amplitudes.
+    count, period : int
+        Times asked, times of a full repetition.
+    """
+    from scipy.fft import fft, ifft, next_fast_len
+
+    first, width = int(number.min()), int(number.max() - number.min()) + 1
+    along = np.arange(max(width, count), dtype=np.int64)
+    chirp = np.exp(-1j * math.pi / period * (along * along % (2 * period)))
+    size = next_fast_len(width + count - 1)
+    spread = np.zeros((rows.shape[0], size), dtype=np.complex128)
+    for row, amplitudes in zip(spread, rows, strict=True):
+        np.add.at(row, number - first, amplitudes)
+    spread[:, :width] *= chirp[:width]
+    back = np.zeros(size, dtype=np.complex128)
+    back[:count] = chirp[:count].conj()
+    back[size - width + 1 :] = chirp[1:width][::-1].conj()
+    found = ifft(fft(spread, axis=1) * fft(back), axis=1)[:, :count]
+    at = np.arange(count, dtype=np.int64)
+    return np.asarray(found * chirp[:count] * np.exp(-2j * math.pi / period * (first * at % period)))
+
+
+def window_pays(number: NDArray[np.int64], count: int, period: int) -> bool:
+    """Whether a window of ``count`` times is cheaper through :func:`sum_in_window` than by a transform of it all."""
+    return _WINDOW_COST * (int(number.max() - number.min()) + count) < period
+
+
 def _through_fourier(omega: Array, rows: ComplexArray, start: float, steps: int, period: int, step: float) -> Array:
     """Sum components at whole multiples of ``step`` on ``period`` points a repeat period, repeated as needed."""
     number = np.rint(omega / step).astype(np.int64)
     turn = np.exp(-1j * omega * start)
+    if window_pays(number, steps, period):
+        return sum_in_window(number, rows * turn, steps, period).real
     wanted = np.arange(steps) % period
     out = np.zeros((rows.shape[0], steps))
     half = np.zeros(period // 2 + 1, dtype=np.complex128)
@@ -77,7 +119,12 @@ def sum_over_time(omega: Array, amplitudes: ComplexArray, time: Array, frequency
         # the mismatch of the grids must stay below rounding over the whole record
         if abs(exact - round(exact)) <= 1e-12 * exact and np.max(omega) < math.pi / step * (1.0 - 1e-9):
             period = round(exact)
-    transform = _FOURIER_COST * period * math.log2(max(period, 2))
+    points = period
+    if period and frequency_step is not None:
+        number = np.rint(omega / frequency_step).astype(np.int64)
+        if window_pays(number, flat.size, period):
+            points = _WINDOW_COST * (int(np.ptp(number)) + flat.size)
+    transform = _FOURIER_COST * points * math.log2(max(points, 2))
     if step is not None and frequency_step is not None and period > 0 and transform < max(omega.size * flat.size, 1e6):
         out = _through_fourier(omega, rows, float(flat[0]), flat.size, period, frequency_step)
     else:

@@ -246,3 +246,25 @@ def test_lines_in_motion_that_do_not_fit_the_rest_of_the_case_are_named(tmp_path
         with pytest.raises(CaseError) as caught:
             moyai.load_case(path)
         assert told in str(caught.value)
+
+
+def test_lines_are_carried_along_to_where_a_run_starts(tmp_path):
+    """The network at rest with its fairleads moved pulls as the exact catenaries of the moved body do."""
+    unit = assemble(problem_of(tmp_path), "SWL", 0.0)
+    lines = line_network(unit, LineDynamics(bars=60))
+    move, centre = np.array([0.01, 0.005, 0.0]), np.array([unit.centre[0], 0.0, unit.centre[1]])
+    places = {line.name: np.asarray(line.fairlead) + centre + np.array([move[0], 0.0, move[1]]) for line in lines.lines}
+    state = lines.carried_along(places)
+    exact = unit.mooring.planar.tensions(move)
+    for number, line in enumerate(lines.lines):
+        strand = lines.strand(line.name)
+        assert state.position[strand.nodes[-1]] == pytest.approx(places[line.name])
+        ends = state.position[strand.nodes[1:]] - state.position[strand.nodes[:-1]]
+        length = np.linalg.norm(ends, axis=1)[-1]
+        bars = lines.network.bars
+        stretch = length / bars.length[strand.bars[-1]] - 1.0
+        tension = bars.types[bars.kind[strand.bars[-1]]].axial_stiffness * stretch
+        # the last bar tells its middle: half a bar of weight lower; the cutting into bars costs two per cent
+        assert tension == pytest.approx(exact[number], rel=0.05)
+        assert exact[number] != pytest.approx(unit.mooring.planar.tensions(np.zeros(3))[number], rel=0.1)
+    assert np.all(state.velocity == 0.0)

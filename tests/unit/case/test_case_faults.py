@@ -31,6 +31,7 @@ SINGLE = {
     "draught above the deck": ("draught: 3 m", "draught: 4.5 m", "4.5 m\n  centre", "structure.draught", "the draught of 4.5 m is not less than the height of the section, 4.5 m"),
     "body heavier than its displacement": ("draught: 3 m", "mass: 1200 t", "1200 t", "structure.mass", "the body of 1.2e+06 kg is heavier than the 968625 kg it displaces when wholly under water"),
     "anchor inside the body": ("anchor: {x: -57.5 m}", "anchor: {x: -2 m, above_bed: 8 m}", "{x: -2 m", "lines[0].anchor", "the anchor of 'seaward' at x = -2 m, z = -2 m lies inside the body"),
+    "anchor on the wrong side": ("anchor: {x: -57.5 m}", "anchor: {x: 57.5 m}", "{x: 57.5 m", "lines[0].anchor", "line 'seaward': its fairlead is at x = -5 m and its anchor at x = 57.5 m, on the other side of the hull, so that it runs under the keel; tension"),
     "line that breaks at rest": ("length: 54.0 m", "length: 40 m", "- {catalogue", "lines[0].segments", "exceeds its breaking load"),
     "line in a heap": ("length: 54.0 m", "length: 80 m", "- {catalogue", "lines[0].segments", "80 m of line lie in a heap"),
     "regular wave beyond breaking": ("height: 0.6 m", "height: 9 m", "9 m", "waves[0].height", "wave height 9 m exceeds the breaking height"),

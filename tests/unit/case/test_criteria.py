@@ -108,3 +108,24 @@ def test_a_curtain_with_two_metres_of_four_does_not_hold(tmp_path):
         verdict = judge([depth], asked, computed=True)
         assert verdict.outcome == "does not hold"
         assert verdict.message == "effective depth 1.8 m is below 4 m"
+
+
+def test_each_tension_is_judged_by_the_factor_of_its_own_analysis():
+    given = [item for item in build(read(CASE)).criteria if item.headline == "line_utilisation"]
+    assert {item.analysis: 1.0 / item.limit for item in given} == pytest.approx({"dynamic": 1.67, "quasi_static": 2.0})
+    # 0.55 is within 1/1.67 and beyond 1/2
+    moving = Headline("line_utilisation", "Utilisation", 0.55, "1", analysis="dynamic")
+    still = Headline("line_utilisation", "Utilisation", 0.55, "1", analysis="quasi_static")
+    assert judge([moving], given, computed=True).outcome == "holds"
+    verdict = judge([moving, still], given, computed=True)
+    assert verdict.outcome == "does not hold"
+    assert {item.criterion.analysis: item.outcome for item in verdict.judgements} == {
+        "dynamic": "holds",
+        "quasi_static": "does not hold",
+    }
+    assert "quasi-static analysis" in verdict.message
+
+
+def test_a_code_for_the_analysis_that_the_case_names_judges_all():
+    given = criteria("criteria: {code: {name: ISO 19901-7, analysis: quasi_static}}\n")["code"]
+    assert given.analysis == "" and 1.0 / given.limit == pytest.approx(2.0)

@@ -9,74 +9,36 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Headline
-from moyai.mooring.anchors import gravity_anchor_weight
-from moyai.series.intervals import student_quantile
-from moyai.structures.breakwater.responses import SNAP_RATIO
-from moyai.tables.design_codes import anchor_factor, holding_data
+from moyai.structures.breakwater.lines.headlines import (
+    AT_REST,
+    FIRST_ORDER,
+    FREQUENCY,
+    STILL,
+    LinePeak,
+    anchor_headlines,
+    governing_group,
+    kilonewton,
+    line_headlines,
+    line_peaks,
+    place,
+    seas_of,
+    seeds,
+    tension_at_rest,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
-IN_MOTION = "time domain, lines in motion"
-AT_REST = "time domain, lines at rest at every instant"
-FREQUENCY = "frequency domain, waves and slow drift"
-FIRST_ORDER = "frequency domain, regular waves"
-STILL = "at rest, no waves run"
+STEADY = "wind and current at rest, mean drift of the frequency domain"
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified
-SINKER = ("concrete", "sand")  # for which the weight of a sinker is shown
-
-
-@dataclass(frozen=True)
-class LinePeak:
-    """Largest tension of one kind of line in one sea at one water level, by the model that governs there; SI units.
-
-    ``known`` is false where the model is out of its range and no better one was run.
-    """
-
-    level: str
-    sea: str
-    line: str
-    period: float
-    tension: float
-    mean: float
-    breaking_load: float
-    vertical: float
-    horizontal: float
-    grounded: float
-    model: str
-    known: bool
-    scatter: Array
-    vertical_scatter: Array
-    horizontal_scatter: Array
-
-    @property
-    def utilisation(self) -> float:
-        """Tension over breaking load, NaN where that is not given."""
-        return self.tension / self.breaking_load if self.breaking_load > 0.0 else math.nan
-
-    @property
-    def rank(self) -> float:
-        """What governs: utilisation, or tension where no breaking load is given."""
-        return self.utilisation if math.isfinite(self.utilisation) else self.tension * 1e-12
-
-    @property
-    def where(self) -> str:
-        """Water level, sea, period and line in words."""
-        return f"{place(self.level, self.sea, self.period)}, line {self.line}"
-
-
-def place(level: str, sea: str, period: float = math.nan) -> str:
-    """Return water level, sea state and wave period in words."""
-    return f"{level}, {sea}" + (f", T = {period:.3g} s" if math.isfinite(period) else "")
 
 
 def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -91,194 +53,12 @@ def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
     peaks = [peak for level in levels for peak in line_peaks(groups, level)]
     found: list[Headline] = []
     if peaks:
-        found += _line_headlines(peaks) + _anchor_headlines(groups, levels, peaks)
+        found += line_headlines(peaks) + anchor_headlines(groups, levels, peaks)
     else:
-        found += _lines_at_rest(groups, levels)
+        found += tension_at_rest(groups, levels)
     found += _transmission(groups, levels) + _motion_headlines(groups, levels)
-    return (*found, *_rest_headlines(groups, levels))
-
-
-def seas_of(groups: Mapping[str, xr.Dataset], level: str) -> tuple[str, ...]:
-    """Return the sea states that were run at a water level."""
-    heads = (f"/{level}/frequency/", f"/{level}/time/")
-    names = [path.removeprefix(head) for path in groups for head in heads if path.startswith(head)]
-    return tuple(dict.fromkeys(name for name in names if "/" not in name))
-
-
-def governing_group(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> tuple[str, xr.Dataset] | None:
-    """Return the domain and numbers that govern a sea: the time domain where it came to an end."""
-    time, frequency = groups.get(f"/{level}/time/{sea}"), groups.get(f"/{level}/frequency/{sea}")
-    if time is not None and time.attrs.get("status") == "converged" and "maximum_tension" in time:
-        return "time", time
-    return None if frequency is None else ("frequency", frequency)
-
-
-def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
-    """Return the largest tension of every kind of line in every sea at a water level."""
-    found: list[LinePeak] = []
-    statics = groups.get(f"/{level}/statics")
-    for sea in seas_of(groups, level):
-        chosen = governing_group(groups, level, sea)
-        if chosen is None or statics is None or "breaking_load" not in statics or "maximum_tension" not in chosen[1]:
-            continue
-        domain, data = chosen
-        for number, line in enumerate(data["line"].values):
-            chain = bool(np.isfinite(statics["unstretched_length"].values[number]))
-            load = float(statics["breaking_load"].values[number])
-            peak = _line_peak(domain, data, level, sea, str(line), number, load, chain)
-            if peak is not None:
-                found.append(peak)
-    return found
-
-
-def _line_peak(
-    domain: str, data: xr.Dataset, level: str, sea: str, line: str, number: int, load: float, chain: bool
-) -> LinePeak | None:
-    table = np.atleast_2d(data["maximum_tension"].values)[:, number]
-    if not np.isfinite(table).any():
-        return None
-    row = int(np.nanargmax(table))
-
-    def of(name: str) -> float:
-        return float(np.atleast_2d(data[name].values)[row, number]) if name in data else math.nan
-
-    regular = "period" in data.dims
-    moving = of("lines_in_motion") == 1.0
-
-    def scatter_of(name: str) -> Array:
-        name = f"{name}_of_realisation"
-        return np.asarray(data[name].values[:, number], dtype=float) if name in data else np.zeros(0)
-
-    scatter = scatter_of("maximum_tension")
-    model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
-    mean = of("mean_tension")
-    highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
-    # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
-    known = moving or not chain or highest <= SNAP_RATIO * mean
-    return LinePeak(
-        level, sea, line, float(data["period"].values[row]) if regular else math.nan, float(table[row]), mean, load,
-        of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
-        model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
-        scatter_of("maximum_anchor_horizontal_tension"),
-    )  # fmt: skip
-
-
-def _line_headlines(peaks: list[LinePeak]) -> list[Headline]:
-    highest = max(peaks, key=lambda peak: peak.rank)
-    if not highest.known:
-        ratio = highest.tension / highest.mean if highest.mean > 0.0 else math.inf
-        detail = (
-            f"lines at rest give {_kilonewton(highest.tension)}, {ratio:.1f} times the mean, beyond their range of "
-            f"{SNAP_RATIO:g}; run the time domain with lines in motion"
-        )
-        return [
-            Headline(name, label, math.nan, unit, highest.where, highest.model, detail=detail, text="not known")
-            for name, label, unit in (
-                ("line_tension", "Largest line tension", "N"),
-                ("line_utilisation", "Utilisation of the breaking load", "1"),
-            )
-        ]
-    tension = Headline(
-        "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
-        band=_seeds(highest.scatter), detail=_mean_of(highest.scatter),
-    )  # fmt: skip
-    load = highest.breaking_load
-    if not load > 0.0:
-        return [
-            tension,
-            Headline("line_utilisation", "Utilisation of the breaking load", math.nan, "1", highest.where,
-                     highest.model, detail="breaking load not given in the case"),
-        ]  # fmt: skip
-    share = Headline(
-        "line_utilisation", "Utilisation of the breaking load", highest.utilisation, "1", highest.where, highest.model,
-        band=_seeds(highest.scatter / load),
-        detail=f"breaking load {_kilonewton(load)}",
-    )  # fmt: skip
-    return [tension, share]
-
-
-def _anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks: list[LinePeak]) -> list[Headline]:
-    """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest."""
-    pulled = [peak for peak in peaks if math.isfinite(peak.horizontal)]
-    if not pulled:
-        return []
-    bare = _bare_lines(groups, levels)
-    lifted = max(pulled, key=lambda peak: peak.vertical)
-    hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
-    if not (hardest.known and lifted.known):
-        text = "not known"
-        detail = "the largest tension is not known"
-        return [
-            Headline(name, label, math.nan, "N", hardest.where, hardest.model, detail=detail, text=text)
-            for name, label in (
-                ("anchor_capacity_required", "Holding capacity that an anchor needs"),
-                ("anchor_uplift", "Uplift at an anchor"),
-            )
-        ]
-    drag, level_factor = anchor_factor("drag_anchor", "horizontal"), anchor_factor("gravity_anchor", "horizontal")
-    up_factor, friction = anchor_factor("gravity_anchor", "vertical"), holding_data("sinker", *SINKER)
-    weight = gravity_anchor_weight(
-        hardest.horizontal, hardest.vertical, friction.value, level_factor.value, up_factor.value
-    )
-    lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
-    bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
-    fit = "" if hardest.vertical <= 0.0 else ": not for a drag anchor"
-    capacity = Headline(
-        "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
-        drag.value * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=_seeds(drag.value * hardest.horizontal_scatter),
-        detail=(
-            f"{drag.value:g} times the pull of one line ({drag.source}, {_confirmed(drag.confirmed)}); {bed} at the "
-            f"peak{fit}; or a concrete sinker of {_kilonewton(weight)} in water (friction {friction.value:g} on "
-            f"{SINKER[1]}, factors {level_factor.value:g} and {up_factor.value:g})"
-        ),
-    )  # fmt: skip
-    pull = Headline(
-        "anchor_horizontal_load", "Horizontal pull on an anchor", hardest.horizontal, "N", hardest.where, hardest.model,
-        band=_seeds(hardest.horizontal_scatter),
-    )  # fmt: skip
-    none = lifted.vertical <= 0.0
-    least = min(peak.grounded for peak in pulled)
-    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
-    said = "; ".join(part for part in (kept if none else "", bare) if part)
-    uplift = Headline(
-        "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
-        band=None if none else _seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
-        text="none" if none else "",
-    )  # fmt: skip
-    return [capacity, pull, uplift]
-
-
-def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:
-    """Say which lines have nothing on the bed at rest."""
-    found = []
-    for level in levels:
-        statics = groups.get(f"/{level}/statics")
-        if statics is None or "grounded_length" not in statics:
-            continue
-        chains = np.isfinite(statics["unstretched_length"].values)
-        if bool(np.any((statics["grounded_length"].values <= 0.0) & chains)):
-            found.append(level)
-    return f"no line on the bed at rest at {', '.join(found)}" if found else ""
-
-
-def _lines_at_rest(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
-    best: tuple[float, str, float] | None = None
-    for level in levels:
-        statics = groups.get(f"/{level}/statics")
-        if statics is None or "fairlead_tension" not in statics or not statics["fairlead_tension"].size:
-            continue
-        pulls = statics["fairlead_tension"].values
-        at = int(np.nanargmax(pulls))
-        if best is None or pulls[at] > best[0]:
-            best = float(pulls[at]), f"{level}, line {statics['line'].values[at]}", float(statics.breaking_load[at])
-    if best is None:
-        return []
-    out = [Headline("line_tension", "Line tension at rest", best[0], "N", best[1], STILL)]
-    if best[2] > 0.0:
-        out.append(Headline("line_utilisation", "Utilisation of the breaking load at rest", best[0] / best[2], "1",
-                            best[1], STILL, detail=f"breaking load {_kilonewton(best[2])}"))  # fmt: skip
-    return out
+    found += _steady_load(groups, levels)
+    return (*found, *_rest_headlines(groups, levels), *([_not_judged()] if peaks else []))
 
 
 def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
@@ -306,6 +86,7 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
         return []
     irregular, value, where, data, at, other = max(rows, key=lambda item: item[:2])
     detail = "energy-weighted" if irregular else "largest over the periods"
+    detail += "; " + _outside_the_band(groups, where, data, at)
     if math.isfinite(other):
         detail += f"; {other:.3g} with the motions of the time domain"
     highest = max(rows, key=lambda item: item[1])
@@ -314,7 +95,7 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
     if "overtopping_share" in data and (over := float(data["overtopping_share"])) > MUCH_OVERTOPPING:
         detail += f"; without the water that up to {100.0 * over:.0f} % of the waves bring over the deck"
     return [
-        Headline("transmission", "Wave transmission K_T", value, "1", where,
+        Headline("transmission", "Wave transmission K_T of a long structure", value, "1", where,
                  FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail)
     ]  # fmt: skip
 
@@ -325,7 +106,70 @@ def _damping_band(data: xr.Dataset, row: int | None) -> Band | None:
         return None
     ends = [data[f"transmission_coefficient_{end}"].values for end in ("low", "high")]
     low, high = (float(item if row is None else item[row]) for item in ends)
-    return Band(low, high, str(data.attrs.get("damping_band", "damping"))) if math.isfinite(low + high) else None
+    if not math.isfinite(low + high):
+        return None
+    return Band(low, high, f"covers damping alone: {data.attrs.get('damping_band', 'damping')}")
+
+
+def _outside_the_band(groups: Mapping[str, xr.Dataset], where: str, data: xr.Dataset, row: int | None) -> str:
+    """Say what the band of the transmission does not cover: the ends of the unit, and what other formulas give."""
+    level = where.split(", ")[0]
+    waves, statics = groups.get(f"/{level}/rao"), groups.get(f"/{level}/statics")
+    if waves is None or statics is None or "transmission_macagno" not in waves:
+        return "ends of the unit are not covered"
+    if row is not None:
+        omega = 2.0 * math.pi / float(data["period"].values[row])
+    else:
+        omega = float(data["omega"].values[int(np.nanargmax(data["wave_spectrum"].values))])
+    known = waves["omega"].values
+
+    def at(name: str) -> float:
+        return float(np.interp(omega, known, waves[name].values))
+
+    share = float(statics["unit_length"]) / at("wavelength")
+    return (
+        f"fixed hulls at T = {2.0 * math.pi / omega:.3g} s: Macagno {at('transmission_macagno'):.2g}, Wiegel "
+        f"{at('transmission_wiegel'):.2g}; not covered: waves round the ends of a unit of {share:.2g} wavelengths"
+    )
+
+
+def _steady_load(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
+    """Return the largest steady load in sway with its parts: wind, current, mean drift of the waves."""
+    found: list[Headline] = []
+    for level in levels:
+        statics = groups.get(f"/{level}/statics")
+        if statics is None or "steady_force_of_wind" not in statics:
+            continue
+        parts = [float(statics[f"steady_force_of_{name}"].values[0]) for name in ("wind", "current")]
+        drifts = [(level, 0.0, STILL)]
+        for sea in seas_of(groups, level):
+            data = groups.get(f"/{level}/frequency/{sea}")
+            if data is None or "mean_drift_force" not in data:
+                continue
+            values = np.atleast_1d(data["mean_drift_force"].values)
+            if np.isfinite(values).any():
+                row = int(np.nanargmax(np.abs(values)))
+                period = float(data["period"].values[row]) if "period" in data.dims else math.nan
+                drifts.append((place(level, sea, period), float(values[row]), STEADY))
+        for where, drift, model in drifts:
+            words = (
+                f"wind {kilonewton(parts[0])}, current {kilonewton(parts[1])}, mean drift of waves {kilonewton(drift)}"
+            )
+            found.append(
+                Headline("steady_load", "Steady load in sway", sum(parts) + drift, "N", where, model, detail=words)
+            )
+    found = [max(found, key=lambda item: abs(item.value))] if found else []
+    return [item for item in found if item.value]
+
+
+def _not_judged() -> Headline:
+    return Headline(
+        "not_judged", "Not judged", math.nan, "1", text="one line lost, corrosion and wear, fatigue",
+        detail=(
+            "'lines_lost' of a study runs the structure with each line lost, 'assess' of a study judges corrosion and "
+            "fatigue; connectors between units and the holding of an anchor in its soil are not computed"
+        ),
+    )  # fmt: skip
 
 
 def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
@@ -351,7 +195,7 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
     if "maximum_excursion" in data:
         value, row = float(data["maximum_excursion"].values[0]), 0
         scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
-        band = _seeds(scatter)
+        band = seeds(scatter)
         detail = _slow_words(frequency)
     elif "largest_offset" in data:
         value, row = float(data["largest_offset"]), 0
@@ -450,41 +294,6 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
     height, level = least("metacentric_height")
     out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL))
     return out
-
-
-def _seeds(scatter: Array) -> Band | None:
-    """Return the band of realisations: they scatter about their mean, which is the number.
-
-    Criteria are judged at the end of the one-sided 95 % interval of that mean (Student), since few realisations leave
-    it uncertain.
-    """
-    if scatter.size < 2 or not np.isfinite(scatter).all():
-        return None
-    mean, reach = float(scatter.mean()), student_quantile(0.9, scatter.size - 1) * _standard_error(scatter)
-    of = f"{scatter.size} realisations; criteria at the 95 % end of their mean"
-    ends = (mean - reach, mean + reach)
-    return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
-
-
-def _standard_error(scatter: Array) -> float:
-    return float(np.std(scatter, ddof=1)) / math.sqrt(scatter.size)
-
-
-def _mean_of(scatter: Array) -> str:
-    if scatter.size < 2:
-        return ""
-    share = 100.0 * _standard_error(scatter) / float(scatter.mean())
-    return f"mean of the largest of {scatter.size} realisations, its standard error {share:.2g} %"
-
-
-def _kilonewton(force: float) -> str:
-    if abs(force) < 1e3:
-        return f"{force:.3g} N"
-    return f"{1e-3 * force:.0f} kN" if abs(force) >= 1e5 else f"{1e-3 * force:.3g} kN"
-
-
-def _confirmed(value: bool) -> str:
-    return "confirmed" if value else "not confirmed against it"
 
 
 __all__ = ["LinePeak", "governing_group", "headlines", "line_peaks", "place", "seas_of"]

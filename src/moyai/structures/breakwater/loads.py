@@ -16,8 +16,8 @@ Array = NDArray[np.float64]
 LEVELS = 41  # Simpson points over the draught for the current
 
 
-def steady_force(unit: FloatingUnit, environment: Environment) -> Array:
-    """Return the force of wind and current on the unit [eq:breakwater-steady-load].
+def steady_forces(unit: FloatingUnit, environment: Environment) -> tuple[Array, Array]:
+    """Return the forces of wind and of current on the unit [eq:breakwater-steady-load].
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def steady_force(unit: FloatingUnit, environment: Environment) -> Array:
 
     Returns
     -------
-    ndarray (3,)
+    wind, current : ndarray (3,)
         Sway force [N], heave force (zero) and roll moment about the centre of gravity [N m].
 
     Raises
@@ -34,20 +34,20 @@ def steady_force(unit: FloatingUnit, environment: Environment) -> Array:
     InputError
         When there is wind or current and its coefficient is missing.
     """
-    breakwater, total = unit.breakwater, np.zeros(3)
+    breakwater, of_wind, of_current = unit.breakwater, np.zeros(3), np.zeros(3)
     if environment.wind is not None and environment.wind.speed != 0.0:
         coefficient = _required(breakwater.wind_drag_coefficient, "wind_drag_coefficient", "wind")
         wind, freeboard = environment.wind, max(unit.freeboard, 0.0)
         normal = wind.speed * math.cos(wind.heading)
         force = 0.5 * wind.density * coefficient * breakwater.length * freeboard * abs(wind.speed) * normal
-        total += force * np.array([1.0, 0.0, 0.5 * freeboard - unit.centre[1]])
+        of_wind = force * np.array([1.0, 0.0, 0.5 * freeboard - unit.centre[1]])
     if environment.current is not None:
         coefficient = _required(breakwater.current_drag_coefficient, "current_drag_coefficient", "current")
         z = np.linspace(unit.section.bottom, min(0.0, unit.section.bounds[3]), LEVELS)
         normal_speed = np.asarray(environment.current.velocity(z), dtype=float)[..., 0]
         pressure = 0.5 * unit.water.density * coefficient * breakwater.length * np.abs(normal_speed) * normal_speed
-        total += np.array([_simpson(pressure, z), 0.0, _simpson(pressure * (z - unit.centre[1]), z)])
-    return total
+        of_current = np.array([_simpson(pressure, z), 0.0, _simpson(pressure * (z - unit.centre[1]), z)])
+    return of_wind, of_current
 
 
 def _required(value: float | None, name: str, load: str) -> float:

@@ -25,11 +25,12 @@ from moyai.structures.breakwater.hydrodynamics import (
     solve_unit,
     spectrum_band,
 )
-from moyai.structures.breakwater.loads import steady_force
+from moyai.structures.breakwater.loads import steady_forces
 from moyai.structures.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.structures.breakwater.screening import check_screening
 from moyai.structures.breakwater.sensitivity import sensitivity_datasets
 from moyai.structures.breakwater.statics import mooring_dataset, moving_shapes, statics_dataset
+from moyai.structures.breakwater.variables import labelled
 from moyai.structures.breakwater.viscous_damping import viscous_notices
 
 if TYPE_CHECKING:
@@ -106,7 +107,8 @@ def _level_steps(
     root = f"/{unit.name}"
     collected.groups[root] = _level_header(unit)
     collected.notices.extend((*unit.notices, *check_unit(unit)))
-    steady = steady_force(unit, problem.environment)
+    wind, current = steady_forces(unit, problem.environment)
+    steady = wind + current
     dynamic = "frequency" in analyses or "time" in analyses
     hydro: UnitHydrodynamics | None = None
     if dynamic or "statics" in analyses:
@@ -119,7 +121,8 @@ def _level_steps(
         yield
     if "statics" in analyses or dynamic:
         data, notices = statics_dataset(unit, hydro, steady)
-        collected.groups[f"{root}/statics"] = data
+        parts = {"steady_force_of_wind": ("dof", wind), "steady_force_of_current": ("dof", current)}
+        collected.groups[f"{root}/statics"] = labelled(data.assign(parts))
         collected.notices.extend(notices)
         yield
     if "mooring" in analyses and unit.lines:

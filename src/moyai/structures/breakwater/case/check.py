@@ -13,7 +13,7 @@ from moyai.case.schema_environment import PeriodRange
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, SpringLine
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.structures.breakwater.case.check_lines import check_chain_on_bed, count_panels
+from moyai.structures.breakwater.case.check_lines import across_the_hull, check_chain_on_bed, check_sides, count_panels
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -419,6 +419,7 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
     draught = unit.draught or _draught_of_mass(model, unit.hull, findings)
     if draught is None:
         return
+    check_sides(model, findings)
     places = {line.name: index for index, line in enumerate(model.lines)}
     said: set[tuple[str, str]] = set()
     chains_told: set[str] = set()
@@ -439,4 +440,9 @@ def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: E
                 path = (*path, _LINE_PLACES[notice.code])
             where = f" (water level {name})" if len(environment.water_levels) > 1 else ""
             record = findings.fault if notice.severity == "error" else findings.warn
-            record(path, f"line '{line}': {message}{where}", remedy=notice.remedy)
+            remedy, across = notice.remedy, across_the_hull(model.lines[places[line]])
+            if across and notice.severity == "error":
+                # What the line then does at rest follows from the side of its anchor
+                path, message = ("lines", places[line], "anchor"), f"{across}; {message}"
+                remedy = "check the sign of the anchor's x; a line meant to cross needs the length for it"
+            record(path, f"line '{line}': {message}{where}", remedy=remedy)

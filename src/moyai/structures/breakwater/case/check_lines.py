@@ -83,6 +83,39 @@ def check_chain_on_bed(
         )
 
 
+def across_the_hull(entry: Any) -> str:
+    """Say where a line runs whose anchor lies on the other side of the hull than its fairlead; empty for others.
+
+    Parameters
+    ----------
+    entry : block of ``lines``
+    """
+    fairlead, anchor = float(entry.fairlead.x), float(entry.anchor.x)
+    if fairlead * anchor >= 0.0:
+        return ""
+    return (
+        f"its fairlead is at x = {fairlead:.4g} m and its anchor at x = {anchor:.4g} m, on the other side of the hull, "
+        "so that it runs under the keel"
+    )
+
+
+def check_sides(model: Any, findings: Findings) -> None:
+    """Warn of anchors that all lie on one side: nothing then holds the unit against loads towards it."""
+    sides = {float(entry.anchor.x) > 0.0 for entry in model.lines if entry.anchor.x}
+    if len(sides) != 1:
+        return
+    towards = "+x" if sides.pop() else "-x"
+    crossing = [index for index, entry in enumerate(model.lines) if across_the_hull(entry)]
+    place = ("lines", crossing[0], "anchor") if crossing else ("lines",)
+    words = f"; line '{model.lines[crossing[0]].name}': {across_the_hull(model.lines[crossing[0]])}" if crossing else ""
+    findings.warn(
+        place,
+        f"all anchors lie on the side {towards} of the unit: no line holds it against loads towards {towards}{words}",
+        allowed="anchors on both sides",
+        remedy="check the sign of the anchor's x" if crossing else "add lines on the other side",
+    )
+
+
 def _begins_with_chain(entry: Any) -> bool:
     first = entry.segments[0]
     if isinstance(first, CatalogueSegment):

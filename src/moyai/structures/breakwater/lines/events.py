@@ -1,7 +1,8 @@
-"""Lines set in motion around the largest events of an irregular sea, where lines at rest at every instant do not serve.
+"""One event of an irregular sea with lines in motion, where lines at rest at every instant do not serve.
 
-The rerun starts from rest, shortly before the event, on the same waves; it lasts until the start is forgotten and the
-event has passed. The whole sea with lines in motion would take a hundred times longer.
+The rerun starts shortly before the event from the motion that the unit has with lines at rest, its lines at rest in
+that place, on the same waves. What the start leaves out is the motion of the lines themselves, which their drag takes
+away within a few waves. The whole sea with lines in motion would take a hundred times longer.
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ from numpy.typing import NDArray
 
 from moyai.core.progress import Progress, silent
 from moyai.floating.forcing import IrregularForcing
+from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
+from moyai.structures.breakwater.lines.motion import BodyStart, run_on_lines
 from moyai.structures.breakwater.model import MooringLine, TimeSettings
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_summary
@@ -25,10 +28,10 @@ from moyai.structures.breakwater.viscous_damping import in_moving_water
 
 Array = NDArray[np.float64]
 
-RAMP_PERIODS = 4.0  # of the waves, at the start of a window
-FORGOTTEN = math.log(20.0)  # the start of a window dies to a twentieth before its event
+SETTLING_PERIODS = 4.0  # peak periods from the start of a window to where it counts, at least
 MOST_LEAD = 600.0  # [s] from the start of a window to its event
 PERIODS_AROUND = 4.0  # peak periods before and after the event that count
+FADED = 12.0  # time constants of the slowest state of the memory that its start looks back over
 
 
 def with_lines_in_motion(model: FrequencyModel) -> FrequencyModel:
@@ -76,8 +79,8 @@ class EventSettings:
     settings : TimeSettings
     peak_period : float
         [s].
-    slow_omega, slow_damping : float
-        Natural frequency of sway [rad/s] and its damping over critical.
+    slow_period : float
+        Natural period of sway [s]; 0 where it is not known.
     """
 
     model: FrequencyModel
@@ -85,16 +88,13 @@ class EventSettings:
     expected: Array
     settings: TimeSettings
     peak_period: float
-    slow_omega: float
-    slow_damping: float
+    slow_period: float
 
     @property
     def lead(self) -> float:
         """Time from the start of a window to its event [s]."""
-        forget = 0.0
-        if self.slow_omega > 0.0 and math.isfinite(self.slow_omega):
-            forget = FORGOTTEN / (max(self.slow_damping, 0.01) * self.slow_omega)
-        return min(RAMP_PERIODS * self.peak_period + max(forget, 6.0 * self.peak_period), MOST_LEAD)
+        slow = self.slow_period if math.isfinite(self.slow_period) else 0.0
+        return min(PERIODS_AROUND * self.peak_period + max(slow, SETTLING_PERIODS * self.peak_period), MOST_LEAD)
 
 
 def run_event(
@@ -103,9 +103,10 @@ def run_event(
     sea: SeaOfRun,
     whole: Simulation,
     line: int,
+    event: float,
     progress: Progress = silent,
 ) -> TimeRun:
-    """Run the unit on lines in motion around the largest tension of one line.
+    """Run the unit on lines in motion around an event.
 
     Parameters
     ----------
@@ -117,19 +118,19 @@ def run_event(
     whole : Simulation
         The realisation with lines at rest at every instant.
     line : int
-        Whose largest tension is the event.
+        Whose tension the event is.
+    event : float
+        Its time in the realisation [s].
     progress : Progress
     """
-    from moyai.structures.breakwater.lines.motion import run_on_lines
-
     model = with_lines_in_motion(given.model)
-    kept = whole.time >= sea.begin
-    event = float(whole.time[kept][int(np.argmax(whole.tension[kept, line]))])
-    start = max(event - given.lead, 0.0)
+    row = int(np.searchsorted(whole.time, event - given.lead))
+    # An event soon after the ramp of the sea is run from the beginning, ramp included
+    row = row if whole.time[row] >= sea.ramp else 0
+    start, ramp = float(whole.time[row]), 0.0 if row else sea.ramp
     around = PERIODS_AROUND * given.peak_period
     duration = min(event + around, float(whole.time[-1])) - start
     begin = max(event - start - around, 0.0)
-    ramp = RAMP_PERIODS * given.peak_period
     turned = replace(forcing, amplitude=forcing.amplitude * np.exp(-1j * forcing.omega * start), ramp=ramp)
     waves = sea.waves
     if waves is not None:
@@ -141,12 +142,26 @@ def run_event(
         model, given.cummins, moved, given.expected, given.settings.lines,
         static_lines=compiled_lines(unit, reach, at_rest_only=True), waves=waves, current=sea.current, ramp=ramp,
         duration=duration, time_step=given.settings.time_step, begin=begin, period=given.peak_period, progress=progress,
+        start=_motion_at(given.cummins, whole, row),
     )  # fmt: skip
     attributes = {
         "kind": "irregular", "ramp": ramp, "analysis_start": begin, "starts_at": start, "event": event,
         "line": given.model.unit.lines[line].name,
     }  # fmt: skip
     return TimeRun("event", moving, attributes, lines, _part(whole, start, duration))
+
+
+def _motion_at(cummins: CumminsModel, whole: Simulation, row: int) -> BodyStart | None:
+    """Return the motion of the unit at a row of its run with lines at rest; ``None`` at the beginning."""
+    memory = cummins.memory
+    if row == 0:
+        return None
+    assert isinstance(memory, StateSpaceMemory)
+    slowest = float(np.min(-memory.poles.real)) if len(memory.poles) else math.inf
+    # What lies further back has faded from the slowest state
+    first = int(np.searchsorted(whole.time, whole.time[row] - FADED / max(slowest, 1e-12)))
+    states = memory.states_after(whole.time[first : row + 1], whole.velocity[first : row + 1])
+    return BodyStart(whole.position[row], whole.velocity[row], states)
 
 
 def event_numbers(model: FrequencyModel, run: TimeRun) -> dict[str, Array]:

@@ -148,6 +148,23 @@ class LinesInMotion:
         return xr.Dataset({key: ("contact", table[:, column]) for column, key in enumerate(keys)})
 
 
+@dataclass(frozen=True, eq=False)
+class BodyStart:
+    """Motion of the unit that a run starts from.
+
+    Parameters
+    ----------
+    position, velocity : ndarray (3,)
+        Relative to rest.
+    memory : ndarray (poles,)
+        States of the memory of the water.
+    """
+
+    position: Array
+    velocity: Array
+    memory: NDArray[np.complex128]
+
+
 def _thinned_peaks(peak: Array, every: int) -> Array:
     """Return the highest values since the kept row before."""
     if every == 1:
@@ -177,6 +194,7 @@ def run_on_lines(
     begin: float,
     period: float,
     progress: Progress = silent,
+    start: BodyStart | None = None,
 ) -> tuple[Simulation, LinesInMotion]:
     """Simulate the unit on lines in motion.
 
@@ -201,6 +219,8 @@ def run_on_lines(
     period : float
         Of the waves [s].
     progress : Progress
+    start : BodyStart or None
+        Motion to start from, the lines at rest in its place; all at rest when left out.
     """
     unit = model.unit
     lines = line_network(unit, dynamics)
@@ -215,14 +235,27 @@ def run_on_lines(
         notices.append(notice)
     step = forcing.fitted_step(step)
     rows = math.ceil(duration / step - 1e-9)
-    history, carrier = _run(unit, lines, body, forcing, waves, current, ramp, step, rows, None, progress)
+    history, carrier = _run(unit, lines, body, forcing, waves, current, ramp, step, rows, None, progress, start)
     simulation = _simulation(unit, lines, history, carrier, static_lines, tuple(notices))
     found = _lines_in_motion(unit, lines, history, simulation, dynamics, begin, period)
     if dynamics.sensitivity and simulation.status == "converged":
         found = replace(
             found,
             sensitivity=_sensitivity(
-                model, body, forcing, dynamics, waves, current, ramp, step, rows, history, found, begin, progress
+                model,
+                body,
+                forcing,
+                dynamics,
+                waves,
+                current,
+                ramp,
+                step,
+                rows,
+                history,
+                found,
+                begin,
+                progress,
+                start,
             ),
         )
     return simulation, found
@@ -259,6 +292,7 @@ def _run(
     rows: int,
     network_step: float | None,
     progress: Progress,
+    start: BodyStart | None = None,
 ) -> tuple[CoupledHistory, PlanarCarrier]:
     names, copies = lines.names, {line.name: line.count for line in lines.lines}
     points = {line.name: np.asarray(line.fairlead, dtype=float) for line in lines.lines}
@@ -270,10 +304,16 @@ def _run(
         unit.name, model, forcing, duration=(rows + 2) * step, points=points, copies=copies,
         centre_at_rest=(unit.centre[0], 0.0, unit.centre[1]), reaction_at_rest=rest,
     )  # fmt: skip
+    state = lines.rest.state
+    if start is not None:
+        planar = replace(
+            planar, initial_position=start.position, initial_velocity=start.velocity, initial_memory=start.memory
+        )
+        state = lines.carried_along(planar.points_at_start)
     carrier = planar.carrier(unit.water)
     flow = sea_of_lines(waves, current, ramp, lines.rest.state.position, (rows + 1) * step, step)
     history = simulate_coupled(
-        lines.network, {unit.name: planar}, duration=rows * step, output_step=step, flow=flow, start=lines.rest.state,
+        lines.network, {unit.name: planar}, duration=rows * step, output_step=step, flow=flow, start=state,
         body_step=step, step=network_step, carriers={unit.name: carrier}, progress=progress,
     )  # fmt: skip
     assert set(names) == set(planar.points)
@@ -378,6 +418,7 @@ def _sensitivity(
     found: LinesInMotion,
     begin: float,
     progress: Progress,
+    start: BodyStart | None = None,
 ) -> dict[str, Array]:
     """Repeat the run with twice the bars, half the step and twice the internal damping; return what the peak does."""
     unit = model.unit
@@ -395,7 +436,7 @@ def _sensitivity(
         if changed.bars != dynamics.bars:
             lines = line_network(unit, replace(changed, damping_ratio=2.0 * dynamics.damping_ratio))
             assert lines is not None
-        other, _ = _run(unit, lines, body, forcing, waves, current, ramp, step, rows, network_step, progress)
+        other, _ = _run(unit, lines, body, forcing, waves, current, ramp, step, rows, network_step, progress, start)
         change = np.full(len(unit.lines), np.nan)
         for column, line in zip(lines.index, lines.names, strict=True):
             record, size = other.network, other.time.size

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from moyai.coupled.rest import point_pulls
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import BarType, Bed, Network, Strand
+from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.mooring.lines import Line
 from moyai.mooring.shape import line_shape
@@ -84,6 +86,36 @@ class LineNetwork:
             rise = 0.5 * (position[:, high, 2] - position[:, low, 2])
             ends.append(np.maximum(tension[:, bar] + sign * weight * rise, 0.0))
         return ends[0], ends[1]
+
+    def carried_along(self, places: Mapping[str, Array]) -> State:
+        """Return the lines at rest with their fairleads moved to other places.
+
+        Parameters
+        ----------
+        places : mapping of str to ndarray (3,)
+            Of the fairleads, in site axes [m].
+
+        Raises
+        ------
+        InputError
+            When the lines find no rest there.
+        """
+        nodes, position = self.network.nodes, np.array(self.network.nodes.position)
+        guess = np.array(self.rest.state.position)
+        for name, place in places.items():
+            strand = self.strand(name)
+            shift = np.asarray(place, dtype=float) - position[strand.nodes[-1]]
+            # first guess: the line follows its fairlead in proportion to the way from its anchor
+            guess[strand.nodes] += np.linspace(0.0, 1.0, strand.nodes.size)[:, None] * shift
+            position[strand.nodes[-1]] = place
+        moved = replace(self.network, nodes=replace(nodes, position=position))
+        try:
+            found = solve_equilibrium(moved, start=State(0.0, guess, np.zeros_like(guess)))
+        except ConvergenceError as error:
+            raise InputError(
+                f"the lines in motion find no rest: {error.fault.message}", path="lines", remedy=error.fault.remedy
+            ) from error
+        return State(0.0, found.state.position, np.zeros_like(guess))
 
     def tension_at_rest(self) -> Array:
         """Return the tension at the fairlead of each line at rest [N]."""

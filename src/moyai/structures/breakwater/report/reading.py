@@ -15,6 +15,7 @@ from moyai.report.reading import Group
 Array = NDArray[np.float64]
 
 MODES = ("sway", "heave", "roll")
+SNAP_RATIO = 5.0  # as moyai.structures.breakwater.responses has it: lines at rest serve up to so many times the mean
 DOMAIN_WORDS = {"frequency": "frequency domain", "time": "time domain"}
 LEVEL_GROUPS = ("statics", "mooring", "hydrodynamics", "rao", "frequency", "time", "sensitivity")
 
@@ -102,7 +103,8 @@ class SeaNumbers:
     """Governing numbers of one sea state at one water level in one domain; NaN where not known.
 
     Tensions in N, offsets and motions in m and rad. For regular waves each is the largest over the periods, with the
-    period [s] at which it occurs.
+    period [s] at which it occurs. ``beyond_range`` is the largest tension over the mean where a chain at rest at every
+    instant passes its range.
     """
 
     level: str
@@ -123,6 +125,7 @@ class SeaNumbers:
     drift: float = math.nan
     overtopping: float = math.nan
     significant_height: float = math.nan
+    beyond_range: float = math.nan
 
     @property
     def utilisation(self) -> float:
@@ -166,7 +169,30 @@ def sea_numbers(level: Level, sea: Sea, domain: str) -> SeaNumbers | None:
         drift=_largest(group, ("mean_drift_force",)),
         overtopping=_largest(group, ("overtopping_share",)),
         significant_height=group.value("significant_height"),
+        beyond_range=_beyond_range(level, group, domain),
     )
+
+
+def ratios_beyond_range(level: Level, group: Group, domain: str) -> Array | None:
+    """Return largest over mean tension ((periods,) lines) where lines at rest pass their range, NaN elsewhere."""
+    largest, mean = group.variable("maximum_tension"), group.variable("mean_tension")
+    if largest is None or mean is None:
+        return None
+    length = level.group.child("statics").real("unstretched_length", "line")
+    moving = group.variable("lines_in_motion")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.asarray(largest.values / mean.values, dtype=float)
+    passing = ratio > SNAP_RATIO
+    if length is not None:
+        passing &= np.isfinite(length)  # springs have no range
+    if domain == "time" and moving is not None:
+        passing &= np.asarray(moving.values) != 1
+    return np.where(passing, ratio, math.nan)
+
+
+def _beyond_range(level: Level, group: Group, domain: str) -> float:
+    found = ratios_beyond_range(level, group, domain)
+    return float(np.nanmax(found)) if found is not None and np.isfinite(found).any() else math.nan
 
 
 def _largest(group: Group, names: tuple[str, ...], absolute: bool = True, **choice: str) -> float:

@@ -12,7 +12,15 @@ from moyai.report.document import Column, Table
 from moyai.report.formatting import display_unit
 from moyai.report.reading import Group
 from moyai.structures.breakwater.report.figures import key
-from moyai.structures.breakwater.report.reading import DOMAIN_WORDS, MODES, Level, Sea, SeaNumbers, breaking_loads
+from moyai.structures.breakwater.report.reading import (
+    DOMAIN_WORDS,
+    MODES,
+    Level,
+    Sea,
+    SeaNumbers,
+    breaking_loads,
+    ratios_beyond_range,
+)
 
 Array = NDArray[np.float64]
 
@@ -42,6 +50,18 @@ def useful_table(
     return Table(name, title, tuple(kept), note, emphasised, collapsed=collapsed)
 
 
+def range_words(ratio: float) -> str:
+    """Say that a tension is out of the range of lines at rest; empty where it is not."""
+    return f"OUT OF RANGE: {ratio:.1f} times the mean" if math.isfinite(ratio) else ""
+
+
+def sway_words(domain: str, regular: bool) -> str:
+    """Say which parts a motion about its mean holds."""
+    if regular:
+        return "waves"
+    return "waves and slow drift" if domain == "time" else "waves alone"
+
+
 def governing_tables(numbers: tuple[SeaNumbers, ...], governs: SeaNumbers | None) -> tuple[Table, ...]:
     """Governing numbers of every water level, sea state and domain, the decisive row in bold."""
     many_levels = len({entry.level for entry in numbers}) > 1
@@ -64,6 +84,7 @@ def governing_tables(numbers: tuple[SeaNumbers, ...], governs: SeaNumbers | None
         [
             *heads,
             column("Largest tension", [entry.tension for entry in numbers], "N", uniform=False),
+            Column("Range of the line model", [range_words(entry.beyond_range) for entry in numbers]),
             Column("Line", [entry.line for entry in numbers]),
             column("at T", [entry.tension_period for entry in numbers], "s"),
             column("Utilisation", [100.0 * entry.utilisation for entry in numbers], "%", uniform=False),
@@ -83,6 +104,7 @@ def governing_tables(numbers: tuple[SeaNumbers, ...], governs: SeaNumbers | None
         [
             *heads,
             column("Sway", motion("sway"), "m"),
+            Column("Sway holds", [sway_words(entry.domain, entry.regular) for entry in numbers]),
             column("Heave", motion("heave"), "m"),
             column("Roll", motion("roll"), "rad"),
             column("Transmission K_T", [entry.transmission for entry in numbers]),
@@ -297,11 +319,17 @@ def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table
                 for number, line in enumerate(group.labels("line"))
             ]
             break
+    ratios = ratios_beyond_range(level, group, domain)
+    outside = None if ratios is None or not np.isfinite(ratios).any() else np.atleast_2d(ratios)
+    if outside is not None:
+        worst = [float(np.nanmax(row)) if np.isfinite(row).any() else math.nan for row in outside]
+        columns.append(Column("Range of the line model", [range_words(value) for value in worst]))
     return useful_table(
         key(level, sea.name, domain, "motions"),
         f"Motions and tensions in regular waves, {DOMAIN_WORDS[domain]}",
         columns,
-        note="Amplitudes of the motions; tension of one line at its fairlead.",
+        note="Amplitudes of the motions about the mean; tension of one line at its fairlead."
+        + ("" if outside is None else " OUT OF RANGE: lines at rest, largest tension over the mean."),
         collapsed=folded,
     )
 
@@ -333,7 +361,8 @@ def _domains(sea: Sea) -> list[tuple[str, Group]]:
 
 def irregular_motions(level: Level, sea: Sea) -> Table | None:
     """Motions of an irregular sea, a row for each mode and domain."""
-    rows = [(mode, words, group) for mode in MODES for words, group in _domains(sea)]
+    holds = {"frequency": sway_words("frequency", False), "time": sway_words("time", False)}
+    rows = [(mode, f"{words}: {holds[words]}", group) for mode in MODES for words, group in _domains(sea)]
 
     def column(name: str, label: str) -> Column:
         return Column(
@@ -353,7 +382,8 @@ def irregular_motions(level: Level, sea: Sea) -> Table | None:
             column("maximum_motion", "Maximum of the run"),
         ],
         always=3,
-        note="Mean from rest; maxima are single amplitudes from the mean.",
+        note="Mean from rest; maxima are single amplitudes from the mean. Slow drift is in the motions in time "
+        "and not in those of the frequency domain, which tells it apart as a standard deviation.",
     )
 
 
@@ -370,6 +400,10 @@ def irregular_tensions(level: Level, sea: Sea) -> Table | None:
         found = [(group.real(name, "line"), number) for number, _, group in rows]
         return [math.nan if table is None or number >= table.size else float(table[number]) for table, number in found]
 
+    outside = []
+    for number, words, group in rows:
+        ratios = ratios_beyond_range(level, group, words)
+        outside.append(range_words(math.nan if ratios is None else float(np.ravel(ratios)[number])))
     probable, largest = values("most_probable_maximum_tension"), values("maximum_tension")
     loads = breaking_loads(level)
     broken = [loads.get(names[number], math.nan) for number, _, _ in rows]
@@ -384,6 +418,7 @@ def irregular_tensions(level: Level, sea: Sea) -> Table | None:
             Column("Significant, double amplitude", values("significant_tension"), "N"),
             Column("Most probable maximum, waves alone", probable, "N"),
             Column("Largest", largest, "N"),
+            Column("Range of the line model", outside),
             Column("Breaking load", broken, "N"),
             Column("Utilisation", [100.0 * t / load for t, load in zip(decisive, broken, strict=True)], "%"),
         ],

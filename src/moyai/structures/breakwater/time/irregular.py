@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.core.errors import InputError
+from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -23,8 +23,9 @@ from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import SECTOR
-from moyai.structures.breakwater.lines.events import EventSettings, event_numbers, movable, out_of_range, run_event
+from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range
 from moyai.structures.breakwater.lines.motion import has_dynamic_lines
+from moyai.structures.breakwater.lines.search import MOST_EVENTS, EventsInMotion, Realisation, events_in_motion
 from moyai.structures.breakwater.memory_model import UnitMemory
 from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, MODES, IrregularSea, TimeSettings
 from moyai.structures.breakwater.responses import SNAP_RATIO, anchor_loads, snap_notices
@@ -60,17 +61,6 @@ class _Sea:
         return 2.0 * math.pi / float(self.sea.spectrum.peak_omega)
 
 
-@dataclass(frozen=True)
-class _Realisation:
-    """One realisation with its numbers."""
-
-    seed: int
-    run: TimeRun
-    forcing: IrregularForcing
-    around: SeaOfRun
-    summary: xr.Dataset
-
-
 def irregular_sea(
     model: FrequencyModel,
     memory: UnitMemory,
@@ -97,7 +87,7 @@ def irregular_sea(
     unit = model.unit
     shared = _shared(model, memory, sea, frequency, settings, current)
     wanted = settings.realisations or (1 if has_dynamic_lines(unit) else DEFAULT_REALISATIONS)
-    members: list[_Realisation] = []
+    members: list[Realisation] = []
     status, notices = "converged", []
     for number in range(wanted):
         progress(f"realisations, {unit.name}, {sea.name}", number, wanted)
@@ -171,7 +161,7 @@ def _shared(
     return _Sea(model, sea, settings, cummins, expected, ramp, law, current)
 
 
-def _realisation(shared: _Sea, seed: int, progress: Progress) -> _Realisation:
+def _realisation(shared: _Sea, seed: int, progress: Progress) -> Realisation:
     model, sea, ramp = shared.model, shared.sea, shared.ramp
     unit, duration = model.unit, shared.sea.duration + shared.ramp
     components = synthesise(
@@ -209,16 +199,16 @@ def _realisation(shared: _Sea, seed: int, progress: Progress) -> _Realisation:
         progress,
     )  # fmt: skip
     summary = _irregular_summary(unit, run, sea, float(forcing.mean_drift()[0]), ramp)
-    return _Realisation(seed, run, forcing, around, summary)
+    return Realisation(seed, run, forcing, around, summary)
 
 
 def _lines_in_motion(
-    shared: _Sea, members: list[_Realisation], frequency: xr.Dataset, progress: Progress
-) -> tuple[list[_Realisation], list[TimeRun], NDArray[np.bool_], tuple[Notice, ...]]:
-    """Set lines in motion around the largest event of every realisation where lines at rest do not serve.
+    shared: _Sea, members: list[Realisation], frequency: xr.Dataset, progress: Progress
+) -> tuple[list[Realisation], list[TimeRun], NDArray[np.bool_], tuple[Notice, ...]]:
+    """Set lines in motion around the largest events of every realisation where lines at rest do not serve.
 
-    The line of the highest utilisation comes first; another follows only while its peak with lines at rest is higher
-    than what was found, since it could govern.
+    The line of the highest utilisation comes first. Of every other line that is out of its range the largest event of
+    each realisation is rerun, and more only where they could govern.
     """
     unit, moved = shared.model.unit, np.zeros(len(shared.model.unit.lines), dtype=bool)
     tension = np.array([one.summary.maximum_tension.values for one in members])
@@ -229,50 +219,54 @@ def _lines_in_motion(
         told = f"{unit.name}, {shared.sea.name}: lines in motion need the memory of the water as states"
         remedy = "give structure.gap_damping_lid where water resonates between hulls, or memory: state_space"
         return members, [], moved, (Notice("lines-stay-at-rest", told, remedy=remedy),)
-    known = "slow_sway_period" in frequency
-    given = EventSettings(
-        shared.model, shared.cummins, shared.expected, shared.settings, shared.peak_period,
-        2.0 * math.pi / float(frequency.slow_sway_period) if known else 0.0,
-        float(frequency.slow_sway_damping_ratio) if known else 0.0,
-    )  # fmt: skip
+    period = float(frequency.slow_sway_period) if "slow_sway_period" in frequency else 0.0
+    given = EventSettings(shared.model, shared.cummins, shared.expected, shared.settings, shared.peak_period, period)
     loads = np.array([line.breaking_load for line in unit.lines])
     rank = tension.mean(axis=0) / np.where(np.isfinite(loads), loads, 1.0)
     shown: list[TimeRun] = []
-    best = -math.inf
+    best, counts, still_open = -math.inf, [], 0
     for line in sorted(np.flatnonzero(passing & movable(unit)), key=lambda number: -rank[number]):
-        if rank[line] <= best:
-            break
-        found: list[TimeRun] = []
-        for number, one in enumerate(members):
-            progress(f"lines in motion, {unit.name}, {shared.sea.name}", number, len(members))
-            try:
-                event = run_event(given, one.forcing, one.around, one.run.simulation, int(line), progress)
-            except InputError as error:
-                told = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
-                return members, shown, moved, (Notice("lines-stay-at-rest", told, remedy=error.fault.remedy),)
-            if event.simulation.status == "interrupted":
-                raise KeyboardInterrupt
-            if event.simulation.status != "converged":
-                told = f"{unit.name}, {shared.sea.name}: lines in motion: {event.simulation.message}"
-                return members, shown, moved, (Notice("lines-stay-at-rest", told),)
-            found.append(replace(event, attributes={**event.attributes, "seed": one.seed}))
+        load = float(loads[line]) if math.isfinite(loads[line]) else 1.0
+        try:
+            found = events_in_motion(given, members, int(line), max(best, 0.0) * load, progress)
+        except (InputError, ConvergenceError) as error:
+            told = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
+            return members, shown, moved, (Notice("lines-stay-at-rest", told, remedy=error.fault.remedy),)
         moved[line] = True
-        members = [_with_event(shared.model, one, run, int(line)) for one, run in zip(members, found, strict=True)]
-        now = float(np.mean([one.summary.maximum_tension.values[line] for one in members]))
-        value = now / (float(loads[line]) if math.isfinite(loads[line]) else 1.0)
+        members = [_with_events(shared.model, one, item, int(line)) for one, item in zip(members, found, strict=True)]
+        counts += [item.count for item in found]
+        highest = [max(float(item.numbers["maximum_tension"][line]), max(best, 0.0) * load) for item in found]
+        still_open += sum(item.bound > value for item, value in zip(found, highest, strict=True))
+        now = float(np.mean([item.bound for item in found]))
+        value = now / load
         if value > best:
-            best, shown = value, found
+            best = value
+            shown = [
+                replace(item.run, attributes={**item.run.attributes, "seed": one.seed})
+                for item, one in zip(found, members, strict=True)
+            ]
     names = ", ".join(line.name for line, there in zip(unit.lines, moved, strict=True) if there)
     told = (
         f"{unit.name}, {shared.sea.name}: peaks of line {names} pass {SNAP_RATIO:g} times the mean with lines at rest "
-        f"at every instant; they were run in motion over {given.lead:.0f} s up to the largest event of each realisation"
+        f"at every instant; {min(counts)} to {max(counts)} events of each realisation were run in motion, over "
+        f"{given.lead:.0f} s up to each, until the next could not pass the largest"
     )
-    return members, shown, moved, (Notice("lines-set-in-motion", told, severity="information"),)
+    notices = [Notice("lines-set-in-motion", told, severity="information")]
+    if still_open:
+        told = (
+            f"{unit.name}, {shared.sea.name}: in {still_open} searches of {len(counts)} the limit of {MOST_EVENTS} "
+            "events ended the reruns; the tension is judged at the bound that the next event leaves open"
+        )
+        notices.append(Notice("events-left-open", told, value=still_open, limit=0.0))
+    return members, shown, moved, tuple(notices)
 
 
-def _with_event(model: FrequencyModel, one: _Realisation, run: TimeRun, line: int) -> _Realisation:
-    """Put the numbers of an event of one line in the place of those with lines at rest."""
-    data, numbers = one.summary.copy(), event_numbers(model, run)
+def _with_events(model: FrequencyModel, one: Realisation, found: EventsInMotion, line: int) -> Realisation:
+    """Put the numbers of the events of one line in the place of those with lines at rest."""
+    data, numbers = one.summary.copy(), dict(found.numbers)
+    count = len(model.unit.lines)
+    numbers["events_in_motion"] = np.full(count, float(found.count))
+    numbers["maximum_tension_bound"] = np.full(count, found.bound)
     for name, values in numbers.items():
         given = data[name].values.copy() if name in data else np.full(values.shape, np.nan)
         given[line] = values[line]
@@ -285,7 +279,7 @@ def _with_event(model: FrequencyModel, one: _Realisation, run: TimeRun, line: in
     return replace(one, summary=data)
 
 
-def _gathered(unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np.bool_]) -> tuple[xr.Dataset, int]:
+def _gathered(unit: FloatingUnit, members: list[Realisation], moved: NDArray[np.bool_]) -> tuple[xr.Dataset, int]:
     """Return means over the realisations with what each gave, and the number of the one whose record is kept.
 
     The kept record is that whose largest tension of the governing line (without lines: largest sway) is nearest to the
@@ -312,7 +306,8 @@ def _gathered(unit: FloatingUnit, members: list[_Realisation], moved: NDArray[np
         if name in data:
             out[name] = data[name].isel(member=shown)
     still = lines_at_rest(unit) & ~moved
-    for name in ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension"):
+    names = ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension", "maximum_tension_bound")
+    for name in names:
         if name in data:
             out[f"{name}_of_realisation"] = (("member", "line"), data[name].values)
     return out.assign(

@@ -1,0 +1,361 @@
+"""The numbers of the first page that lines and anchors give: what governs, what is not known, what they need."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.headline import Band, Headline
+from moyai.mooring.anchors import gravity_anchor_weight
+from moyai.series.intervals import student_quantile
+from moyai.structures.breakwater.responses import SNAP_RATIO
+from moyai.tables.design_codes import anchor_factor, holding_data
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+IN_MOTION = "time domain, lines in motion"
+AT_REST = "time domain, lines at rest at every instant"
+FREQUENCY = "frequency domain, waves and slow drift"
+FIRST_ORDER = "frequency domain, regular waves"
+STILL = "at rest, no waves run"
+SINKER = ("concrete", "sand")  # for which the weight of a sinker is shown
+
+
+@dataclass(frozen=True)
+class LinePeak:
+    """Largest tension of one kind of line in one sea at one water level, by the model that governs there; SI units.
+
+    ``known`` is false where the model is out of its range and no better one was run. ``bound`` is what the reruns of
+    events leave open in each realisation (the largest tension itself where they leave nothing open).
+    """
+
+    level: str
+    sea: str
+    line: str
+    period: float
+    tension: float
+    mean: float
+    breaking_load: float
+    vertical: float
+    horizontal: float
+    grounded: float
+    model: str
+    known: bool
+    scatter: Array
+    vertical_scatter: Array
+    horizontal_scatter: Array
+    bound: Array
+
+    @property
+    def analysis(self) -> str:
+        """What design codes call the analysis."""
+        return "dynamic" if self.model == IN_MOTION else "quasi_static"
+
+    @property
+    def utilisation(self) -> float:
+        """Tension over breaking load, NaN where that is not given."""
+        return self.tension / self.breaking_load if self.breaking_load > 0.0 else math.nan
+
+    @property
+    def rank(self) -> float:
+        """What governs: utilisation, or tension where no breaking load is given."""
+        return self.utilisation if math.isfinite(self.utilisation) else self.tension * 1e-12
+
+    @property
+    def where(self) -> str:
+        """Water level, sea, period and line in words."""
+        return f"{place(self.level, self.sea, self.period)}, line {self.line}"
+
+
+def place(level: str, sea: str, period: float = math.nan) -> str:
+    """Return water level, sea state and wave period in words."""
+    return f"{level}, {sea}" + (f", T = {period:.3g} s" if math.isfinite(period) else "")
+
+
+def seas_of(groups: Mapping[str, xr.Dataset], level: str) -> tuple[str, ...]:
+    """Return the sea states that were run at a water level."""
+    heads = (f"/{level}/frequency/", f"/{level}/time/")
+    names = [path.removeprefix(head) for path in groups for head in heads if path.startswith(head)]
+    return tuple(dict.fromkeys(name for name in names if "/" not in name))
+
+
+def governing_group(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> tuple[str, xr.Dataset] | None:
+    """Return the domain and numbers that govern a sea: the time domain where it came to an end."""
+    time, frequency = groups.get(f"/{level}/time/{sea}"), groups.get(f"/{level}/frequency/{sea}")
+    if time is not None and time.attrs.get("status") == "converged" and "maximum_tension" in time:
+        return "time", time
+    return None if frequency is None else ("frequency", frequency)
+
+
+def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
+    """Return the largest tension of every kind of line in every sea at a water level."""
+    found: list[LinePeak] = []
+    statics = groups.get(f"/{level}/statics")
+    for sea in seas_of(groups, level):
+        chosen = governing_group(groups, level, sea)
+        if chosen is None or statics is None or "breaking_load" not in statics or "maximum_tension" not in chosen[1]:
+            continue
+        domain, data = chosen
+        for number, line in enumerate(data["line"].values):
+            chain = bool(np.isfinite(statics["unstretched_length"].values[number]))
+            load = float(statics["breaking_load"].values[number])
+            peak = _line_peak(domain, data, level, sea, str(line), number, load, chain)
+            if peak is not None:
+                found.append(peak)
+    return found
+
+
+def _line_peak(
+    domain: str, data: xr.Dataset, level: str, sea: str, line: str, number: int, load: float, chain: bool
+) -> LinePeak | None:
+    table = np.atleast_2d(data["maximum_tension"].values)[:, number]
+    if not np.isfinite(table).any():
+        return None
+    row = int(np.nanargmax(table))
+
+    def of(name: str) -> float:
+        return float(np.atleast_2d(data[name].values)[row, number]) if name in data else math.nan
+
+    regular = "period" in data.dims
+    moving = of("lines_in_motion") == 1.0
+
+    def scatter_of(name: str) -> Array:
+        name = f"{name}_of_realisation"
+        return np.asarray(data[name].values[:, number], dtype=float) if name in data else np.zeros(0)
+
+    scatter = scatter_of("maximum_tension")
+    model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
+    mean = of("mean_tension")
+    highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
+    # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
+    known = moving or not chain or highest <= SNAP_RATIO * mean
+    return LinePeak(
+        level, sea, line, float(data["period"].values[row]) if regular else math.nan, float(table[row]), mean, load,
+        of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
+        model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
+        scatter_of("maximum_anchor_horizontal_tension"),
+        scatter_of("maximum_tension_bound") if moving else scatter,
+    )  # fmt: skip
+
+
+def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
+    highest = max(peaks, key=lambda peak: peak.rank)
+    if not highest.known:
+        return [
+            Headline(name, label, math.nan, unit, highest.where, highest.model, detail=_beyond(highest),
+                     text="not known", analysis=highest.analysis)
+            for name, label, unit in (
+                ("line_tension", "Largest line tension", "N"),
+                ("line_utilisation", "Utilisation of the breaking load", "1"),
+            )
+        ]  # fmt: skip
+    also = _other_level(highest, peaks)
+    tension = Headline(
+        "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
+        band=seeds(highest.scatter, highest.bound),
+        detail="; ".join(part for part in (_mean_of(highest.scatter), _open(highest), also) if part),
+        analysis=highest.analysis,
+    )  # fmt: skip
+    load = highest.breaking_load
+    unknown = [
+        Headline(item.name, item.label, math.nan, item.unit, peak.where, peak.model, text=f"{peak.where}: not known, "
+                 + _beyond(peak), shown=False, analysis=peak.analysis)
+        for peak in peaks
+        if not peak.known
+        for item in (tension, replace(tension, name="line_utilisation", label="Utilisation of the breaking load",
+                                      unit="1"))
+    ]  # fmt: skip
+    if not load > 0.0:
+        return [
+            tension,
+            Headline("line_utilisation", "Utilisation of the breaking load", math.nan, "1", highest.where,
+                     highest.model, detail="breaking load not given in the case"),
+            *unknown,
+        ]  # fmt: skip
+    share = _utilisation(highest)
+    # Codes ask another factor of each analysis: the highest of the other one is judged too
+    others = [peak for peak in peaks if peak.known and peak.analysis != highest.analysis and peak.breaking_load > 0.0]
+    hidden = [replace(_utilisation(max(others, key=lambda peak: peak.rank)), shown=False)] if others else []
+    return [tension, share, *hidden, *unknown]
+
+
+def _utilisation(peak: LinePeak) -> Headline:
+    load = peak.breaking_load
+    return Headline(
+        "line_utilisation", "Utilisation of the breaking load", peak.utilisation, "1", peak.where, peak.model,
+        band=seeds(peak.scatter / load, peak.bound / load),
+        detail=f"breaking load {kilonewton(load)}, no corrosion or wear taken off", mean=peak.mean / load,
+        analysis=peak.analysis,
+    )  # fmt: skip
+
+
+def _beyond(peak: LinePeak) -> str:
+    ratio = peak.tension / peak.mean if peak.mean > 0.0 else math.inf
+    return (
+        f"lines at rest give {kilonewton(peak.tension)}, {ratio:.1f} times the mean, beyond their range of "
+        f"{SNAP_RATIO:g}; run the time domain with lines in motion"
+    )
+
+
+def _open(peak: LinePeak) -> str:
+    """Say what the reruns of events leave open."""
+    if not (peak.bound.size and peak.bound.mean() > peak.scatter.mean() * (1.0 + 1e-9)):
+        return ""
+    return f"events that were not rerun could raise it to {kilonewton(float(peak.bound.mean()))}, where it is judged"
+
+
+def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:
+    """Say which water levels give the same within the scatter of the realisations."""
+    if highest.scatter.size < 2:
+        return ""
+    alike: dict[str, float] = {}
+    for peak in peaks:
+        if peak.level == highest.level or peak.sea != highest.sea or peak.scatter.size < 2 or not peak.known:
+            continue
+        spread = math.hypot(_reach(highest.scatter), _reach(peak.scatter))
+        if highest.tension - peak.tension < spread:
+            alike[peak.level] = max(peak.tension, alike.get(peak.level, 0.0))
+    if not alike:
+        return ""
+    words = ", ".join(f"{level} ({kilonewton(value)})" for level, value in alike.items())
+    return f"not told apart from {words} by so few realisations"
+
+
+def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks: list[LinePeak]) -> list[Headline]:
+    """Return what an anchor must hold: of the line that pulls hardest, and the uplift wherever it is highest."""
+    pulled = [peak for peak in peaks if math.isfinite(peak.horizontal)]
+    if not pulled:
+        return []
+    bare = _bare_lines(groups, levels)
+    lifted = max(pulled, key=lambda peak: peak.vertical)
+    hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
+    if not (hardest.known and lifted.known):
+        text = "not known"
+        detail = "the largest tension is not known"
+        return [
+            Headline(name, label, math.nan, "N", hardest.where, hardest.model, detail=detail, text=text)
+            for name, label in (
+                ("anchor_capacity_required", "Holding capacity that an anchor needs"),
+                ("anchor_uplift", "Uplift at an anchor"),
+            )
+        ]
+    drag, level_factor = anchor_factor("drag_anchor", "horizontal"), anchor_factor("gravity_anchor", "horizontal")
+    up_factor, friction = anchor_factor("gravity_anchor", "vertical"), holding_data("sinker", *SINKER)
+    weight = gravity_anchor_weight(
+        hardest.horizontal, hardest.vertical, friction.value, level_factor.value, up_factor.value
+    )
+    lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
+    bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
+    fit = "" if hardest.vertical <= 0.0 else ": not for a drag anchor"
+    capacity = Headline(
+        "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
+        drag.value * hardest.horizontal, "N", hardest.where, hardest.model,
+        band=seeds(drag.value * hardest.horizontal_scatter),
+        detail=(
+            f"{drag.value:g} times the pull of one line ({drag.source}, {_confirmed(drag.confirmed)}); {bed} at the "
+            f"peak{fit}; or a concrete sinker of {kilonewton(weight)} in water (friction {friction.value:g} on "
+            f"{SINKER[1]}, factors {level_factor.value:g} and {up_factor.value:g})"
+        ),
+    )  # fmt: skip
+    pull = Headline(
+        "anchor_horizontal_load", "Horizontal pull on an anchor", hardest.horizontal, "N", hardest.where, hardest.model,
+        band=seeds(hardest.horizontal_scatter),
+    )  # fmt: skip
+    unknown = [
+        Headline(name, label, math.nan, "N", peak.where, peak.model, text=f"{peak.where}: not known, {_beyond(peak)}",
+                 shown=False)
+        for peak in pulled
+        if not peak.known
+        for name, label in (("anchor_uplift", "Uplift at an anchor"),
+                            ("anchor_horizontal_load", "Horizontal pull on an anchor"))
+    ]  # fmt: skip
+    none = lifted.vertical <= 0.0
+    least = min(peak.grounded for peak in pulled)
+    kept = f"{least:.3g} m of line stays on the bed" if least > 0.0 else "the line leaves the bed"
+    said = "; ".join(part for part in (kept if none else "", bare) if part)
+    uplift = Headline(
+        "anchor_uplift", "Uplift at an anchor", max(lifted.vertical, 0.0), "N", lifted.where, lifted.model,
+        band=None if none else seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
+        text="none" if none else "",
+    )  # fmt: skip
+    return [capacity, pull, uplift, *unknown]
+
+
+def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:
+    """Say which lines have nothing on the bed at rest."""
+    found = []
+    for level in levels:
+        statics = groups.get(f"/{level}/statics")
+        if statics is None or "grounded_length" not in statics:
+            continue
+        chains = np.isfinite(statics["unstretched_length"].values)
+        if bool(np.any((statics["grounded_length"].values <= 0.0) & chains)):
+            found.append(level)
+    return f"no line on the bed at rest at {', '.join(found)}" if found else ""
+
+
+def tension_at_rest(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
+    best: tuple[float, str, float] | None = None
+    for level in levels:
+        statics = groups.get(f"/{level}/statics")
+        if statics is None or "fairlead_tension" not in statics or not statics["fairlead_tension"].size:
+            continue
+        pulls = statics["fairlead_tension"].values
+        at = int(np.nanargmax(pulls))
+        if best is None or pulls[at] > best[0]:
+            best = float(pulls[at]), f"{level}, line {statics['line'].values[at]}", float(statics.breaking_load[at])
+    if best is None:
+        return []
+    out = [Headline("line_tension", "Line tension at rest", best[0], "N", best[1], STILL)]
+    if best[2] > 0.0:
+        out.append(Headline("line_utilisation", "Utilisation of the breaking load at rest", best[0] / best[2], "1",
+                            best[1], STILL, detail=f"breaking load {kilonewton(best[2])}"))  # fmt: skip
+    return out
+
+
+def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
+    """Return the band of realisations: they scatter about their mean, which is the number.
+
+    Criteria are judged at the end of the one-sided 95 % interval of that mean (Student), since few realisations leave
+    it uncertain; with a bound on each realisation, of the mean of the bounds.
+    """
+    if scatter.size < 2 or not np.isfinite(scatter).all():
+        return None
+    upper = scatter if bound is None or bound.size != scatter.size else np.fmax(bound, scatter)
+    of = f"{scatter.size} realisations; criteria at the 95 % end of their mean"
+    ends = (float(scatter.mean()) - _reach(scatter), float(upper.mean()) + _reach(upper))
+    return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
+
+
+def _reach(scatter: Array) -> float:
+    """Return how far the one-sided 95 % interval of a mean reaches from it (Student)."""
+    return student_quantile(0.9, scatter.size - 1) * _standard_error(scatter)
+
+
+def _standard_error(scatter: Array) -> float:
+    return float(np.std(scatter, ddof=1)) / math.sqrt(scatter.size)
+
+
+def _mean_of(scatter: Array) -> str:
+    if scatter.size < 2:
+        return ""
+    share = 100.0 * _standard_error(scatter) / float(scatter.mean())
+    return f"mean of the largest of {scatter.size} realisations, its standard error {share:.2g} %"
+
+
+def kilonewton(force: float) -> str:
+    if abs(force) < 1e3:
+        return f"{force:.3g} N"
+    return f"{1e-3 * force:.0f} kN" if abs(force) >= 1e5 else f"{1e-3 * force:.3g} kN"
+
+
+def _confirmed(value: bool) -> str:
+    return "confirmed" if value else "not confirmed against it"

@@ -1,0 +1,191 @@
+"""Which events of an irregular sea are rerun with lines in motion, and how far the largest of them can still lie.
+
+The largest event with lines at rest need not be the largest in motion. The events of a realisation are therefore rerun
+in the order of their tensions with lines at rest, until the next of them, times the largest ratio of motion over rest
+that any rerun gave (one at least), stays under the largest in motion. What is left open by the limit on their number is
+kept as a bound on the tension [eq:breakwater-events].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.errors import ConvergenceError
+from moyai.core.progress import Progress, silent
+from moyai.floating.forcing import IrregularForcing
+from moyai.floating.time import Simulation
+from moyai.structures.breakwater.lines.events import PERIODS_AROUND, EventSettings, event_numbers, run_event
+from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+MOST_EVENTS = 8  # of one realisation that are rerun
+
+
+@dataclass(frozen=True)
+class Realisation:
+    """One realisation with lines at rest at every instant, and its numbers."""
+
+    seed: int
+    run: TimeRun
+    forcing: IrregularForcing
+    around: SeaOfRun
+    summary: xr.Dataset
+
+
+@dataclass(frozen=True)
+class EventsInMotion:
+    """What the reruns of one realisation give for one line.
+
+    Parameters
+    ----------
+    run : TimeRun
+        The rerun with the largest tension.
+    numbers : mapping of str to ndarray (lines,)
+        Over all reruns: largest of what is largest, least of what is least; slack and snap of the largest event.
+    count : int
+        Reruns.
+    bound : float
+        Tension of the line that no event passes, if none multiplies its tension with lines at rest by more than
+        the largest ratio found [N].
+    """
+
+    run: TimeRun
+    numbers: dict[str, Array]
+    count: int
+    bound: float
+
+
+def events_in_order(simulation: Simulation, line: int, begin: float, apart: float) -> list[tuple[float, float]]:
+    """Return time [s] and tension [N] of the peaks of a line, the highest first, each ``apart`` [s] from higher ones.
+
+    Parameters
+    ----------
+    simulation : Simulation
+    line : int
+    begin : float
+        Where statistics begin [s].
+    apart : float
+        [s].
+    """
+    kept = simulation.time >= begin
+    time, tension = simulation.time[kept], simulation.tension[kept, line]
+    inner = np.flatnonzero((tension[1:-1] >= tension[:-2]) & (tension[1:-1] > tension[2:])) + 1
+    tops = inner if inner.size else np.array([int(np.argmax(tension))])
+    found: list[tuple[float, float]] = []
+    for row in tops[np.argsort(-tension[tops], kind="stable")]:
+        if all(abs(time[row] - earlier) > apart for earlier, _ in found):
+            found.append((float(time[row]), float(tension[row])))
+        if len(found) > MOST_EVENTS:
+            break
+    return found
+
+
+@dataclass
+class _Search:
+    """The reruns of one realisation so far."""
+
+    member: Realisation
+    events: list[tuple[float, float]]
+    runs: list[TimeRun] = field(default_factory=list)
+    numbers: list[dict[str, Array]] = field(default_factory=list)
+    tensions: list[float] = field(default_factory=list)
+
+    @property
+    def best(self) -> float:
+        return max(self.tensions, default=0.0)
+
+    @property
+    def next(self) -> float:
+        """Tension with lines at rest of the event that comes next [N], 0 after the last."""
+        return self.events[len(self.runs)][1] if len(self.runs) < len(self.events) else 0.0
+
+    def ratio(self) -> float:
+        pairs = zip(self.tensions, self.events, strict=False)
+        return max((tension / still for tension, (_, still) in pairs), default=1.0)
+
+
+def events_in_motion(
+    given: EventSettings,
+    members: Sequence[Realisation],
+    line: int,
+    floor: float = 0.0,
+    progress: Progress = silent,
+) -> list[EventsInMotion]:
+    """Rerun the events of every realisation that may hold the largest tension of a line in motion.
+
+    Parameters
+    ----------
+    given : EventSettings
+    members : sequence of Realisation
+    line : int
+    floor : float
+        Tension under which the line cannot govern: events that stay under it are not rerun, save the largest of each
+        realisation [N].
+    progress : Progress
+
+    Raises
+    ------
+    InputError
+        When the lines find no rest.
+    ConvergenceError
+        When a rerun does not come to its end.
+    KeyboardInterrupt
+        When it is stopped.
+    """
+    apart = PERIODS_AROUND * given.peak_period
+    searches = [_Search(one, events_in_order(one.run.simulation, line, one.around.begin, apart)) for one in members]
+    words = f"lines in motion, {given.model.unit.name}"
+    for number, search in enumerate(searches):
+        progress(words, number, len(searches))
+        _rerun(given, search, line, progress)
+    # The ratio is that of the whole sea: what one realisation tells holds for all
+    while open_ones := [search for search in searches if _is_open(search, _ratio(searches), floor)]:
+        search = max(open_ones, key=lambda item: item.next)
+        progress(words, len(searches) - len(open_ones), len(searches))
+        _rerun(given, search, line, progress)
+    progress(words, len(searches), len(searches))
+    ratio = _ratio(searches)
+    return [_answer(search, ratio) for search in searches]
+
+
+def _ratio(searches: list[_Search]) -> float:
+    return max(1.0, *(search.ratio() for search in searches))
+
+
+def _is_open(search: _Search, ratio: float, floor: float) -> bool:
+    return len(search.runs) < MOST_EVENTS and search.next * ratio > max(search.best, floor)
+
+
+def _rerun(given: EventSettings, search: _Search, line: int, progress: Progress) -> None:
+    one = search.member
+    event = search.events[len(search.runs)][0]
+    run = run_event(given, one.forcing, one.around, one.run.simulation, line, event, progress)
+    if run.simulation.status == "interrupted":
+        raise KeyboardInterrupt
+    if run.simulation.status != "converged":
+        raise ConvergenceError(f"lines in motion: {run.simulation.message}")
+    numbers = event_numbers(given.model, run)
+    search.runs.append(run)
+    search.numbers.append(numbers)
+    search.tensions.append(float(numbers["maximum_tension"][line]))
+
+
+def _answer(search: _Search, ratio: float) -> EventsInMotion:
+    at = int(np.argmax(search.tensions))
+    combined = dict(search.numbers[at])
+    for name in combined:
+        stack = np.array([numbers[name] for numbers in search.numbers])
+        if name.startswith("maximum_"):
+            combined[name] = stack.max(axis=0)
+        elif name.startswith("least_grounded"):
+            combined[name] = stack.min(axis=0)
+    return EventsInMotion(search.runs[at], combined, len(search.runs), max(search.best, search.next * ratio))

@@ -1,0 +1,72 @@
+"""What the first page says of lines: nothing out of its range is under "holds", and what is chance is said."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from moyai.core.headline import Criterion, judge
+from moyai.structures.breakwater import responses
+from moyai.structures.breakwater.lines.headlines import AT_REST, IN_MOTION, LinePeak, anchor_headlines, line_headlines
+from moyai.structures.breakwater.report import reading as breakwater_reading
+from moyai.structures.breakwater.report.tables import range_words, sway_words
+
+SCATTER = np.array([300e3, 400e3, 500e3, 450e3, 350e3])
+GOVERNS = LinePeak(
+    "HWL", "storm", "seaward", np.nan, 400e3, 50e3, 4e6, -1.0, 390e3, 5.0, IN_MOTION, True, SCATTER, -SCATTER,
+    0.97 * SCATTER, SCATTER,
+)  # fmt: skip
+OTHER = replace(
+    GOVERNS, line="shoreward", tension=200e3, mean=30e3, horizontal=190e3, model=AT_REST, known=False,
+    scatter=0.5 * SCATTER, bound=0.5 * SCATTER,
+)  # fmt: skip
+FACTOR = Criterion("factor", "line_utilisation", 0.5, "at most", "case", as_factor=True)
+UPLIFT = Criterion("uplift", "anchor_uplift", 0.0, "at most", "case", unit="N")
+
+
+def page(*peaks):
+    return [*line_headlines(list(peaks)), *anchor_headlines({}, [], list(peaks))]
+
+
+def headline(numbers, name):
+    return next(item for item in numbers if item.name == name and item.shown)
+
+
+def test_a_line_out_of_range_that_does_not_govern_keeps_the_design_from_holding():
+    assert judge(page(GOVERNS), (FACTOR, UPLIFT), computed=True).outcome == "holds"
+    numbers = page(GOVERNS, OTHER)
+    # the governing number stays on the page
+    assert headline(numbers, "line_tension").value == 400e3
+    verdict = judge(numbers, (FACTOR, UPLIFT), computed=True)
+    assert verdict.outcome == "not judged"
+    assert "line shoreward: not known" in verdict.message and "6.7 times the mean" in verdict.message
+
+
+def test_what_the_reruns_leave_open_is_judged():
+    opened = replace(GOVERNS, bound=SCATTER + 2e6)
+    found = headline(line_headlines([opened]), "line_utilisation")
+    closed = headline(line_headlines([GOVERNS]), "line_utilisation")
+    assert found.value == closed.value and found.band.judged[1] == pytest.approx(closed.band.judged[1] + 0.5)
+    assert "could raise it to 2400 kN" in headline(line_headlines([opened]), "line_tension").detail
+    assert judge([closed], (FACTOR,), computed=True).outcome == "holds"
+    assert judge([found], (FACTOR,), computed=True).outcome == "does not hold"
+
+
+def test_a_level_within_the_scatter_is_not_told_apart():
+    lower = replace(GOVERNS, level="LWL", tension=380e3, scatter=SCATTER - 20e3)
+    assert "not told apart from LWL (380 kN)" in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
+    # Student's 2.13 times the standard error of 35 kN, of both: 107 kN
+    lower = replace(GOVERNS, level="LWL", tension=280e3, scatter=SCATTER - 120e3)
+    assert "told apart" not in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
+
+
+def test_the_highest_of_each_analysis_is_judged_by_its_own_factor():
+    still = replace(OTHER, known=True)
+    analyses = [item.analysis for item in line_headlines([GOVERNS, still]) if item.name == "line_utilisation"]
+    assert analyses == ["dynamic", "quasi_static"]
+
+
+def test_rows_of_tables_say_what_they_hold():
+    assert breakwater_reading.SNAP_RATIO == responses.SNAP_RATIO
+    assert range_words(np.nan) == "" and range_words(7.0) == "OUT OF RANGE: 7.0 times the mean"
+    assert sway_words("time", False) == "waves and slow drift" and sway_words("frequency", False) == "waves alone"
