@@ -6,34 +6,19 @@ Keys of the block replace the default of the same name; ``criteria: none`` leave
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from moyai.case.line_code import code_criteria, code_criterion
 from moyai.case.schema_criteria import LineCriteria
-from moyai.core.errors import InputError
 from moyai.core.headline import Criterion, Sense
+from moyai.core.kinds import structure_kind
 
 CASE = "case file"
 UNCONFIRMED = "not confirmed against the standard"
 DEFAULT_CODE = "ISO 19901-7"
 """Of the lines of breakwaters and networks: the factors that are common to ISO 19901-7 and API RP 2SK."""
-CAGE_CODE = "NS 9415"
-CURTAIN_SOURCE = "default of moyai: practice of silt curtains, rope 3, sheet and belts 3 to 5, anchor 1.2 to 2; no code"
-UPLIFT_SOURCE = (
-    f"default of moyai: drag anchors bear no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
-)
-AFLOAT_SOURCE = "default of moyai: upright and afloat"
 
-CURTAIN_FACTORS = {
-    "cable": ("cable_utilisation", "factor of safety of the cables", 3.0),
-    "sheet": ("fabric_utilisation", "factor of safety of the sheet", 4.0),
-    "joint": ("joint_utilisation", "factor of safety of the joints", 3.0),
-    "anchor_line": ("anchor_line_utilisation", "factor of safety of the anchor lines", 3.0),
-    "anchor": ("anchor_utilisation", "factor of safety of the anchors", 1.5),
-}
-"""Of ``settings.safety_factors``: headline, words, default."""
-_CURTAIN_KEYS = {"sheet": "fabric_safety_factor"}
 
 #: Headline, sense, unit, words of the keys that are a limit in themselves.
 _PLAIN: dict[str, tuple[str, Sense, str, str]] = {
@@ -70,143 +55,11 @@ def criteria_of(model: Any) -> tuple[Criterion, ...]:
     given = model.criteria
     if isinstance(given, str):
         return ()
-    found = _OF_STRUCTURE[model.structure.kind](model, given)
+    found = structure_kind(model.structure.kind).criteria(model, given)
     return tuple(criterion for criterion in found if not math.isnan(criterion.limit))
 
 
-def _breakwater(model: Any, given: Any) -> Iterator[Criterion]:
-    moored = [line for line in model.lines if line.kind == "catenary"]
-    # Whether lines run in motion is decided by the run: each number is judged by the factor of its own analysis
-    yield from _lines(
-        given,
-        DEFAULT_CODE if moored else "",
-        "",
-        [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
-    )
-    if given.greatest_uplift is None and moored:
-        yield _plain("greatest_uplift", 0.0, UPLIFT_SOURCE)
-    yield from _given(given, {"greatest_anchor_load": "anchor_horizontal_load"})
-    yield from _transmission(given.greatest_transmission)
-    for key in ("least_metacentric_height", "least_freeboard"):
-        if getattr(given, key) is None and "statics" in model.analyses:
-            yield _plain(key, 0.0, AFLOAT_SOURCE)
-
-
-def _transmission(limit: Any) -> Iterator[Criterion]:
-    seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
-    for sea, value in seas.items():
-        yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission K_T", sea=sea)
-
-
-def _curtain(model: Any, given: Any) -> Iterator[Criterion]:
-    for part, (headline, words, _) in CURTAIN_FACTORS.items():
-        factor, source = curtain_factor(model, part)
-        if source != CASE and not _has_strength(model.structure, part):
-            continue
-        yield Criterion(
-            curtain_key(part), headline, 1.0 / factor, "at most", source, words, as_factor=True, assumed=source != CASE
-        )
-    for key, headline, unit, words in (
-        ("least_effective_depth", "effective_depth", "m", "effective depth"),
-        ("least_float_reserve", "float_reserve", "%", "reserve of the floats"),
-    ):
-        limit = curtain_limit(model, key)
-        if limit > 0.0:
-            yield Criterion(key, headline, limit, "at least", CASE, words, unit)
-    yield from _given(given)
-
-
-def curtain_key(part: str) -> str:
-    """Return the key of ``criteria`` that says the same as ``settings.safety_factors.<part>``."""
-    return _CURTAIN_KEYS.get(part, f"{part}_safety_factor")
-
-
-def curtain_factor(model: Any, part: str) -> tuple[float, str]:
-    """Return a factor of safety of a curtain (NaN where it is not judged) and its source.
-
-    Parameters
-    ----------
-    model : CurtainCase
-    part : str
-        Key of ``settings.safety_factors``.
-    """
-    if isinstance(model.criteria, str):
-        asked = None
-    else:
-        asked = getattr(model.criteria, curtain_key(part))
-    old = getattr(model.settings.safety_factors, part)
-    if asked is not None and old is not None and asked != old:
-        raise InputError(
-            f"'{curtain_key(part)}' and 'settings.safety_factors.{part}' ({old:g}) say the same thing differently",
-            path=f"criteria.{curtain_key(part)}",
-            remedy="keep one of them",
-        )
-    if asked is not None or old is not None:
-        return (asked if asked is not None else old), CASE
-    return CURTAIN_FACTORS[part][2], CURTAIN_SOURCE
-
-
-def curtain_limit(model: Any, key: str) -> float:
-    """Return ``least_effective_depth`` [m] or ``least_float_reserve`` [-] from either of their places; 0 for none."""
-    old = float(getattr(model.settings, key))
-    asked = None if isinstance(model.criteria, str) else getattr(model.criteria, key)
-    if asked is None or math.isnan(asked):
-        return old if asked is None else 0.0
-    if old > 0.0 and old != asked:
-        raise InputError(
-            f"'{key}' is {old:g} under 'settings' and {asked:g} here",
-            path=f"criteria.{key}",
-            remedy="keep one of them",
-        )
-    return float(asked)
-
-
-def _has_strength(unit: Any, part: str) -> bool:
-    if part == "cable":
-        cables = [cable for cable in (unit.cables.upper, unit.cables.lower) if cable is not None]
-        return any(cable.breaking_load is not None or cable.catalogue is not None for cable in cables)
-    value = {
-        "sheet": unit.skirt.strength,
-        "joint": getattr(unit.joints, "strength", None),
-        "anchor_line": getattr(unit.anchors, "breaking_load", None),
-        "anchor": getattr(unit.anchors, "holding_force", None),
-    }[part]
-    return value is not None
-
-
-def _cage(model: Any, given: Any) -> Iterator[Criterion]:
-    mooring = model.structure.mooring
-    ropes: list[Any] = []
-    if getattr(mooring, "kind", "") == "grid":
-        ropes = [mooring.frame_rope, mooring.bridle, *mooring.anchor_line]
-    elif getattr(mooring, "breaking_load", None) is not None:
-        ropes = [mooring]
-    yield from _lines(
-        given,
-        CAGE_CODE if ropes else "",
-        "dynamic" if "time" in model.analyses else "static",
-        [getattr(rope, "catalogue", None) or "rope" for rope in ropes],
-    )
-    yield from _given(given)
-
-
-def _network(model: Any, given: Any) -> Iterator[Criterion]:
-    types = model.structure.line_types.values()
-    strong = [kind for kind in types if getattr(kind, "catalogue", None) or getattr(kind, "breaking_load", None)]
-    yield from _lines(
-        given,
-        DEFAULT_CODE if strong else "",
-        "dynamic" if "dynamic" in model.analyses else "quasi_static",
-        [getattr(kind, "catalogue", None) for kind in types],
-    )
-    yield from _given(given)
-
-
-def _member(model: Any, given: Any) -> Iterator[Criterion]:
-    yield from _given(given)
-
-
-def _lines(given: LineCriteria, default: str, analysis: str, names: Iterable[str | None]) -> Iterator[Criterion]:
+def line_criteria(given: LineCriteria, default: str, analysis: str, names: Iterable[str | None]) -> Iterator[Criterion]:
     """Yield the criterion of the lines: a factor, a code, or the default code (empty: none).
 
     An empty ``analysis`` leaves it to the run: one criterion for the numbers of either analysis.
@@ -223,24 +76,16 @@ def _lines(given: LineCriteria, default: str, analysis: str, names: Iterable[str
         yield code_criterion(given.code or default, analysis, names, assumed=not given.code)
 
 
-def _given(given: Any, headlines: dict[str, str] | None = None) -> Iterator[Criterion]:
+def given_criteria(given: Any, headlines: dict[str, str] | None = None) -> Iterator[Criterion]:
     """Yield the criteria of the keys that are a limit in themselves, as the case gives them."""
     for key in type(given).model_fields:
         limit = getattr(given, key)
         if key in _PLAIN and limit is not None:
-            yield _plain(key, limit, CASE, (headlines or {}).get(key, ""))
+            yield plain_criterion(key, limit, CASE, (headlines or {}).get(key, ""))
 
 
-def _plain(key: str, limit: float, source: str, headline: str = "") -> Criterion:
+def plain_criterion(key: str, limit: float, source: str, headline: str = "") -> Criterion:
+    """Return the criterion of a key that is a limit in itself."""
     usual, sense, unit, words = _PLAIN[key]
     value = math.radians(limit) if unit == "rad" else limit
     return Criterion(key, headline or usual, value, sense, source, words, unit, assumed=source != CASE)
-
-
-_OF_STRUCTURE: dict[str, Callable[[Any, Any], Iterator[Criterion]]] = {
-    "breakwater": _breakwater,
-    "curtain": _curtain,
-    "cage": _cage,
-    "network": _network,
-    "member": _member,
-}

@@ -27,7 +27,7 @@ GreatestAngle = Annotated[float | None, QuantityOf(quantities.ANGLE_DEGREES, abo
 Share = Annotated[float | None, QuantityOf(quantities.NUMBER, above=0.0, most=1.0, words=NOT_JUDGED)]
 SeaShare = Annotated[float, QuantityOf(quantities.NUMBER, above=0.0, most=1.0)]
 
-_OFF = "; 'not_judged' leaves it out"
+OFF = "; 'not_judged' leaves it out"
 
 
 def _known_code(name: str) -> str:
@@ -55,11 +55,13 @@ class LineCode(Block):
     )
 
 
-def _word_or_block(value: Any) -> str:
+def word_or_block(value: Any) -> str:
+    """Return the form of a key that is a word or a block."""
     return "<word>" if isinstance(value, str) else "<block>"
 
 
-def _sea_form(value: Any) -> str:
+def sea_form(value: Any) -> str:
+    """Return the form of a key that is one number or one for each sea."""
     return "<seas>" if isinstance(value, dict) else "<number>"
 
 
@@ -69,10 +71,10 @@ class LineCriteria(Block):
     at_most_one: ClassVar[KeyGroups] = (("line_safety_factor", "code"),)
 
     line_safety_factor: FactorOfSafety = Field(
-        default=None, description="Breaking load over the largest tension, at least" + _OFF + "."
+        default=None, description="Breaking load over the largest tension, at least" + OFF + "."
     )
     code: Annotated[
-        Annotated[CodeName, Tag("<word>")] | Annotated[LineCode, Tag("<block>")], Discriminator(_word_or_block)
+        Annotated[CodeName, Tag("<word>")] | Annotated[LineCode, Tag("<block>")], Discriminator(word_or_block)
     ] = Field(
         default="",
         description="Design code of the lines in place of a factor: its name, or a block.",
@@ -80,112 +82,6 @@ class LineCriteria(Block):
     )
 
 
-class BreakwaterCriteria(LineCriteria):
-    """What a floating breakwater has to keep."""
-
-    greatest_transmission: Annotated[
-        Annotated[Share, Tag("<number>")] | Annotated[dict[Name, SeaShare], Tag("<seas>"), Field(min_length=1)],
-        Discriminator(_sea_form),
-    ] = Field(
-        default=None,
-        description="Largest K_T: of the governing sea, or of named ones {name: K_T}" + _OFF + ".",
-        examples=[{"storm": 0.5}],
-    )
-    greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + _OFF + ".")
-    greatest_roll_deg: GreatestAngle = Field(default=None, description="Largest roll angle" + _OFF + ".")
-    greatest_uplift: GreatestForce = Field(
-        default=None, description="Largest upward force on an anchor, or 'none'" + _OFF + "."
-    )
-    greatest_anchor_load: GreatestForce = Field(
-        default=None, description="Largest horizontal force on an anchor, its holding force" + _OFF + "."
-    )
-    least_freeboard: LeastLength = Field(default=None, description="Freeboard that is left" + _OFF + ".")
-    least_metacentric_height: LeastLength = Field(default=None, description="Metacentric height GM" + _OFF + ".")
-
-
-class CurtainCriteria(Block):
-    """What a silt curtain has to keep."""
-
-    cable_safety_factor: FactorOfSafety = Field(
-        default=None,
-        description="Breaking load of a cable over its tension, at least; as 'settings.safety_factors.cable'"
-        + _OFF
-        + ".",
-    )
-    fabric_safety_factor: FactorOfSafety = Field(
-        default=None, description="Strength of the sheet over its load; as 'settings.safety_factors.sheet'" + _OFF + "."
-    )
-    joint_safety_factor: FactorOfSafety = Field(
-        default=None, description="Strength of a joint over its load; as 'settings.safety_factors.joint'" + _OFF + "."
-    )
-    anchor_line_safety_factor: FactorOfSafety = Field(
-        default=None,
-        description="Breaking load of an anchor line over its tension; as 'settings.safety_factors.anchor_line'"
-        + _OFF
-        + ".",
-    )
-    anchor_safety_factor: FactorOfSafety = Field(
-        default=None,
-        description="Holding force of an anchor over its load; as 'settings.safety_factors.anchor'" + _OFF + ".",
-    )
-    least_float_reserve: Share = Field(
-        default=None, description="Share of the buoyancy that is left; as 'settings.least_float_reserve'" + _OFF + "."
-    )
-    least_effective_depth: LeastLength = Field(
-        default=None, description="Effective depth that is kept; as 'settings.least_effective_depth'" + _OFF + "."
-    )
-    least_toe_clearance: LeastLength = Field(default=None, description="Gap between toe and bed" + _OFF + ".")
-    greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + _OFF + ".")
-    least_limit_current: LeastSpeed = Field(
-        default=None, description="Current up to which the curtain has to hold" + _OFF + "."
-    )
-    least_limit_wave_height: GreatestLength = Field(
-        default=None, description="Wave height up to which the curtain has to hold" + _OFF + "."
-    )
-
-
-class CageCriteria(LineCriteria):
-    """What a net cage has to keep."""
-
-    least_volume_left: Share = Field(default=None, description="Share of the volume at rest that is left" + _OFF + ".")
-    greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + _OFF + ".")
-    greatest_drag: GreatestTension = Field(default=None, description="Largest drag of the cage" + _OFF + ".")
-    greatest_net_tension: GreatestNetTension = Field(
-        default=None, description="Largest tension of the net per width" + _OFF + "."
-    )
-    greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + _OFF + ".")
-
-
-class NetworkCriteria(LineCriteria):
-    """What a network has to keep."""
-
-    greatest_tension: GreatestTension = Field(default=None, description="Largest tension of a line" + _OFF + ".")
-    greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + _OFF + ".")
-    greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + _OFF + ".")
-
-
-class MemberCriteria(Block):
-    """What a member has to keep."""
-
-    greatest_force: GreatestTension = Field(default=None, description="Largest force on the member" + _OFF + ".")
-
-
 NoCriteria = Literal["none"]
-BreakwaterKeeps = Annotated[
-    Annotated[NoCriteria, Tag("<word>")] | Annotated[BreakwaterCriteria, Tag("<block>")], Discriminator(_word_or_block)
-]
-CurtainKeeps = Annotated[
-    Annotated[NoCriteria, Tag("<word>")] | Annotated[CurtainCriteria, Tag("<block>")], Discriminator(_word_or_block)
-]
-CageKeeps = Annotated[
-    Annotated[NoCriteria, Tag("<word>")] | Annotated[CageCriteria, Tag("<block>")], Discriminator(_word_or_block)
-]
-NetworkKeeps = Annotated[
-    Annotated[NoCriteria, Tag("<word>")] | Annotated[NetworkCriteria, Tag("<block>")], Discriminator(_word_or_block)
-]
-MemberKeeps = Annotated[
-    Annotated[NoCriteria, Tag("<word>")] | Annotated[MemberCriteria, Tag("<block>")], Discriminator(_word_or_block)
-]
-
 CRITERIA = "What the design has to keep, beside the defaults that 'moyai check' lists; 'none' switches judging off."
 """Description of the key of every structure."""

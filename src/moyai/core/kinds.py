@@ -60,6 +60,10 @@ class StructureKind(Kind):
     def schema(self) -> Any:
         """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""
 
+    def criteria(self, model: Any, given: Any) -> Any:
+        """Yield what the headlines are judged against (:class:`moyai.core.headline.Criterion`); nothing by default."""
+        return ()
+
     def add_sizes(self, model: Any, sizes: Any, periods: Any) -> None:
         """Add sizes that numbers of a case are held against (:mod:`moyai.case.plausible_sizes`); none by default."""
 

@@ -27,6 +27,11 @@ class BreakwaterKind(StructureKind):
 
         add_sizes(model, sizes)
 
+    def criteria(self, model: Any, given: Any) -> Any:
+        from moyai.structures.breakwater.case.criteria import criteria
+
+        return criteria(model, given)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.breakwater.case.check import check
 

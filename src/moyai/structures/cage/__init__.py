@@ -30,6 +30,11 @@ class CageKind(StructureKind):
 
         add_sizes(model, sizes)
 
+    def criteria(self, model: Any, given: Any) -> Any:
+        from moyai.structures.cage.case.criteria import criteria
+
+        return criteria(model, given)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.cage.case.check import check
 

@@ -27,6 +27,11 @@ class CurtainKind(StructureKind):
 
         add_sizes(model, sizes)
 
+    def criteria(self, model: Any, given: Any) -> Any:
+        from moyai.structures.curtain.case.criteria import criteria
+
+        return criteria(model, given)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.curtain.case.check import check
 

@@ -27,6 +27,11 @@ class MemberKind(StructureKind):
 
         add_sizes(model, sizes)
 
+    def criteria(self, model: Any, given: Any) -> Any:
+        from moyai.structures.member.case.criteria import criteria
+
+        return criteria(model, given)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.member.case.check import check
 

@@ -27,6 +27,11 @@ class NetworkKind(StructureKind):
 
         add_sizes(model, sizes, periods)
 
+    def criteria(self, model: Any, given: Any) -> Any:
+        from moyai.structures.network.case.criteria import criteria
+
+        return criteria(model, given)
+
     def check(self, model: Any, findings: Any, folder: Path) -> None:
         from moyai.structures.network.case.check import check
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_criteria import CRITERIA, BreakwaterCriteria, BreakwaterKeeps
+from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
 from moyai.case.schema_types import (
@@ -35,6 +35,7 @@ from moyai.case.schema_types import (
     Whole,
     once_each,
 )
+from moyai.structures.breakwater.case.criteria import BreakwaterCriteria, BreakwaterKeeps
 from moyai.structures.breakwater.case.schema_sections import Section
 
 Mode = Literal["sway", "heave", "roll"]

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_criteria import CRITERIA, CageCriteria, CageKeeps
+from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -33,6 +33,7 @@ from moyai.case.schema_types import (
     once_each,
 )
 from moyai.core import quantities
+from moyai.structures.cage.case.criteria import CageCriteria, CageKeeps
 from moyai.structures.cage.case.schema_flexible import FlexibleCageSettings, FlexibleCageStructure
 from moyai.structures.cage.case.schema_parts import (
     CageMooring,

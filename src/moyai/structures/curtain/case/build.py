@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from moyai.case.build_sea import environment_of
-from moyai.case.criteria import criteria_of, curtain_factor, curtain_limit
+from moyai.case.criteria import criteria_of
 from moyai.case.measured import read_points
 from moyai.core.errors import InputError
 from moyai.core.quantities import FORCE, TIME
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.structures.curtain.case import schema
+from moyai.structures.curtain.case.criteria import curtain_factor, curtain_limit
 from moyai.structures.curtain.dynamic.model import Mesh
 from moyai.structures.curtain.dynamic.runs import DynamicSettings
 from moyai.structures.curtain.limits.utilisation import Strength

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_criteria import CRITERIA, CurtainCriteria, CurtainKeeps
+from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
 from moyai.case.schema_types import (
     Auto,
@@ -38,6 +38,7 @@ from moyai.case.schema_types import (
 )
 from moyai.core import quantities
 from moyai.core.quantities import Kind
+from moyai.structures.curtain.case.criteria import CurtainCriteria, CurtainKeeps
 
 _WEIGHT_PER_AREA = Kind("a weight per area", "N/m2", "newtons per square metre", "8 N/m2")
 

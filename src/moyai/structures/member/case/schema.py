@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_criteria import CRITERIA, MemberCriteria, MemberKeeps
+from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -39,6 +39,7 @@ from moyai.case.schema_types import (
     refuse,
 )
 from moyai.core import quantities
+from moyai.structures.member.case.criteria import MemberCriteria, MemberKeeps
 
 Analysis = Literal["sweep", "forces", "surface"]
 Viscosity = Annotated[float, QuantityOf(quantities.VISCOSITY, above=0.0)]

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from moyai.case.schema_criteria import CRITERIA, NetworkCriteria, NetworkKeeps
+from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -36,6 +36,7 @@ from moyai.case.schema_types import (
     once_each,
 )
 from moyai.core import quantities
+from moyai.structures.network.case.criteria import NetworkCriteria, NetworkKeeps
 from moyai.structures.network.case.schema_parts import (
     NetworkBed,
     NetworkBody,

@@ -1,0 +1,83 @@
+"""What a floating breakwater has to keep: the block of its case, and the defaults with their source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag
+
+from moyai.case.criteria import CASE, DEFAULT_CODE, UNCONFIRMED, given_criteria, line_criteria, plain_criterion
+from moyai.case.schema_criteria import (
+    OFF,
+    GreatestAngle,
+    GreatestForce,
+    GreatestLength,
+    LeastLength,
+    LineCriteria,
+    NoCriteria,
+    SeaShare,
+    Share,
+    sea_form,
+    word_or_block,
+)
+from moyai.case.schema_types import Name
+from moyai.core.headline import Criterion
+
+UPLIFT_SOURCE = (
+    f"default of moyai: drag anchors bear no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
+)
+AFLOAT_SOURCE = "default of moyai: upright and afloat"
+
+
+class BreakwaterCriteria(LineCriteria):
+    """What a floating breakwater has to keep."""
+
+    greatest_transmission: Annotated[
+        Annotated[Share, Tag("<number>")] | Annotated[dict[Name, SeaShare], Tag("<seas>"), Field(min_length=1)],
+        Discriminator(sea_form),
+    ] = Field(
+        default=None,
+        description="Largest K_T: of the governing sea, or of named ones {name: K_T}" + OFF + ".",
+        examples=[{"storm": 0.5}],
+    )
+    greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
+    greatest_roll_deg: GreatestAngle = Field(default=None, description="Largest roll angle" + OFF + ".")
+    greatest_uplift: GreatestForce = Field(
+        default=None, description="Largest upward force on an anchor, or 'none'" + OFF + "."
+    )
+    greatest_anchor_load: GreatestForce = Field(
+        default=None, description="Largest horizontal force on an anchor, its holding force" + OFF + "."
+    )
+    least_freeboard: LeastLength = Field(default=None, description="Freeboard that is left" + OFF + ".")
+    least_metacentric_height: LeastLength = Field(default=None, description="Metacentric height GM" + OFF + ".")
+
+
+BreakwaterKeeps = Annotated[
+    Annotated[NoCriteria, Tag("<word>")] | Annotated[BreakwaterCriteria, Tag("<block>")], Discriminator(word_or_block)
+]
+
+
+def criteria(model: Any, given: Any) -> Iterator[Criterion]:
+    """Yield what the headlines are judged against: the block of the case, else the defaults with their source."""
+    moored = [line for line in model.lines if line.kind == "catenary"]
+    # Whether lines run in motion is decided by the run: each number is judged by the factor of its own analysis
+    yield from line_criteria(
+        given,
+        DEFAULT_CODE if moored else "",
+        "",
+        [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
+    )
+    if given.greatest_uplift is None and moored:
+        yield plain_criterion("greatest_uplift", 0.0, UPLIFT_SOURCE)
+    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_load"})
+    yield from _transmission(given.greatest_transmission)
+    for key in ("least_metacentric_height", "least_freeboard"):
+        if getattr(given, key) is None and "statics" in model.analyses:
+            yield plain_criterion(key, 0.0, AFLOAT_SOURCE)
+
+
+def _transmission(limit: Any) -> Iterator[Criterion]:
+    seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
+    for sea, value in seas.items():
+        yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission K_T", sea=sea)

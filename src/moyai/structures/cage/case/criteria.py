@@ -1,0 +1,58 @@
+"""What a net cage has to keep: the block of its case, and the defaults with their source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag
+
+from moyai.case.criteria import given_criteria, line_criteria
+from moyai.case.schema_criteria import (
+    OFF,
+    GreatestForce,
+    GreatestLength,
+    GreatestNetTension,
+    GreatestTension,
+    LineCriteria,
+    NoCriteria,
+    Share,
+    word_or_block,
+)
+from moyai.core.headline import Criterion
+
+CAGE_CODE = "NS 9415"
+
+
+class CageCriteria(LineCriteria):
+    """What a net cage has to keep."""
+
+    least_volume_left: Share = Field(default=None, description="Share of the volume at rest that is left" + OFF + ".")
+    greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
+    greatest_drag: GreatestTension = Field(default=None, description="Largest drag of the cage" + OFF + ".")
+    greatest_net_tension: GreatestNetTension = Field(
+        default=None, description="Largest tension of the net per width" + OFF + "."
+    )
+    greatest_anchor_load: GreatestForce = Field(default=None, description="Largest load on an anchor" + OFF + ".")
+
+
+CageKeeps = Annotated[
+    Annotated[NoCriteria, Tag("<word>")] | Annotated[CageCriteria, Tag("<block>")], Discriminator(word_or_block)
+]
+
+
+def criteria(model: Any, given: Any) -> Iterator[Criterion]:
+    """Yield what the headlines are judged against: the block of the case, else the defaults with their source."""
+    mooring = model.structure.mooring
+    ropes: list[Any] = []
+    if getattr(mooring, "kind", "") == "grid":
+        ropes = [mooring.frame_rope, mooring.bridle, *mooring.anchor_line]
+    elif getattr(mooring, "breaking_load", None) is not None:
+        ropes = [mooring]
+    yield from line_criteria(
+        given,
+        CAGE_CODE if ropes else "",
+        "dynamic" if "time" in model.analyses else "static",
+        [getattr(rope, "catalogue", None) or "rope" for rope in ropes],
+    )
+    yield from given_criteria(given)
