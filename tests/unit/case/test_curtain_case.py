@@ -142,7 +142,7 @@ def test_all_faults_are_told_at_once(tmp_path):
 
 
 def test_drowning_current_says_at_which_speed(tmp_path):
-    """The speed that the message allows is the one at which the reserve is nothing."""
+    """The speed that the message allows is the one at which the reserve is nothing, the drag of the floats counted."""
     with pytest.raises(CaseError) as error:
         load_case(written(tmp_path, BASE.replace("speed: 0.2 m/s", "speed: 2.5 m/s")))
     (fault,) = [fault for fault in error.value.faults if fault.path == "current.speed"]
@@ -152,7 +152,8 @@ def test_drowning_current_says_at_which_speed(tmp_path):
     for share, drowns in ((0.999, False), (1.001, True)):
         problem = build(load_case(written(tmp_path, BASE)))
         unit = assemble(problem, "SWL", 0.0)
-        assert (unit.site.statics(unit.hanging, share * speed).float_reserve < 0.0) is drowns
+        afloat = unit.site.with_floats(unit.site.statics(unit.hanging, share * speed), share * speed)
+        assert (afloat.quantity("float_reserve_ratio") < 0.0) is drowns
 
 
 def test_a_shorter_curtain_is_pretension_for_the_statics(tmp_path):
