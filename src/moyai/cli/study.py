@@ -254,7 +254,7 @@ class _Teller:
         for word, entry in (("largest", standing.largest), ("smallest", standing.smallest)):
             if entry is not None:
                 where = ", ".join(self.plan.cases[entry[1]].labels)
-                parts.append(f"{word} {self.plan.watch} {entry[0]:.4g} ({where})")
+                parts.append(f"{word} {self.plan.watch} {entry[0]:.4g}" + (f" ({where})" if where else ""))
         tell("; ".join(parts))
 
     def _case(self, standing: Standing) -> str:

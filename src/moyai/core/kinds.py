@@ -29,6 +29,7 @@ _FURTHER = {
     "force_record": "moyai.records.forces",
     "comparison": "moyai.records.comparison",
     "study": "moyai.study.report",
+    "fit": "moyai.study.report.fit",
 }
 
 

@@ -283,13 +283,19 @@ def _result(fit: Fit, found: Calibration) -> Result:
         "standard_error": (("parameter",), found.errors, {"units": units, "long_name": "standard error"}),
         "lower": (("parameter",), found.interval[:, 0], {"units": units, "long_name": "lower end of 95 %"}),
         "upper": (("parameter",), found.interval[:, 1], {"units": units, "long_name": "upper end of 95 %"}),
+        "unit": (("parameter",), [unit for _, unit in fit.parameters]),
+        "correlation": (
+            ("parameter", "other_parameter"),
+            _correlation(found.covariance),
+            {"units": "1", "long_name": "correlation of the errors of two values"},
+        ),
         "observed": (("row",), [row.observed for row in fit.rows], {"units": "1", "long_name": "observed"}),
         "predicted": (("row",), found.prediction, {"units": "1", "long_name": f"predicted {fit.response}"}),
         "bias": ((), found.bias, {"units": "1", "long_name": "mean of prediction less observation"}),
         "rms": ((), found.rms, {"units": "1", "long_name": "root mean square of prediction less observation"}),
         "evaluations": ((), float(found.evaluations), {"units": "1", "long_name": "calls of the model"}),
     }
-    coords: dict[str, Any] = {"parameter": names, "row": np.arange(1, len(fit.rows) + 1)}
+    coords: dict[str, Any] = {"parameter": names, "other_parameter": names, "row": np.arange(1, len(fit.rows) + 1)}
     tree = {"/": xr.Dataset(), "/fit": xr.Dataset(data, coords=coords)}
     if found.left_out:
         left = found.left_out
@@ -306,6 +312,13 @@ def _result(fit: Fit, found: Calibration) -> Result:
     message = f"{len(names)} parameters from {len(fit.rows)} observations"
     provenance = make_provenance(title=fit.title, base=fit.base_path.name, observations=fit.source)
     return Result(out, message=message, provenance=provenance).with_notices(*found.notices)
+
+
+def _correlation(covariance: Array) -> Array:
+    """Return the correlations of a covariance; NaN where a value has no finite error."""
+    spread = np.sqrt(np.diag(covariance))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(covariance / np.outer(spread, spread))
 
 
 def fitted_text(fit: Fit, found: Calibration) -> str:

@@ -253,9 +253,13 @@ class OptimiseRun:
             ),
         }
         names = [f"{path} [{_si_name(unit)}]" if unit else path for path, _, _, unit in ranges]
+        found = ", ".join(
+            f"{path} = {low + at * (high - low):.4g} {unit}".rstrip()
+            for (path, low, high, unit), at in zip(ranges, best)
+        )
         return Result(
             xr.DataTree.from_dict({"/": xr.Dataset(), "/optimum": xr.Dataset(data, coords={"variable": names})}),
-            message=f"best of {len(seen)} runs, {len(limits)} limits",
+            message=f"{found}: best of {len(seen)} runs, {len(limits)} limits",
         )
 
 

@@ -243,3 +243,61 @@ def test_si_symbols(unit, symbol):
     from moyai.core.units import parse_unit
 
     assert si_symbol(parse_unit(unit)) == symbol
+
+
+def test_words_that_mean_no_value(tmp_path):
+    path = tmp_path / "w.csv"
+    path.write_text("t,h\n0,1\n1,欠測\n2,****\n3,-9999.0\n4,NaN\n5,2\n", encoding="utf-8")
+    column = ColumnSource("h", "level", "m", missing=("欠測", "****", -9999.0, "NaN"))
+    np.testing.assert_array_equal(read_record(logger(path, [column]))["level"], [1, *[np.nan] * 4, 2])
+    with pytest.raises(InputError, match=r"line 3.*欠測"):
+        read_record(logger(path, [ColumnSource("h", "level", "m")]))
+
+
+def test_serial_dates_of_a_spreadsheet(tmp_path):
+    path = tmp_path / "e.csv"
+    start = dt.datetime(1999, 9, 23, 13, 0, tzinfo=dt.UTC)
+    days = (start - dt.datetime(1899, 12, 30, tzinfo=dt.UTC)) / dt.timedelta(days=1)
+    path.write_text("t,h [m]\n" + "\n".join(f"{days + i / 86400.0:.9f},{i}" for i in range(40)))
+    record = read_record(logger(path, [ColumnSource("h", "level")], TimeSource(columns=("t",), unit="excel")))
+    assert record.dated
+    np.testing.assert_allclose(record.time, start.timestamp() + np.arange(40), atol=1e-4)
+
+
+@pytest.mark.parametrize(("rate", "resolution"), [(12.8, 1e-3), (30.0, 1e-2), (5.0, 86400e-6)])
+def test_rounded_stamps_are_no_holes(rate, resolution):
+    from moyai.records.reading.quality import find_gaps
+    from moyai.records.reading.record import nominal_step
+    from moyai.records.survey.blocks import _even
+
+    exact = np.arange(6000) / rate
+    stamps = np.round(exact / resolution) * resolution
+    assert nominal_step(stamps) == pytest.approx(1.0 / rate, rel=1e-3)
+    assert find_gaps(stamps, nominal_step(stamps), 1.5) == ((), 0)
+    step, columns = _even(stamps, exact)
+    assert step == pytest.approx(1.0 / rate, abs=resolution / 5999)  # both ends are rounded
+    np.testing.assert_array_equal(columns[:, 0], exact)
+    cut = np.delete(np.arange(6000), np.arange(3000, 3007))
+    _, columns = _even(stamps[cut], exact[cut])
+    assert columns.shape[0] == 6000 and np.flatnonzero(np.isnan(columns[:, 0])).tolist() == list(range(3000, 3007))
+
+
+def test_short_gaps_are_filled_by_the_rule():
+    """Single samples lost: the height keeps within the bound that is stated, and long gaps and poor channels stay."""
+    from moyai.records.reading.short_gaps import fill_short_gaps
+
+    random = np.random.default_rng(5)
+    time = np.arange(20_000) * 0.5
+    wave = np.sin(2.0 * np.pi * 0.4 * time)[:, None]
+    holes = wave.copy()
+    lost = random.choice(np.arange(1, 19_999, 3), 200, replace=False)
+    holes[lost] = np.nan
+    filled = fill_short_gaps(0.25, holes, 0.45)
+    assert filled.share == pytest.approx(0.01) and np.isfinite(filled.values).all()
+    error = np.sqrt(np.mean((filled.values - wave) ** 2) / np.mean(wave**2))
+    assert 0.0 < abs(np.std(filled.values) / np.std(wave) - 1.0) <= filled.effect
+    assert error <= np.sqrt(0.01) * (1.0 - np.cos(2.0 * np.pi * 0.4 * 0.5)) * 1.1
+    holes[5000:5010] = np.nan
+    assert np.isnan(fill_short_gaps(0.25, holes, 0.45).values[5000:5010]).all()
+    holes[random.choice(20_000, 1000)] = np.nan
+    assert fill_short_gaps(0.25, holes, 0.45).share == 0.0

@@ -345,6 +345,84 @@ responses: {{wave: d, channels: [sway]}}
     assert "responses.csv" in {file.name for file in write_report(result, tmp_path / "out")}
 
 
+def test_a_calm_block_costs_only_its_own_reflection(tmp_path):
+    """Waves, then noise alone, then a dead calm: the first block keeps its coefficients, the others say why not."""
+    from moyai.sea.irregular import synthesise
+    from moyai.sea.spectra import jonswap
+    from moyai.sea.water import Water
+
+    water = Water(depth=0.8, density=1000.0, gravity=9.81)
+    sea = synthesise(jonswap(0.08, 1.6, 3.3), water, duration=200.0, seed=4, time_step=0.05)
+    time = np.arange(12_000) * 0.05
+    k, places = sea.wave_number, (0.0, 0.3, 0.75, 6.0, 6.3, 6.75)
+    strength = [1.0, 1.0, 1.0, 0.5, 0.5, 0.5]
+    waves = sea.respond(np.array([a * np.exp(1j * k * x) for a, x in zip(strength, places)]), time)
+    values = np.where((time < 200.0)[:, None], waves, 0.0)
+    noisy = (time >= 200.0) & (time < 400.0)
+    values[noisy] = np.random.default_rng(3).normal(0.0, 1e-3, (int(noisy.sum()), 6))
+    np.savetxt(tmp_path / "f.csv", np.column_stack([time, values]), delimiter=",", header="t,a,b,c,d,e,f", comments="")
+    channels = "\n".join(
+        f"      - {{name: {n}, column: {n}, unit: m, kind: elevation, quality: {{flat: never, clip_samples: 0}}}}"
+        for n in "abcdef"
+    )
+    (tmp_path / "f.yaml").write_text(
+        f"""moyai: 1
+loggers:
+  - name: flume
+    file: f.csv
+    time: {{column: t}}
+    channels:
+{channels}
+site: {{water_depth: 0.8, density: 1000, gravity: 9.81}}
+blocks: {{length: 200 s}}
+spectrum: {{segment: 51.2 s, lowest: 0.4 Hz, highest: 1.1 Hz}}
+reflection:
+  front: [{{channel: a, x: 0}}, {{channel: b, x: 0.3}}, {{channel: c, x: 0.75}}]
+  behind: [{{channel: d, x: 6}}, {{channel: e, x: 6.3}}, {{channel: f, x: 6.75}}]
+"""
+    )
+    result = run_survey(load_survey(tmp_path / "f.yaml"))
+    found = result.tree["reflection"]
+    assert found["transmission_coefficient"].values[0] == pytest.approx(0.5, abs=0.02)
+    assert np.isnan(found["transmission_coefficient"].values[2])
+    assert np.isnan(found["reflection_coefficient"].values[2])
+    codes = {notice.code for notice in result.notices}
+    assert {"reflection-noise", "transmission-skipped"} <= codes
+
+
+def test_single_missing_samples_cost_no_spectrum(tmp_path):
+    """0.25 % of a wave record lost, marked by a word: the height is that of the whole record, the share is stated."""
+    time = np.arange(4000) * 0.25
+    random = np.random.default_rng(8)
+    level = sum(
+        0.1 * np.cos(2.0 * math.pi * f * time + p)
+        for f, p in zip(np.linspace(0.08, 0.2, 30), random.uniform(0, 6.3, 30))
+    )
+    words = [f"{value:.6f}" for value in level]
+    for place in random.choice(np.arange(5, 3990), 10, replace=False):
+        words[place] = "欠測"
+    (tmp_path / "w.csv").write_text("t,h\n" + "\n".join(f"{t},{w}" for t, w in zip(time, words)), encoding="utf-8")
+    (tmp_path / "w.yaml").write_text(
+        """moyai: 1
+loggers:
+  - name: buoy
+    file: w.csv
+    time: {column: t}
+    channels: [{name: h, column: h, unit: m, kind: elevation, missing: [欠測, -9999]}]
+blocks: {length: 1000 s}
+waves: {channels: [h]}
+spectrum: {segment: 200 s, lowest: 0.05 Hz, highest: 0.4 Hz}
+""",
+        encoding="utf-8",
+    )
+    result = run_survey(load_survey(tmp_path / "w.yaml"))
+    told = [notice for notice in result.notices if notice.code == "short-gaps-filled"]
+    assert len(told) == 1 and "0.25 %" in told[0].message
+    spectra = result.tree["spectra"]
+    height = 4.0 * math.sqrt(np.trapezoid(spectra["density"].values[0, 0], spectra["frequency"].values))
+    assert height == pytest.approx(4.0 * np.std(level), rel=0.03)
+
+
 def test_decay_command(tmp_path):
     from typer.testing import CliRunner
 

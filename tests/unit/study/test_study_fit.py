@@ -109,3 +109,34 @@ def test_a_value_that_could_not_be_written_is_refused_before_the_fit(tmp_path):
     )
     with pytest.raises(CaseError, match="there is no entry 'w' in 'waves'"):
         load_fit(write(tmp_path, only_here))
+
+
+def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
+    import dataclasses
+
+    from moyai.report.writer import compose_document, write_report
+    from moyai.study.fitting import _result
+
+    fit = load_fit(write(tmp_path, noise=0.03, rows=8))
+    _, found = run_fit(fit, study_cases.linear_case)
+    (item, unit) = fit.parameters[0]
+    # A second value that the observations hardly tell from the first
+    twin = dataclasses.replace(item, name="stiffness")
+    two = dataclasses.replace(fit, parameters=((item, unit), (twin, "N/m")))
+    both = dataclasses.replace(
+        found,
+        values=np.array([55.6123456789, 2000.0]),
+        errors=np.array([0.05, 30.0]),
+        covariance=np.array([[0.05**2, -0.98 * 0.05 * 30.0], [-0.98 * 0.05 * 30.0, 30.0**2]]),
+        interval=np.array([[55.5, 55.7], [1940.0, 2060.0]]),
+        left_out=(),
+    )
+    result = _result(two, both)
+    np.testing.assert_allclose(result.tree["fit"]["correlation"].values, [[1.0, -0.98], [-0.98, 1.0]])
+    document = compose_document(result)
+    assert [section.title for section in document.sections][:3] == [
+        "Summary", "What cannot be told apart", "Observed and fitted",
+    ]  # fmt: skip
+    text = write_report(result, tmp_path / "out")[0].read_text(encoding="utf-8")
+    assert "55.612" in text and "55.6123" not in text.split("Case file as it was run")[0].split("plot-data")[0]
+    assert "hardly tell apart" in text and "-0.980" in text

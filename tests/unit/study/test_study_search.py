@@ -50,6 +50,9 @@ def test_the_shortest_line_that_holds_its_tension_is_found_along_a_trade_off(tmp
     found = result.tree["optimum"]["objective"].values
     assert np.allclose(found, exact, rtol=2e-3)
     assert (result.tree["optimum"]["margin"].values >= 0.0).all(), "an optimum lies within its limits"
+    messages = [str(word) for word in result.tree["case_message"].values.ravel()]
+    for word, best in zip(messages, found):
+        assert word.startswith(f"lines[*].segments[0].length = {best:.4g} m: best of"), "the case says what was found"
     assert list(result.tree["optimum"]["best"].coords["variable"].values) == ["lines[*].segments[0].length [m]"]
     assert np.allclose(result.tree["optimum"]["best"].values.ravel(), found, rtol=1e-12)
 

@@ -446,7 +446,8 @@ def quality_notices(
         notices.append(
             Notice(
                 "record-gaps",
-                f"{len(gaps)} gaps, the longest {duration:.4g} s from {instant_text(start, dated)}; none was filled",
+                f"{len(gaps)} gaps, the longest {duration:.4g} s from {instant_text(start, dated)}; "
+                "spectra fill only short ones, and say so",
                 float(len(gaps)),
             )
         )

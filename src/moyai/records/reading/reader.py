@@ -27,7 +27,8 @@ from moyai.records.reading.text import RawChunk, line_of_row, read_text, stated_
 CHUNK_ROWS = 131_072
 """Rows read at a time: 10 MB for ten channels."""
 
-_DATENUM_1970 = 719529.0
+_DAYS_1970 = {"datenum": 719529.0, "excel": 25569.0}
+"""1970-01-01 in the days of MATLAB (from year 0) and of spreadsheets (from 1899-12-30)."""
 
 
 def si_symbol(unit: Unit) -> str:
@@ -192,7 +193,7 @@ def _parsed(unit: str) -> Unit | None:
 
 def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit) -> FloatArray:
     values = np.asarray(raw, dtype=np.float64)
-    for sign in column.missing:
+    for sign in (sign for sign in column.missing if not isinstance(sign, str)):
         values = np.where(np.isclose(values, sign, rtol=1e-6, atol=1e-9), np.nan, values)
     values = np.where(np.isfinite(values), values, np.nan)
     factor = unit.to_si(Fraction(1))
@@ -259,8 +260,8 @@ class _Clock:
             seconds = np.asarray(columns[0], dtype=np.float64)
             if self.file_has_epoch:
                 return seconds - source.utc_offset
-            if source.unit == "datenum":
-                return (seconds - _DATENUM_1970) * 86400.0 - source.utc_offset
+            if source.unit in _DAYS_1970:
+                return (seconds - _DAYS_1970[source.unit]) * 86400.0 - source.utc_offset
             start = source.start if math.isfinite(source.start) else 0.0
             return start + seconds * SECONDS_PER[source.unit]
         return self._dates(columns, raw) - source.utc_offset
@@ -335,7 +336,7 @@ class _Clock:
         if self.time.order == "strict":
             remedy = "sort or cut the file, or say 'order: drop' to leave such rows out"
             if time[row] == highest[row] and not self.time.rate > 0.0:
-                remedy = "give 'rate' where the logger writes whole seconds, or " + remedy
+                remedy = "give 'rate' where the logger rounds its stamps, for instance to whole seconds, or " + remedy
             raise InputError(told, path="time", remedy=remedy)
         kept = ~late
         if kept.any():

@@ -11,7 +11,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 
 Format = Literal["auto", "csv", "mat", "netcdf", "parquet"]
-TimeUnit = Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum"]
+TimeUnit = Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum", "excel"]
 
 SECONDS_PER = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86400.0}
 ENDINGS = {
@@ -35,8 +35,8 @@ class ColumnSource:
         Unit in the file; empty takes the one that the file states.
     scale, offset : float
         Applied before the unit: ``value * scale + offset``.
-    missing : tuple of float
-        Numbers that mean "no value".
+    missing : tuple of float or str
+        Numbers and words that mean "no value".
     """
 
     column: str | int
@@ -44,7 +44,7 @@ class ColumnSource:
     unit: str = ""
     scale: float = 1.0
     offset: float = 0.0
-    missing: tuple[float, ...] = ()
+    missing: tuple[float | str, ...] = ()
 
 
 @checks_words
@@ -59,7 +59,7 @@ class TimeSource:
     form : str
         ``number``, ``iso``, or a pattern such as ``%Y/%m/%d %H:%M:%S.%f``.
     unit : str
-        Unit of a number: seconds and its relatives, or MATLAB's ``datenum``.
+        Unit of a number: seconds and its relatives, or MATLAB's ``datenum``, or ``excel``: days of a spreadsheet.
     start : float
         Instant added to numbers [s since 1970 UTC], NaN for a logger's own clock.
     rate : float
@@ -86,7 +86,7 @@ class TimeSource:
     @property
     def dated(self) -> bool:
         """Whether the instants are dates."""
-        return self.form != "number" or self.unit == "datenum" or math.isfinite(self.start)
+        return self.form != "number" or self.unit in ("datenum", "excel") or math.isfinite(self.start)
 
 
 @dataclass(frozen=True)

@@ -303,7 +303,14 @@ def _numbers(
     text = series.astype("object")
     plain = text.map(lambda cell: plain_name(cell).replace(source.decimal, ".") if isinstance(cell, str) else cell)
     numbers = pd.to_numeric(plain, errors="coerce")
-    bad = numbers.isna() & ~text.isna() & (plain != "")
+    signs = {
+        plain_name(sign).replace(source.decimal, ".")
+        for entry in source.columns
+        if entry.column == column
+        for sign in entry.missing
+        if isinstance(sign, str)
+    }
+    bad = numbers.isna() & ~text.isna() & (plain != "") & ~plain.isin(signs)
     if bad.any():
         row = int(np.flatnonzero(bad.to_numpy())[0])
         line = _line_of(path, layout, source.comment, first + row)

@@ -12,8 +12,9 @@ from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading.clocks import interpolate
 from moyai.records.reading.quality import BlockMoments, Finding, check_record, moments_of
-from moyai.records.reading.record import FloatArray, Record
+from moyai.records.reading.record import FloatArray, Record, nominal_step
 from moyai.records.reading.sensors import Sensor, surface_elevation
+from moyai.records.reading.short_gaps import fill_short_gaps
 from moyai.records.survey.currents import block_means, components, heading_of_bearing
 from moyai.records.survey.directional import directional_spectrum, fourier_directions
 from moyai.records.survey.irregular_reflection import separate_irregular, transmission
@@ -179,7 +180,11 @@ def _surface(survey: Survey, data: _Samples, name: str, notices: list[Notice]) -
         return time, np.full_like(values, np.nan)
     step = float(np.median(np.diff(time)))
     band = survey.spectral
-    surface = surface_elevation(step, values, use.sensor, survey.water, lowest=band.lowest, highest=band.highest)
+    try:
+        surface = surface_elevation(step, values, use.sensor, survey.water, lowest=band.lowest, highest=band.highest)
+    except InputError as error:
+        notices.append(Notice("surface-skipped", f"{name}: a block has no surface: {error.fault.message}"))
+        return time, np.full_like(values, np.nan)
     notices.extend(surface.notices)
     return time, surface.elevation
 
@@ -209,13 +214,26 @@ def _waves(
 
 def _even(time: FloatArray, *values: FloatArray) -> tuple[float, FloatArray]:
     """Return the step, and the columns with NaN where the clock has a gap."""
-    step = float(np.median(np.diff(time)))
-    place = np.rint((time - time[0]) / step).astype(np.int64)
+    step = nominal_step(time)
+    # Counted from sample to sample: an error of the step does not add up over the block
+    place = np.concatenate([[0], np.cumsum(np.maximum(np.rint(np.diff(time) / step), 1.0))]).astype(np.int64)
+    step = float(time[-1] - time[0]) / float(place[-1])
     if place[-1] == time.size - 1:
         return step, np.column_stack(values)
     out = np.full((int(place[-1]) + 1, len(values)), np.nan)
     out[place] = np.column_stack(values)
     return step, out
+
+
+def _filled(
+    survey: Survey, step: float, columns: FloatArray, what: str, notices: list[Notice]
+) -> tuple[float, FloatArray]:
+    """Return the step, and the columns with short gaps filled; a notice names the share and its effect."""
+    assert survey.spectral is not None
+    filled = fill_short_gaps(step, columns, survey.spectral.highest)
+    if filled.share > 0.0:
+        notices.append(filled.notice(what))
+    return step, filled.values
 
 
 def _together(
@@ -261,7 +279,7 @@ def _spectra(
         found = _surface(survey, data, name, notices)
         if found is None or found[0].size < 8:
             continue
-        step, columns = _even(*found)
+        step, columns = _filled(survey, *_even(*found), name, notices)
         options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "spectrum")
         if options is None:
             continue
@@ -290,7 +308,7 @@ def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         if sensor is None:
             raise InputError(f"'{name}' is no quantity of waves", path="directions.channels")
         sensors.append(sensor)
-    step, columns = _even(shared[0], *shared[1])
+    step, columns = _filled(survey, *_even(shared[0], *shared[1]), "directions", notices)
     options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "directions")
     if options is None:
         return {}
@@ -344,7 +362,7 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     shared = _together(data, (*use.front, *use.rear), notices, "reflection")
     if shared is None:
         return {}
-    step, columns = _even(shared[0], *shared[1])
+    step, columns = _filled(survey, *_even(shared[0], *shared[1]), "reflection", notices)
     options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "reflection")
     if options is None:
         return {}
@@ -353,7 +371,11 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         return {}
     low, high = survey.spectral.lowest, survey.spectral.highest
     front = columns[:, : len(use.front)]
-    found = separate_irregular(step, front, use.front_positions, survey.water, options, lowest=low, highest=high)
+    try:
+        found = separate_irregular(step, front, use.front_positions, survey.water, options, lowest=low, highest=high)
+    except InputError as error:
+        notices.append(Notice("reflection-skipped", f"a block has no reflection analysis: {error.fault.message}"))
+        return {}
     notices.extend(found.notices)
     out = {
         "reflection_coefficient": found.reflection,
@@ -363,7 +385,12 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     }
     if use.rear:
         rear = columns[:, len(use.front) :]
-        passed = transmission(step, found, rear, use.rear_positions, survey.water, options, lowest=low, highest=high)
+        places = use.rear_positions
+        try:
+            passed = transmission(step, found, rear, places, survey.water, options, lowest=low, highest=high)
+        except InputError as error:
+            notices.append(Notice("transmission-skipped", f"a block has no transmission: {error.fault.message}"))
+            return out
         out |= {
             "transmission_coefficient": passed.coefficient,
             "transmission_error": passed.error,
@@ -470,4 +497,4 @@ def _refined_lag(
 
 
 def _step(time: FloatArray) -> float:
-    return float(np.median(np.diff(time)))
+    return nominal_step(time)

@@ -165,7 +165,10 @@ def separate_irregular(
     mean[:, ~used] = np.nan
     notices = _condition_notices(frequency, condition, used, largest_condition)
     notices = (*notices, *_delay_notices(frequency[used], k[used], x, size * step))
-    if energy[:, 1].mean() < 0.0:
+    if energy[:, 0].mean() <= 0.0:
+        message = "the incident energy is not above the noise of the gauges: there is no reflection coefficient"
+        notices = (*notices, Notice("reflection-noise", message))
+    elif energy[:, 1].mean() < 0.0:
         message = "the reflected energy is not above the noise of the gauges: reflection is shown as 0"
         notices = (*notices, Notice("reflection-noise", message, ratio, 0.0))
     return IrregularSeparation(
@@ -329,6 +332,11 @@ def transmission(
     """Return the transmission from the separated waves in front and one or more gauges behind.
 
     With one gauge the beach is taken to reflect nothing; with two or more its reflection is taken off.
+
+    Raises
+    ------
+    InputError
+        The energy in front or behind is not above the noise of the gauges, as in a calm.
     """
     values = np.asarray(rear, dtype=float)
     values = values[:, None] if values.ndim == 1 else values
@@ -346,6 +354,12 @@ def transmission(
         ok = front.used & np.isfinite(density)
     df = float(front.frequency[1] - front.frequency[0])
     passed, came = float(np.sum(density[ok])) * df, float(np.sum(front.incident[ok])) * df
+    for energy, place in ((came, "in front"), (passed, "behind")):
+        if not energy > 0.0:  # noise that is taken off may exceed a calm sea
+            raise InputError(
+                f"the energy of the waves {place} is not above the noise of the gauges", path="gauges",
+                remedy="leave calm blocks out, or widen the band",
+            )  # fmt: skip
     coefficient = math.sqrt(passed / came)
     # Relative error of an energy from its effective number of degrees of freedom, in front and behind
     wide = [float(np.sum(s[ok]) ** 2 / np.sum(s[ok] ** 2)) for s in (density, front.incident)]

@@ -67,8 +67,8 @@ class TimeColumn(Block):
         min_length=2,
         description="'iso', or a pattern such as '%Y/%m/%d %H:%M:%S.%f'; absent: the time is a number.",
     )
-    unit: Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum"] = Field(
-        default="s", description="Unit of a number; 'datenum' are MATLAB's days."
+    unit: Literal["s", "ms", "us", "ns", "min", "h", "d", "datenum", "excel"] = Field(
+        default="s", description="Unit of a number; 'datenum' are MATLAB's days, 'excel' the days of a spreadsheet."
     )
     start: str | None = Field(
         default=None, description="Date and time of zero, UTC unless it names its offset: 1999-09-23T00:00:00+09:00."
@@ -136,7 +136,9 @@ class ChannelEntry(Block):
     offset: Number = Field(
         default=0.0, description="Added to the numbers of the file after the factor, before the unit."
     )
-    missing: tuple[float, ...] = Field(default=(), max_length=20, description="Numbers that mean 'no value'.")
+    missing: tuple[float | str, ...] = Field(
+        default=(), max_length=20, description="Numbers and words that mean 'no value': [-9999, '****', 欠測]."
+    )
     x: Length = Field(default=0.0, description="Position.")
     y: Length = Field(default=0.0, description="Position.")
     z: Length = Field(default=0.0, description="Height above the mean water level, negative below.")
