@@ -13,6 +13,7 @@ from moyai.case.line_code import code_criterion
 from moyai.case.schema_criteria import LineCriteria
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion, Sense
+from moyai.core.kinds import structure_kind
 
 CASE = "case file"
 UNCONFIRMED = "not confirmed against the standard"
@@ -67,17 +68,18 @@ def criteria_of(model: Any) -> tuple[Criterion, ...]:
     InputError
         When a design code has no value for the lines, or two places of the case contradict each other.
     """
-    given = model.criteria
+    given = getattr(model, "criteria", "none")
     if isinstance(given, str):
         return ()
-    found = _OF_STRUCTURE[model.structure.kind](model, given)
+    kind = model.structure.kind
+    found = _OF_STRUCTURE[kind](model, given) if kind in _OF_STRUCTURE else structure_kind(kind).criteria(model)
     return tuple(criterion for criterion in found if not math.isnan(criterion.limit))
 
 
 def _breakwater(model: Any, given: Any) -> Iterator[Criterion]:
     moored = [line for line in model.lines if line.kind == "catenary"]
     moving = bool(moored) and "time" in model.analyses and all(line.dynamic is True for line in moored)
-    yield from _lines(
+    yield from line_criteria(
         given,
         DEFAULT_CODE if moored else "",
         "dynamic" if moving else "quasi_static",
@@ -85,7 +87,7 @@ def _breakwater(model: Any, given: Any) -> Iterator[Criterion]:
     )
     if given.greatest_uplift is None and moored:
         yield _plain("greatest_uplift", 0.0, UPLIFT_SOURCE)
-    yield from _given(given, {"greatest_anchor_load": "anchor_horizontal_load"})
+    yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_load"})
     yield from _transmission(given.greatest_transmission)
     for key in ("least_metacentric_height", "least_freeboard"):
         if getattr(given, key) is None and "statics" in model.analyses:
@@ -113,7 +115,7 @@ def _curtain(model: Any, given: Any) -> Iterator[Criterion]:
         limit = curtain_limit(model, key)
         if limit > 0.0:
             yield Criterion(key, headline, limit, "at least", CASE, words, unit)
-    yield from _given(given)
+    yield from given_criteria(given)
 
 
 def curtain_key(part: str) -> str:
@@ -181,33 +183,45 @@ def _cage(model: Any, given: Any) -> Iterator[Criterion]:
         ropes = [mooring.frame_rope, mooring.bridle, *mooring.anchor_line]
     elif getattr(mooring, "breaking_load", None) is not None:
         ropes = [mooring]
-    yield from _lines(
+    yield from line_criteria(
         given,
         CAGE_CODE if ropes else "",
         "dynamic" if "time" in model.analyses else "static",
         [getattr(rope, "catalogue", None) or "rope" for rope in ropes],
     )
-    yield from _given(given)
+    yield from given_criteria(given)
 
 
 def _network(model: Any, given: Any) -> Iterator[Criterion]:
     types = model.structure.line_types.values()
     strong = [kind for kind in types if getattr(kind, "catalogue", None) or getattr(kind, "breaking_load", None)]
-    yield from _lines(
+    yield from line_criteria(
         given,
         DEFAULT_CODE if strong else "",
         "dynamic" if "dynamic" in model.analyses else "quasi_static",
         [getattr(kind, "catalogue", None) for kind in types],
     )
-    yield from _given(given)
+    yield from given_criteria(given)
 
 
 def _member(model: Any, given: Any) -> Iterator[Criterion]:
-    yield from _given(given)
+    yield from given_criteria(given)
 
 
-def _lines(given: LineCriteria, default: str, analysis: str, names: Iterable[str | None]) -> Iterator[Criterion]:
-    """Yield the criterion of the lines: a factor, a code, or the default code (empty: none)."""
+def line_criteria(given: LineCriteria, default: str, analysis: str, names: Iterable[str | None]) -> Iterator[Criterion]:
+    """Yield the criterion of the lines: a factor, a code, or the default code.
+
+    Parameters
+    ----------
+    given : LineCriteria
+        Of the case.
+    default : str
+        Code where the case names neither a factor nor a code; empty for none.
+    analysis : str
+        How the tensions are found: ``dynamic``, ``quasi_static`` or ``static``.
+    names : iterable of str or None
+        Materials of the lines in the catalogue.
+    """
     factor = given.line_safety_factor
     if factor is not None:
         yield Criterion(
@@ -218,8 +232,16 @@ def _lines(given: LineCriteria, default: str, analysis: str, names: Iterable[str
         yield code_criterion(given.code or default, analysis, names, assumed=not given.code)
 
 
-def _given(given: Any, headlines: dict[str, str] | None = None) -> Iterator[Criterion]:
-    """Yield the criteria of the keys that are a limit in themselves, as the case gives them."""
+def given_criteria(given: Any, headlines: dict[str, str] | None = None) -> Iterator[Criterion]:
+    """Yield the criteria of the keys that are a limit in themselves, as the case gives them.
+
+    Parameters
+    ----------
+    given : Block
+        The ``criteria`` of the case; of its keys those that every structure shares, ``greatest_offset`` and the like.
+    headlines : dict of str to str, optional
+        Name of the headline by the key, where it is not the usual one.
+    """
     for key in type(given).model_fields:
         limit = getattr(given, key)
         if key in _PLAIN and limit is not None:

@@ -26,7 +26,8 @@ def derived_sizes(model: Any) -> Sizes:
     sizes[("@depth",)] = site.water_depth + max(site.water_levels.values()), (_DEPTH, *levels)
     sizes[("structure", "@depth_mass")] = site.density * site.water_depth, (_DENSITY, _DEPTH)
     periods = _seas(model, sizes)
-    _OF_KIND[model.structure.kind](model, sizes)
+    if model.structure.kind in _OF_KIND:
+        _OF_KIND[model.structure.kind](model, sizes)
     if model.structure.kind == "network" and not periods:
         for name, motion in model.structure.motions.items():
             if getattr(motion, "period", None) is not None:

@@ -260,7 +260,7 @@ def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
 
     Without ``stops`` the water alone calms it, as it does a net in a current.
     """
-    from moyai.flexible.simulate import simulate
+    from moyai.flexible.simulation import simulate
 
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if len(network.nodes) > 1 else 1.0
     interval = 0.5 * math.sqrt(max(extent, 1e-3) / network.water.gravity)

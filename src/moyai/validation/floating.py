@@ -23,10 +23,10 @@ from moyai.floating.far_field import dissipated_fraction, far_field
 from moyai.floating.forcing import CalmWater, RegularForcing
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.floating.harmonics import Harmonics, fit_harmonics
-from moyai.floating.hydrostatics import Hydrostatics, hydrostatics, inertia_matrix, righting_curve
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
+from moyai.floating.statics import Hydrostatics, hydrostatics, inertia_matrix, righting_curve
 from moyai.floating.time import CumminsModel, Simulation, simulate
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.system import LineSystem
