@@ -226,7 +226,9 @@ class LineSystem:
         def evaluate(position: FloatArray) -> tuple[FloatArray, FloatArray]:
             key = position.tobytes()
             if key not in last:
-                force, stiffness = self._assemble(_positions(position)[None, :], (0.0, 0.0, 0.0), True)
+                # where an inextensible line cannot reach, its force is infinite: a search turns back there
+                with np.errstate(invalid="ignore"):
+                    force, stiffness = self._assemble(_positions(position)[None, :], (0.0, 0.0, 0.0), True)
                 last.clear()
                 last[key] = force[0], stiffness[0]
             return last[key]
