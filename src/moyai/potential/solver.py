@@ -13,7 +13,14 @@ from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Status
 from moyai.core.validity import IdentityCheck
-from moyai.potential.checks import check_frequencies, check_headings, check_section, gap_notices, identity_checks
+from moyai.potential.checks import (
+    check_arguments,
+    check_frequencies,
+    check_headings,
+    check_section,
+    gap_notices,
+    identity_checks,
+)
 from moyai.potential.edges import Edges, FloatArray
 from moyai.potential.heading import HeadingSolution, Problem, solve_in_chunks, wave_states
 from moyai.potential.limits import limit_added_mass
@@ -73,8 +80,10 @@ def solve(
     Raises
     ------
     InputError
-        For frequencies or headings out of range, or a section that touches the bed.
+        For frequencies or headings out of range, a hull that is not set into the water, modes of another kind, or a
+        section that touches the bed.
     """
+    check_arguments(section, modes)
     frequencies = check_frequencies(omega)
     headings = check_headings(heading)
     check_section(section, water)
