@@ -66,6 +66,13 @@ def count_cycles(series: ArrayLike) -> tuple[Array, Array, Array]:
     ------
     InputError
         For a record with NaN or fewer than three values.
+
+    Examples
+    --------
+    >>> from moyai.design import count_cycles
+    >>> ranges, means, counts = count_cycles([0.0, 2.0, -1.0, 3.0, 0.0])
+    >>> ranges.tolist(), counts.tolist()
+    ([2.0, 3.0, 4.0, 3.0], [0.5, 0.5, 0.5, 0.5])
     """
     import rainflow
 
@@ -89,6 +96,23 @@ def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float
     counts : array_like (n,)
         Numbers of cycles.
     curve : EnduranceCurve
+
+    Returns
+    -------
+    float
+        Share of the life that is used; 1 is failure.
+
+    Raises
+    ------
+    InputError
+        When a range or a number of cycles is negative.
+
+    Examples
+    --------
+    >>> from moyai.design import EnduranceCurve, damage
+    >>> curve = EnduranceCurve("own", exponent=3.0, capacity=1000.0, unit="1", confirmed=True, source="own tests")
+    >>> round(damage([0.1, 0.2], [1e4, 1e3], curve), 3)
+    0.018
     """
     r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
     if np.any(r < 0.0) or np.any(n < 0.0):

@@ -126,6 +126,20 @@ def solve_equilibrium(
     ConvergenceError
         When there is no equilibrium or none is found; the message names the node, the force left and what is wrong:
         what nothing holds, what sinks, rises or drifts for ever, a mechanism.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder, solve_equilibrium
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=10.0, axial_stiffness=1e7, diameter=0.05)
+    >>> builder.fixed("left", (0.0, 0.0, -2.0))
+    >>> builder.fixed("right", (20.0, 0.0, -2.0))
+    >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
+    >>> network = builder.build()
+    >>> found = solve_equilibrium(network)
+    >>> round(float(found.state.position[:, 2].min()), 2)            # deepest point of the hanging rope [m]
+    -4.79
     """
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0

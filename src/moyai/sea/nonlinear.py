@@ -219,6 +219,14 @@ def nonlinear_wave(
         When an argument is out of range.
     ConvergenceError
         When no such wave is found, for instance above the breaking height.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water, nonlinear_wave
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> wave = nonlinear_wave("stream_function", height=2.0, water=water, period=6.0)
+    >>> round(float(wave.elevation(0.0, 0.0, 0.0)), 2)               # the crest is higher than half the height [m]
+    1.12
     """
     _check_arguments(theory, height, period, wavelength, order, current_along_wave, solver)
 
