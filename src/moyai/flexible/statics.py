@@ -269,6 +269,11 @@ def _relaxed(network: Network, place: Array, flow: Flow) -> Array:
     return place
 
 
+def _pull_per_mass(network: Network) -> float:
+    """Return the acceleration [m/s2] that sets the pace without gravity: the stiffest bar pulls the whole mass."""
+    return max(kind.axial_stiffness for kind in network.bars.types) / float(np.sum(network.node_mass))
+
+
 def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
     """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen.
 
@@ -277,7 +282,8 @@ def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
     from moyai.flexible.simulation import simulate
 
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if len(network.nodes) > 1 else 1.0
-    interval = 0.5 * math.sqrt(max(extent, 1e-3) / network.water.gravity)
+    pull = network.water.gravity or _pull_per_mass(network)
+    interval = 0.5 * math.sqrt(max(extent, 1e-3) / pull)
     still = Motion(0.0, 10.0 * interval, np.zeros((2, 3)), np.zeros((2, 3)))
     motions = dict.fromkeys(network.motion_names, still)
     state, energy = State(0.0, place, np.zeros_like(place)), 0.0
