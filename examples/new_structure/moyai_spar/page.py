@@ -13,7 +13,7 @@ def compose(result: Result) -> Document:
     root, numbers = Group("", result.tree), headline_figures(result)
     columns = [Column(label.capitalize(), [level.value(name) for level in root.children()], unit)
                for name, (unit, label) in VARIABLES.items()]  # fmt: skip
-    table = Table("levels", "At rest", (Column("Water level", [level.name for level in root.children()]), *columns))
+    table = Table("levels", "Equilibrium", (Column("Water level", [level.name for level in root.children()]), *columns))
     sections = (
         Section("summary", "Summary", (*([] if numbers is None else [numbers]), *notice_blocks(result))),
         Section("statics", "Statics", (table,)),
