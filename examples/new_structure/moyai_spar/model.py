@@ -35,7 +35,7 @@ class SparProblem:
 
 @dataclass(frozen=True)
 class SparState:
-    """The equilibrium of a spar in the current: lengths [m], forces [N], residual of the vertical ones over the weight."""
+    """Equilibrium in the current: lengths [m], forces [N], residual of the vertical ones over the weight."""
 
     draught: float
     offset: float
