@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from moyai.flexible.network import Bed
-from moyai.morison.net_law import Net, net_law
+from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage

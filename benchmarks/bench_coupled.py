@@ -18,7 +18,7 @@ import numpy as np
 from moyai.coupled.rest import find_rest
 from moyai.coupled.simulate import simulate_coupled
 from moyai.flexible.motion import Motion
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 
 EXAMPLE = Path(__file__).resolve().parents[1] / "examples/coupled/moored_box.py"
 

@@ -13,7 +13,7 @@ import json
 import time
 
 from moyai.flexible.flow import Flow
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.current import uniform
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water

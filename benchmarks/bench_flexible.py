@@ -21,7 +21,7 @@ import flexible_decks as decks
 import numpy as np
 
 from moyai.flexible.flow import Flow
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 
 HERE = Path(__file__).resolve().parent

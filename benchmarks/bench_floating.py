@@ -18,9 +18,9 @@ from moyai.floating.damping import LinearDamping
 from moyai.floating.far_field import drift_force_per_amplitude_squared, far_field
 from moyai.floating.forcing import IrregularForcing
 from moyai.floating.frequency import solve_motions
-from moyai.floating.hydrostatics import hydrostatics, inertia_matrix
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
+from moyai.floating.statics import hydrostatics, inertia_matrix
 from moyai.floating.time import CumminsModel, simulate
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.system import LineSystem

@@ -20,7 +20,7 @@ from moyai.flexible.network import Bars, BarType, Network, Nodes
 from moyai.flexible.result import State
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets, sheet_grid
-from moyai.flexible.simulate import Method, simulate
+from moyai.flexible.simulation import Method, simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
@@ -112,7 +112,7 @@ import time
 import numpy as np
 from moyai.flexible.network import Bars, BarType, Network, Nodes
 from moyai.flexible.sheets import Sheets
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 place = np.array([[0.0, 0.0, -5.0], [1.0, 0.0, -5.0], [0.0, 1.0, -5.0]])
 rope = BarType("rope", 1.0, 1e4, 0.01, viscosity=10.0)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import pkgutil
+from pathlib import Path
 from typing import Any, ClassVar
 
 from docutils import nodes
@@ -37,7 +39,10 @@ suppress_warnings = ["docutils", "autodoc", "ref.footnote", "ref.python", "ref.r
 
 
 class PublicModules(SphinxDirective):
-    """Document every public module of a package: no page has to be edited when a module comes or goes."""
+    """Document every public module of a package and below it: no page is edited when a module comes or goes.
+
+    Packages that have a page of their own are left to it.
+    """
 
     required_arguments = 1
     has_content = False
@@ -46,12 +51,17 @@ class PublicModules(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return one automodule for each module."""
         package = importlib.import_module(self.arguments[0])
+        own = {f"moyai.{path.stem.replace('_', '.')}" for path in (Path(__file__).parent / "reference").glob("*.rst")}
         names = [package.__name__]
-        names += [
-            f"{package.__name__}.{module.name}"
-            for module in pkgutil.iter_modules(package.__path__)
-            if not module.name.startswith("_") and not module.ispkg
-        ]
+        waiting = [package]
+        while waiting:
+            inside = waiting.pop()
+            for module in pkgutil.iter_modules(inside.__path__, f"{inside.__name__}."):
+                if module.name.rsplit(".", 1)[1].startswith("_") or module.name in own:
+                    continue
+                names.append(module.name)
+                if module.ispkg:
+                    waiting.append(importlib.import_module(module.name))
         lines = []
         for name in sorted(names):
             lines += [f".. rubric:: {name}", "", f".. automodule:: {name}", "   :no-index:", ""]

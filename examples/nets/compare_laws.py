@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from moyai.morison.net_fouling import foul_by_name
-from moyai.morison.net_law import Net, available_net_laws, net_law
+from moyai.morison.net_law_names import Net, available_net_laws, net_law
 from moyai.morison.net_wake import wake_factor
 
 VISCOSITY = 1.35e-6  # sea water of 10 degrees

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from moyai.morison.net_law import Net
+from moyai.morison.net_law_names import Net
 from moyai.records.nets.runs import NetRun, Specimen, Tank
 from moyai.records.nets.synthesis import Rig, towed_run, wave_run
 from moyai.tables.nets import matsubara_net

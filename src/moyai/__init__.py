@@ -1,33 +1,42 @@
 """moyai: how moored floating and flexible coastal structures answer waves and currents.
 
-The three steps of the front door, each also a command (``moyai run`` does all of them):
+Five calls lead from nothing to a report, each also a command (``moyai run`` does the middle ones together):
 
->>> import moyai                                    # doctest: +SKIP
->>> case = moyai.load_case("pontoon.yaml")          # doctest: +SKIP
->>> result = moyai.run(case)                        # doctest: +SKIP
->>> moyai.write_report(result, "out/")              # doctest: +SKIP
+>>> import moyai
+>>> from pathlib import Path
+>>> file = Path("pontoon.yaml")
+>>> _ = file.write_text(moyai.template("breakwater"))          # doctest: +SKIP
+>>> case = moyai.load_case(file)                               # doctest: +SKIP
+>>> result = moyai.run(case)                                   # doctest: +SKIP
+>>> files = moyai.write_report(result, "out/")                 # doctest: +SKIP
+>>> again = moyai.read_result("out/results.nc")                # doctest: +SKIP
 
-Imports are late: importing :mod:`moyai` costs nothing until a name is used.
+Imports are late: importing :mod:`moyai` or one of its packages costs nothing until a name is used. What a package
+hands out stands in its ``__all__``; docs/calls.md says which call gives which quantity.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING
+
+from moyai.core.exports import exports
 
 __version__ = "0.1.0"
 
-_FRONT_DOOR = {
-    "load_case": "moyai.case.reader",
-    "run": "moyai.cli.runner",
-    "write_report": "moyai.report.writer",
-    "read_result": "moyai.core.results",
-}
-
-__all__ = ["__version__", "load_case", "read_result", "run", "write_report"]
-
-
-def __getattr__(name: str) -> Any:
-    if name in _FRONT_DOOR:
-        return getattr(import_module(_FRONT_DOOR[name]), name)
-    raise AttributeError(f"module 'moyai' has no attribute {name!r}")
+if TYPE_CHECKING:
+    from moyai.case.reader import load_case as load_case
+    from moyai.case.templates import template as template
+    from moyai.cli.runner import run as run
+    from moyai.core.results import read_result as read_result
+    from moyai.report.writer import write_report as write_report
+else:
+    __getattr__, __dir__, __all__ = exports(
+        __name__,
+        {
+            "case.reader": "load_case",
+            "case.templates": "template",
+            "cli.runner": "run",
+            "core.results": "read_result",
+            "report.writer": "write_report",
+        },
+    )

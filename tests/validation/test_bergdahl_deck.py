@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from moyai.flexible.motion import Motion
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_network import to_network
 from moyai.interop.moordyn_reader import read_deck

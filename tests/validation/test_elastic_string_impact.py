@@ -17,7 +17,7 @@ from numpy.polynomial import Polynomial
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.network import BarType
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 
 SPAN = 2.0

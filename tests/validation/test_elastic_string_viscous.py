@@ -17,7 +17,7 @@ from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, RopeCurve
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 
 VOID = Water(math.inf, 1000.0, 1e-12)

@@ -15,7 +15,7 @@ import pytest
 
 from moyai.case.builder import build
 from moyai.case.reader import load_case
-from moyai.morison.net_law import net_law
+from moyai.morison.net_law_names import net_law
 from moyai.structures.cage.rigid.literal import FAULTS, literal_pack
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.runs import run_wave

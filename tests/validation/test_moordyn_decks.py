@@ -14,7 +14,7 @@ from scipy.special import ellipk
 from moyai.core.errors import CaseError
 from moyai.flexible.motion import Motion
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_network import to_network, water_of

@@ -15,7 +15,7 @@ import pytest
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, Bed
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_network import to_deck

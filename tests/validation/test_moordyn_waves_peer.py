@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from moyai.flexible.flow import Flow
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.interop.moordyn_deck import write_deck
 from moyai.interop.moordyn_network import flow_of, to_network

@@ -113,7 +113,7 @@ def test_added_mass_and_damping_over_frequency(ratio, column):
         assert mass[number] == pytest.approx(expected_mass, rel=2.5e-3, abs=1e-4)
         if expected_damping is not None:
             assert damping[number] == pytest.approx(expected_damping, rel=2.5e-3, abs=1e-4)
-    reference = solve_vertical_barrier(1.0, water, omega, modes=12000, polynomials=20)
+    reference = solve_vertical_barrier(1.0, water, omega, evanescent_modes=12000, polynomials=20)
     low = kd <= 10.0
     assert np.abs(mass - reference.added_mass / FLAT)[low].max() < 2e-5
     assert np.abs(damping - reference.radiation_damping / (omega * FLAT))[low].max() < 2e-5

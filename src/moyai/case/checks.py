@@ -42,8 +42,8 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
 
 def _check_criteria(model: Any, findings: Findings) -> None:
     """Check that seas are known, and that a design code has values for the lines."""
-    limits = getattr(model.criteria, "greatest_transmission", None)
-    known = sea_names(model.waves)
+    limits = getattr(getattr(model, "criteria", None), "greatest_transmission", None)
+    known = sea_names(getattr(model, "waves", ()))
     for name in limits if isinstance(limits, dict) else ():
         if name not in known:
             findings.fault(

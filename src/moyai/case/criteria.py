@@ -52,7 +52,7 @@ def criteria_of(model: Any) -> tuple[Criterion, ...]:
     InputError
         When a design code has no value for the lines, or two places of the case contradict each other.
     """
-    given = model.criteria
+    given = getattr(model, "criteria", "none")
     if isinstance(given, str):
         return ()
     found = structure_kind(model.structure.kind).criteria(model, given)
@@ -60,9 +60,19 @@ def criteria_of(model: Any) -> tuple[Criterion, ...]:
 
 
 def line_criteria(given: LineCriteria, default: str, analysis: str, names: Iterable[str | None]) -> Iterator[Criterion]:
-    """Yield the criterion of the lines: a factor, a code, or the default code (empty: none).
+    """Yield the criterion of the lines: a factor, a code, or the default code.
 
-    An empty ``analysis`` leaves it to the run: one criterion for the numbers of either analysis.
+    Parameters
+    ----------
+    given : LineCriteria
+        Of the case.
+    default : str
+        Code where the case names neither a factor nor a code; empty for none.
+    analysis : str
+        How the tensions are found: ``dynamic``, ``quasi_static`` or ``static``; empty leaves it to the run, with one
+        criterion for the numbers of either analysis.
+    names : iterable of str or None
+        Materials of the lines in the catalogue.
     """
     factor = given.line_safety_factor
     if factor is not None:
@@ -77,7 +87,15 @@ def line_criteria(given: LineCriteria, default: str, analysis: str, names: Itera
 
 
 def given_criteria(given: Any, headlines: dict[str, str] | None = None) -> Iterator[Criterion]:
-    """Yield the criteria of the keys that are a limit in themselves, as the case gives them."""
+    """Yield the criteria of the keys that are a limit in themselves, as the case gives them.
+
+    Parameters
+    ----------
+    given : Block
+        The ``criteria`` of the case; of its keys those that every structure shares, ``greatest_offset`` and the like.
+    headlines : dict of str to str, optional
+        Name of the headline by the key, where it is not the usual one.
+    """
     for key in type(given).model_fields:
         limit = getattr(given, key)
         if key in _PLAIN and limit is not None:

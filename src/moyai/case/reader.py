@@ -12,10 +12,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from moyai.case.faults import Translator, did_you_mean, nearest
-from moyai.case.schema import STRUCTURE_KINDS, root_schema
+from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, Notes
 from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault
+from moyai.core.kinds import structure_kinds
 from moyai.core.units import plain_text
 
 
@@ -187,7 +188,8 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
     data = document.data
     if not isinstance(data, dict):
         raise CaseError([document.fault((), "a case file is a block of keys", remedy="'moyai new' prints a template")])
-    known = ", ".join(STRUCTURE_KINDS)
+    kinds = structure_kinds()
+    known = ", ".join(kinds)
     structure = data.get("structure")
     if "structure" not in data:
         near = nearest("structure", data)
@@ -205,9 +207,9 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
         found = document.fault(("structure",), "expected a block of keys with 'kind'", allowed=known)
     elif "kind" not in structure:
         found = document.fault(("structure", "kind"), "the key 'kind' is missing", allowed=known)
-    elif structure["kind"] not in STRUCTURE_KINDS:
+    elif structure["kind"] not in kinds:
         written = str(structure["kind"])
-        remedy = did_you_mean(written, STRUCTURE_KINDS)
+        remedy = did_you_mean(written, kinds)
         found = document.fault(
             ("structure", "kind"), f"'{written}' is not a known structure", allowed=known, remedy=remedy
         )

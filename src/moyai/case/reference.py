@@ -14,8 +14,9 @@ from typing import Any, Literal
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from moyai.case.schema import STRUCTURE_KINDS, root_schema
+from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, QuantityOf
+from moyai.core.kinds import structure_kinds
 
 MARK = "<!-- made by: python -m moyai.case.reference docs/case_file.md -->"
 
@@ -23,7 +24,7 @@ MARK = "<!-- made by: python -m moyai.case.reference docs/case_file.md -->"
 def reference_markdown() -> str:
     """Return the tables of every block of every kind of structure."""
     lines: list[str] = []
-    for kind in STRUCTURE_KINDS:
+    for kind in structure_kinds():
         lines += [f"## Case of a {kind}", ""]
         for name, model in _blocks(root_schema(kind)):
             lines += _section(name, model)

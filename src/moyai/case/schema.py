@@ -10,9 +10,6 @@ from typing import Any
 from moyai.case.schema_types import Block
 from moyai.core.kinds import structure_kind, structure_kinds
 
-STRUCTURE_KINDS = structure_kinds()
-"""Kinds of structure that a case file can describe."""
-
 _DRAFT = "http://json-schema.org/draft-07/schema#"
 
 
@@ -29,7 +26,7 @@ def json_schema() -> dict[str, Any]:
     """
     definitions: dict[str, Any] = {}
     choices = []
-    for kind in STRUCTURE_KINDS:
+    for kind in structure_kinds():
         whole = root_schema(kind).model_json_schema(by_alias=True, ref_template="#/definitions/{model}")
         parts = whole.pop("$defs", {})
         name = root_schema(kind).__name__
@@ -52,7 +49,7 @@ def json_schema() -> dict[str, Any]:
             "structure": {
                 "type": "object",
                 "required": ["kind"],
-                "properties": {"kind": {"enum": list(STRUCTURE_KINDS), "description": "Kind of structure."}},
+                "properties": {"kind": {"enum": list(structure_kinds()), "description": "Kind of structure."}},
             },
         },
         "allOf": choices,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from moyai.case.faults import did_you_mean
 from moyai.core.errors import InputError
-from moyai.core.kinds import templates
+from moyai.core.kinds import structure_kind, structure_kinds, templates
 
 
 def template(name: str) -> str:
@@ -13,10 +13,12 @@ def template(name: str) -> str:
     Raises
     ------
     InputError
-        For an unknown kind.
+        For an unknown kind, or one of another package that cannot be loaded.
     """
     known = templates()
     if name not in known:
+        if name in structure_kinds():
+            structure_kind(name)  # says why it has no template
         raise InputError(
             f"there is no structure '{name}'",
             path="KIND",

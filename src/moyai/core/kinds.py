@@ -15,6 +15,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from moyai.core.errors import InputError
+
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
     from moyai.core.results import Result
@@ -104,11 +106,36 @@ def structure_kind(name: str) -> StructureKind:
     ------
     KeyError
         When there is no such kind.
+    InputError
+        When the package that brings it cannot be imported, or names something else than a kind of structure.
     """
-    kind: StructureKind = (
-        import_module(f"moyai.structures.{name}").KIND if name in _STRUCTURES else _foreign()[name].load()
-    )
-    return kind
+    if name in _STRUCTURES:
+        kind: StructureKind = import_module(f"moyai.structures.{name}").KIND
+        return kind
+    point = _foreign()[name]
+    try:
+        found = point.load()
+    except (ImportError, AttributeError) as error:
+        raise InputError(
+            f"the structure '{name}' cannot be loaded from {point.value}: {error}",
+            path="structure.kind",
+            remedy="repair or remove the package that brings it",
+        ) from error
+    if not isinstance(found, StructureKind):
+        raise InputError(
+            f"{point.value} is no kind of structure",
+            path="structure.kind",
+            allowed="an object of a class derived from moyai.core.kinds.StructureKind",
+        )
+    return found
+
+
+def _templates_of(name: str) -> tuple[str, ...]:
+    """Return the templates of a structure; none of one of another package that cannot be loaded."""
+    try:
+        return tuple(template for template, _ in structure_kind(name).templates)
+    except InputError:
+        return ()
 
 
 @cache
@@ -122,6 +149,10 @@ def kind_of_result(name: str) -> Kind | None:
 
 def templates() -> dict[str, Kind]:
     """Return who has the template of each name, structures first."""
-    kinds: list[Kind] = [structure_kind(name) for name in structure_kinds()]
-    kinds += [import_module(module).KIND for module in _FURTHER.values()]
-    return {name: kind for kind in kinds for name, _ in kind.templates}
+    found: dict[str, Kind] = {
+        template: structure_kind(name) for name in structure_kinds() for template in _templates_of(name)
+    }
+    for module in _FURTHER.values():
+        kind: Kind = import_module(module).KIND
+        found |= {template: kind for template, _ in kind.templates}
+    return found

@@ -64,6 +64,10 @@ class IdentityCheck:
     tolerance: float
     meaning: str = ""
 
+    def __post_init__(self) -> None:
+        for name in ("value", "tolerance"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+
     @property
     def passed(self) -> bool:
         """Whether the violation is within the tolerance (NaN never is)."""

@@ -1,1 +1,29 @@
 """Bodies hung in flexible networks: floating, moored and towed bodies on lines that have mass, drag and snap."""
+
+from typing import TYPE_CHECKING
+
+from moyai.core.exports import exports
+
+if TYPE_CHECKING:
+    from moyai.coupled.hulls import box_hull as box_hull
+    from moyai.coupled.hulls import cylinder_hull as cylinder_hull
+    from moyai.coupled.planar import PlanarBody as PlanarBody
+    from moyai.coupled.rest import CoupledRest as CoupledRest
+    from moyai.coupled.rest import find_rest as find_rest
+    from moyai.coupled.rigid import RigidBody as RigidBody
+    from moyai.coupled.simulate import CoupledHistory as CoupledHistory
+    from moyai.coupled.simulate import simulate_coupled as simulate_coupled
+    from moyai.coupled.wave_loads import Excitation as Excitation
+    from moyai.coupled.wave_loads import WaveLoads as WaveLoads
+else:
+    __getattr__, __dir__, __all__ = exports(
+        __name__,
+        {
+            "hulls": "box_hull cylinder_hull",
+            "planar": "PlanarBody",
+            "rest": "CoupledRest find_rest",
+            "rigid": "RigidBody",
+            "simulate": "CoupledHistory simulate_coupled",
+            "wave_loads": "Excitation WaveLoads",
+        },
+    )

@@ -23,7 +23,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
-from moyai.flexible.simulate import ENERGY_STOP, ENERGY_TOLERANCE
+from moyai.flexible.simulation import ENERGY_STOP, ENERGY_TOLERANCE
 from moyai.flexible.stepping import SteppedNetwork, StepRecord
 
 Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ def simulate_coupled(
     body_step : float, optional
         Longest step of the bodies [s]; chosen from waves, restoring and lines when left out.
     step, safety, load_steps
-        Of the network, as in :func:`moyai.flexible.simulate.simulate`.
+        Of the network, as in :func:`moyai.flexible.simulation.simulate`.
     tolerance : float
         Disagreement of the reaction at which a step is accepted, over the largest reaction so far. What is left is
         handed on to the next step, so that no impulse is lost [eq:coupled-carry].

@@ -153,6 +153,11 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     diameter : float
         Diameter of the new line [m]; needed when ``corrosion`` is not zero.
 
+    Returns
+    -------
+    LineCheck
+        Utilisation (above 1 does not hold) with the factors used and whether they are confirmed.
+
     Raises
     ------
     InputError
@@ -161,6 +166,14 @@ def check_line(load: LineLoad, code: DesignCode, *, corrosion: float = 0.0, diam
     Notes
     -----
     [eq:checks-factor] [eq:checks-partial] [eq:checks-material] [eq:checks-share] [eq:checks-corrosion]
+
+    Examples
+    --------
+    >>> from moyai.design import LineLoad, check_line, design_code
+    >>> load = LineLoad("line 1", maximum_tension=1e6, mean_tension=4e5, breaking_load=2e6, component="chain")
+    >>> found = check_line(load, design_code("ISO 19901-7", analysis="dynamic"))
+    >>> round(found.utilisation, 3)                                  # 1.67 times 1 MN over 2 MN
+    0.835
     """
     strength = load.breaking_load * _worn_share(corrosion, diameter)
     condition = "one_lost" if load.lost else "intact"

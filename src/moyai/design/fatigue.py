@@ -59,6 +59,23 @@ def damage(ranges: ArrayLike, counts: ArrayLike, curve: EnduranceCurve) -> float
     counts : array_like (n,)
         Numbers of cycles.
     curve : EnduranceCurve
+
+    Returns
+    -------
+    float
+        Share of the life that is used; 1 is failure.
+
+    Raises
+    ------
+    InputError
+        When a range or a number of cycles is negative.
+
+    Examples
+    --------
+    >>> from moyai.design import EnduranceCurve, damage
+    >>> curve = EnduranceCurve("own", exponent=3.0, capacity=1000.0, unit="1", confirmed=True, source="own tests")
+    >>> round(damage([0.1, 0.2], [1e4, 1e3], curve), 3)
+    0.018
     """
     r, n = np.asarray(ranges, dtype=float), np.asarray(counts, dtype=float)
     if np.any(r < 0.0) or np.any(n < 0.0):

@@ -29,6 +29,13 @@ class Scale:
         Of the waters [-]: 1.025 for the sea against a flume of fresh water.
     gravity : float
         [-]; 1 except in a centrifuge.
+
+    Examples
+    --------
+    >>> from moyai.design import Scale
+    >>> scale = Scale(length=25.0, density=1.025, gravity=1.0)
+    >>> scale.ratio("s"), round(scale.ratio("N"), 1)
+    (5.0, 16015.6)
     """
 
     length: float

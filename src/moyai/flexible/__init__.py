@@ -1,1 +1,39 @@
-"""Flexible networks: lines, nets and all that hangs, floats and snaps, from rest to the peak of a snap load."""
+"""Flexible networks: lines, nets and all that hangs, floats and snaps, from equilibrium to the peak of a snap load."""
+
+from typing import TYPE_CHECKING
+
+from moyai.core.exports import exports
+
+if TYPE_CHECKING:
+    from moyai.flexible.build import NetworkBuilder as NetworkBuilder
+    from moyai.flexible.flow import Current as Current
+    from moyai.flexible.flow import Flow as Flow
+    from moyai.flexible.modes import Modes as Modes
+    from moyai.flexible.modes import natural_modes as natural_modes
+    from moyai.flexible.motion import Motion as Motion
+    from moyai.flexible.network import BarType as BarType
+    from moyai.flexible.network import Bed as Bed
+    from moyai.flexible.network import Network as Network
+    from moyai.flexible.refine import refined as refined
+    from moyai.flexible.result import History as History
+    from moyai.flexible.result import State as State
+    from moyai.flexible.sensitivity import peak_sensitivity as peak_sensitivity
+    from moyai.flexible.simulation import simulate as simulate
+    from moyai.flexible.statics import Equilibrium as Equilibrium
+    from moyai.flexible.statics import solve_equilibrium as solve_equilibrium
+else:
+    __getattr__, __dir__, __all__ = exports(
+        __name__,
+        {
+            "build": "NetworkBuilder",
+            "flow": "Current Flow",
+            "modes": "Modes natural_modes",
+            "motion": "Motion",
+            "network": "BarType Bed Network",
+            "refine": "refined",
+            "result": "History State",
+            "sensitivity": "peak_sensitivity",
+            "simulation": "simulate",
+            "statics": "Equilibrium solve_equilibrium",
+        },
+    )

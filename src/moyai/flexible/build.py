@@ -65,6 +65,19 @@ class NetworkBuilder:
         Depth, density and gravity.
     bed : Bed, optional
         Contact with the bed.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=10.0, axial_stiffness=1e7, diameter=0.05)
+    >>> builder.fixed("left", (0.0, 0.0, -2.0))
+    >>> builder.fixed("right", (20.0, 0.0, -2.0))
+    >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
+    >>> network = builder.build()
+    >>> network.nodes.position.shape                                 # nodes, axes [m]
+    (21, 3)
     """
 
     def __init__(self, water: Water, bed: Bed | None = None) -> None:

@@ -64,7 +64,7 @@ def driving_tables(network: Network, motions: Mapping[str, Motion]) -> tuple[Any
 
 
 class ExplicitRun:
-    """The state of one run; :func:`moyai.flexible.simulate.simulate` makes it and asks it to advance."""
+    """The state of one run; :func:`moyai.flexible.simulation.simulate` makes it and asks it to advance."""
 
     name = "explicit"
 

@@ -29,7 +29,7 @@ TOLERANCE = 1e-3
 
 
 class ImplicitRun:
-    """The state of one run; :func:`moyai.flexible.simulate.simulate` makes it and asks it to advance."""
+    """The state of one run; :func:`moyai.flexible.simulation.simulate` makes it and asks it to advance."""
 
     def __init__(
         self,

@@ -18,7 +18,7 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
 from moyai.flexible.refine import more_viscous, refined, with_viscosity
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ def peak_sensitivity(
     Parameters
     ----------
     network, motions
-        As in :func:`moyai.flexible.simulate.simulate`.
+        As in :func:`moyai.flexible.simulation.simulate`.
     bar : int
         The bar; on the finer mesh the tension is that of its first or last half, whichever is nearer to the end of its
         strand.

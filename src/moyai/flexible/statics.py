@@ -126,6 +126,20 @@ def solve_equilibrium(
     ConvergenceError
         When there is no equilibrium or none is found; the message names the node, the force left and what is wrong:
         what nothing holds, what sinks, rises or drifts for ever, a mechanism.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder, solve_equilibrium
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=10.0, axial_stiffness=1e7, diameter=0.05)
+    >>> builder.fixed("left", (0.0, 0.0, -2.0))
+    >>> builder.fixed("right", (20.0, 0.0, -2.0))
+    >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
+    >>> network = builder.build()
+    >>> found = solve_equilibrium(network)
+    >>> round(float(found.state.position[:, 2].min()), 2)            # deepest point of the hanging rope [m]
+    -4.79
     """
     place = np.array(network.nodes.position if start is None else start.position)
     fixed = network.nodes.kind != 0
@@ -255,15 +269,21 @@ def _relaxed(network: Network, place: Array, flow: Flow) -> Array:
     return place
 
 
+def _pull_per_mass(network: Network) -> float:
+    """Return the acceleration [m/s2] that sets the pace without gravity: the stiffest bar pulls the whole mass."""
+    return max(kind.axial_stiffness for kind in network.bars.types) / float(np.sum(network.node_mass))
+
+
 def _shake(network: Network, place: Array, flow: Flow, stops: bool) -> Array:
     """Move a network towards rest by the explicit scheme, stopped whenever its kinetic energy has fallen.
 
     Without ``stops`` the water alone calms it, as it does a net in a current.
     """
-    from moyai.flexible.simulate import simulate
+    from moyai.flexible.simulation import simulate
 
     extent = float(np.max(np.ptp(network.nodes.position, axis=0))) if len(network.nodes) > 1 else 1.0
-    interval = 0.5 * math.sqrt(max(extent, 1e-3) / network.water.gravity)
+    pull = network.water.gravity or _pull_per_mass(network)
+    interval = 0.5 * math.sqrt(max(extent, 1e-3) / pull)
     still = Motion(0.0, 10.0 * interval, np.zeros((2, 3)), np.zeros((2, 3)))
     motions = dict.fromkeys(network.motion_names, still)
     state, energy = State(0.0, place, np.zeros_like(place)), 0.0

@@ -108,7 +108,7 @@ class SteppedNetwork:
     step : float, optional
         Time step [s]; the largest stable one when left out.
     safety : float, optional
-        Part of the stable step, as in :func:`moyai.flexible.simulate.simulate`.
+        Part of the stable step, as in :func:`moyai.flexible.simulation.simulate`.
     keep_nodes, keep_bars : array_like of int, optional
         What the record holds; everything when left out.
 
@@ -307,7 +307,7 @@ class SteppedNetwork:
         self._peak, self._trough = np.full_like(self._peak, -np.inf), np.full_like(self._trough, np.inf)
 
     def notices(self, record: StepRecord, check: IdentityCheck, finished: bool) -> tuple[Notice, ...]:
-        """Return what makes the peaks of the record doubtful, as :func:`moyai.flexible.simulate.simulate` tells it."""
+        """Return what makes the peaks of the record doubtful, as in :func:`moyai.flexible.simulation.simulate`."""
         self._restore()
         return peak_notices(self.network, self.run, record.bars, record.tension_peak, check, finished)
 

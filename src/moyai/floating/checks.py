@@ -8,7 +8,7 @@ import numpy as np
 
 from moyai.core.validity import Notice
 from moyai.floating.arrays import FloatArray
-from moyai.floating.hydrostatics import Hydrostatics
+from moyai.floating.statics import Hydrostatics
 
 IMBALANCE_LIMIT = 1.0
 ROLL_LIMIT = math.radians(10.0)

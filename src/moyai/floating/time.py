@@ -19,12 +19,14 @@ from moyai.floating.arrays import ComplexArray, FloatArray, finite, square_matri
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
-from moyai.floating.memory import Memory, StateSpaceMemory
+from moyai.floating.memory import ConvolutionMemory, Memory, StateSpaceMemory
 
 STEPS_PER_PERIOD = 40
 """Steps in the shortest wave period that matters: a phase error of 5e-6, extremes between rows below 0.3 %."""
 STEPS_PER_NATURAL_PERIOD = 24
 """Steps in the shortest natural period with the stiffest lines that occur; 2.2 are the limit of stability."""
+SHORTER_WITH_CONVOLUTION = 3.0
+"""Divides the step where the memory is a convolution, which is of second order: its error is then below 5e-4."""
 SECONDS_BETWEEN_LOOKS = 0.25
 """CPU time of one call of the kernel, so that an interrupt is seen soon."""
 
@@ -117,6 +119,8 @@ def choose_time_step(
 ) -> tuple[float, Notice]:
     """Choose the time step and say why.
 
+    The method is of fourth order with a memory of states. A convolution is of second order: its step is a third of it.
+
     Parameters
     ----------
     model : CumminsModel
@@ -157,14 +161,17 @@ def choose_time_step(
     if not limits:
         raise InputError("neither wave nor restoring sets a time scale", path="time_step", remedy="give a time step")
     reason = min(limits, key=lambda name: limits[name])
-    step = forcing.fitted_step(limits[reason])
+    convolution = isinstance(model.memory, ConvolutionMemory)
+    longest = limits[reason] / (SHORTER_WITH_CONVOLUTION if convolution else 1.0)
+    step = forcing.fitted_step(longest)
     notice = Notice(
         code="time-step",
         message=f"time step {step:.4g} s, set by {reason}",
         value=step,
-        limit=limits[reason],
+        limit=longest,
         severity="information",
-        remedy="give a shorter step to see its effect; the method is of fourth order",
+        remedy="give a shorter step to see its effect; the method is of "
+        + ("second order, as its memory is a convolution" if convolution else "fourth order"),
     )
     return step, notice
 

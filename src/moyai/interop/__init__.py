@@ -1,1 +1,25 @@
 """Files of other programs: coefficients of three-dimensional bodies, in the names and signs of this house."""
+
+from typing import TYPE_CHECKING
+
+from moyai.core.exports import exports
+
+if TYPE_CHECKING:
+    from moyai.interop.aqwa import read_aqwa as read_aqwa
+    from moyai.interop.bemio import read_bemio as read_bemio
+    from moyai.interop.capytaine import read_capytaine as read_capytaine
+    from moyai.interop.nemoh import read_nemoh as read_nemoh
+    from moyai.interop.read import read_coefficients as read_coefficients
+    from moyai.interop.wamit import read_wamit as read_wamit
+else:
+    __getattr__, __dir__, __all__ = exports(
+        __name__,
+        {
+            "aqwa": "read_aqwa",
+            "bemio": "read_bemio",
+            "capytaine": "read_capytaine",
+            "nemoh": "read_nemoh",
+            "read": "read_coefficients",
+            "wamit": "read_wamit",
+        },
+    )

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.single import plain
 from moyai.mooring import kernels
 
 FloatArray = NDArray[np.float64]
@@ -17,7 +18,8 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class CatenarySolution:
-    """Forces and stiffness of one or many uniform lines at rest; every array has the broadcast shape of the inputs.
+    """Forces and stiffness of one or many uniform lines at rest; every array has the broadcast shape of the inputs,
+    floats for a single line.
 
     Forces are those of the fairlead on the line: H away from the anchor, V upwards. The line pulls the anchor with
     ``horizontal_tension_anchor`` towards the fairlead and ``vertical_tension_anchor`` upwards.
@@ -50,19 +52,19 @@ class CatenarySolution:
     regime: IntArray
 
     @property
-    def tension_fairlead(self) -> FloatArray:
+    def tension_fairlead(self) -> Any:
         """Tension at the fairlead [N]."""
-        return np.hypot(self.horizontal_tension, self.vertical_tension_fairlead)
+        return plain(np.hypot(self.horizontal_tension, self.vertical_tension_fairlead))
 
     @property
-    def tension_anchor(self) -> FloatArray:
+    def tension_anchor(self) -> Any:
         """Tension at the anchor [N]."""
-        return np.hypot(self.horizontal_tension_anchor, self.vertical_tension_anchor)
+        return plain(np.hypot(self.horizontal_tension_anchor, self.vertical_tension_anchor))
 
     @property
-    def anchor_uplift_angle(self) -> FloatArray:
+    def anchor_uplift_angle(self) -> Any:
         """Angle of the line at the anchor above the horizontal [rad]; 0 while it leaves the anchor on the bed."""
-        return np.arctan2(self.vertical_tension_anchor, self.horizontal_tension_anchor)
+        return plain(np.arctan2(self.vertical_tension_anchor, self.horizontal_tension_anchor))
 
     @property
     def regime_names(self) -> Any:
@@ -120,6 +122,15 @@ def solve_catenary(
     ------
     InputError
         NaN, negative distance or friction, length or EA not positive, fairlead or anchor under the bed.
+
+    Examples
+    --------
+    >>> from moyai.mooring import solve_catenary
+    >>> line = solve_catenary(50.0, 10.0, 55.0, axial_stiffness=5e8, submerged_weight=1000.0)
+    >>> line.regime_names, round(line.grounded_length, 1)            # [m] on the bed
+    ('grounded', 40.1)
+    >>> round(line.tension_fairlead - line.horizontal_tension)       # w times the height above the bed [N]
+    10000
     """
     arrays = np.broadcast_arrays(
         *(
@@ -158,7 +169,7 @@ def solve_catenary(
     regime = np.empty(x.size, dtype=np.int64)
     flat = [np.ascontiguousarray(value).reshape(-1) for value in (x, z, length, axial, weight, clearance, friction)]
     kernels.solve_batch(*flat, out, regime)
-    columns = [out[:, i].reshape(shape) for i in range(10)]
+    columns = [plain(out[:, i].reshape(shape)) for i in range(10)]
     return CatenarySolution(
         horizontal_tension=columns[0],
         vertical_tension_fairlead=columns[1],

@@ -89,6 +89,16 @@ class LineSystem:
         With unique names.
     water_depth : float
         [m]; the bed lies at z = -water_depth; ``inf`` for no bed.
+
+    Examples
+    --------
+    >>> from moyai.mooring import Line, LineSystem, LineType, Segment
+    >>> chain = Segment(LineType("chain", submerged_weight=1000.0, axial_stiffness=5e8), length=55.0)
+    >>> pair = [Line(name, (x, 0.0, -10.0), (0.0, 0.0, 0.0), [chain]) for name, x in (("left", -50.0), ("right", 50.0))]
+    >>> moored = LineSystem(pair, water_depth=10.0)
+    >>> found = moored.equilibrium([20e3, 0, 0, 0, 0, 0], free=(0,))   # pushed by 20 kN along x
+    >>> round(float(found.position[0]), 2)                           # [m]
+    2.01
     """
 
     lines: tuple[LineElement, ...]
@@ -226,7 +236,9 @@ class LineSystem:
         def evaluate(position: FloatArray) -> tuple[FloatArray, FloatArray]:
             key = position.tobytes()
             if key not in last:
-                force, stiffness = self._assemble(_positions(position)[None, :], (0.0, 0.0, 0.0), True)
+                # where an inextensible line cannot reach, its force is infinite: a search turns back there
+                with np.errstate(invalid="ignore"):
+                    force, stiffness = self._assemble(_positions(position)[None, :], (0.0, 0.0, 0.0), True)
                 last.clear()
                 last[key] = force[0], stiffness[0]
             return last[key]

@@ -87,6 +87,13 @@ def inertia_coefficients(contour: Contour, *, accuracy: float = 1e-7) -> Inertia
     ------
     ConvergenceError
         When the tensor changes by more than a tenth of a per cent on refinement or is not symmetric to that.
+
+    Examples
+    --------
+    >>> from moyai.morison import inertia_coefficients, sections
+    >>> circle = inertia_coefficients(sections.circle(1.0).contour)
+    >>> circle.tensor.diagonal().round(6).tolist()                   # C_M = 2 in every direction
+    [2.0, 2.0]
     """
     bulges = np.asarray(contour.bulges, dtype=float)
     return _remembered(contour.vertices.tobytes(), bulges.tobytes(), accuracy)

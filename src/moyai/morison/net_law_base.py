@@ -174,6 +174,25 @@ def panel_force(
         Of the outline [m2].
     density, viscosity : float
         [kg/m3], kinematic [m2/s].
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Drag along the velocity and lift across it [N], in the axes of ``normal`` and ``velocity``.
+
+    Raises
+    ------
+    InputError
+        When the normal has no length, or the law does not speak of such a net.
+
+    Examples
+    --------
+    >>> from moyai.morison import Net, net_law, panel_force
+    >>> net = Net(twine_diameter=0.003, mesh_pitch=0.04)
+    >>> flow = [0.5, 0.0, 0.0]
+    >>> force = panel_force(net_law("loland"), net, [1.0, 0.0, 0.0], flow, area=10.0, density=1025.0, viscosity=1.2e-6)
+    >>> force.round().tolist()
+    [217.0, 0.0, 0.0]
     """
     flow = np.asarray(velocity, dtype=float)
     across = np.asarray(normal, dtype=float)

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from moyai.core.validity import Notice
-from moyai.morison.net_law import available_net_laws, net_law
 from moyai.morison.net_law_base import NetLaw
+from moyai.morison.net_law_names import available_net_laws, net_law
 from moyai.morison.nets import Net
 
 #: Density from which a twine counts as metal [kg/m3].

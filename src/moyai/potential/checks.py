@@ -13,8 +13,9 @@ from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.potential.edges import FloatArray, arc_slope, as_complex
 from moyai.potential.heading import HeadingSolution
+from moyai.potential.modes import Modes
 from moyai.potential.plates import WettedPlate
-from moyai.potential.sections import Section
+from moyai.potential.sections import Hull, Section
 from moyai.sea.water import Water
 
 # Between a plate and the still water [degrees]
@@ -63,6 +64,29 @@ def check_headings(heading: ArrayLike) -> FloatArray:
             remedy="waves from the other side meet the mirrored section: turn x round",
         )
     return values
+
+
+def check_arguments(section: object, modes: object) -> None:
+    """Refuse a hull that is not set into the water, and motions that are no :class:`~moyai.potential.modes.Modes`.
+
+    Raises
+    ------
+    InputError
+        With what is to be given.
+    """
+    if isinstance(section, Hull):
+        raise InputError(
+            f"{section.name} is a hull in its own frame",
+            path="section",
+            allowed="a Section",
+            remedy="set it into the water: hull.immersed(draught=...)",
+        )
+    for name, given, kind in (("section", section, Section), ("modes", modes, Modes)):
+        if not isinstance(given, kind):
+            remedy = "rigid_modes(centre) gives sway, heave and roll" if name == "modes" else "shapes make hulls"
+            raise InputError(
+                f"{type(given).__name__} is no {kind.__name__}", path=name, allowed=f"a {kind.__name__}", remedy=remedy
+            )
 
 
 def check_section(section: Section, water: Water) -> None:

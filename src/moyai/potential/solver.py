@@ -13,7 +13,14 @@ from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Status
 from moyai.core.validity import IdentityCheck
-from moyai.potential.checks import check_frequencies, check_headings, check_section, gap_notices, identity_checks
+from moyai.potential.checks import (
+    check_arguments,
+    check_frequencies,
+    check_headings,
+    check_section,
+    gap_notices,
+    identity_checks,
+)
 from moyai.potential.edges import Edges, FloatArray
 from moyai.potential.heading import HeadingSolution, Problem, solve_in_chunks, wave_states
 from moyai.potential.limits import limit_added_mass
@@ -73,8 +80,23 @@ def solve(
     Raises
     ------
     InputError
-        For frequencies or headings out of range, or a section that touches the bed.
+        For frequencies or headings out of range, a hull that is not set into the water, modes of another kind, or a
+        section that touches the bed.
+
+    Examples
+    --------
+    >>> from moyai.potential import rigid_modes, shapes, solve
+    >>> from moyai.sea import Water
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> found = solve(section, water, [1.0, 1.5], modes=rigid_modes(centre=(0.0, -0.2)))
+    >>> found.added_mass.shape                                       # frequency, mode, mode
+    (2, 3, 3)
+    >>> energy = abs(found.reflection_coefficient) ** 2 + abs(found.transmission_coefficient) ** 2
+    >>> energy[:, 0].round(3).tolist()                               # of the section held fixed
+    [1.0, 1.0]
     """
+    check_arguments(section, modes)
     frequencies = check_frequencies(omega)
     headings = check_headings(heading)
     check_section(section, water)

@@ -17,6 +17,7 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.edges import ComplexArray, FloatArray, arc_position, arc_slope, as_points
+from moyai.potential.modes import DisplacementField, Modes
 from moyai.potential.thin_plate_grid import PlateGrid, plate_grid, with_tails
 from moyai.sea.water import Water
 
@@ -170,7 +171,7 @@ class PlateLimit:
 def solve_plate_limit(
     plate: Plate,
     water: Water,
-    modes: Sequence[NormalVelocity] = (horizontal_motion,),
+    modes: Modes | Sequence[NormalVelocity] = (horizontal_motion,),
     *,
     frequency: Literal["infinite", "zero"] = "infinite",
     step: float = 0.3,
@@ -183,8 +184,10 @@ def solve_plate_limit(
         Where the plate is.
     water : Water
         Depth (may be infinite), density.
-    modes : sequence of callable
-        Normal velocities of unit motion, for instance :func:`horizontal_motion`.
+    modes : Modes or sequence of callable
+        Motions as for :func:`moyai.potential.solver.solve`, for instance :func:`moyai.potential.modes.rigid_modes`; or
+        normal velocities of unit motion, each a function of points (n, 2) and unit normals (n, 2), for instance
+        :func:`horizontal_motion`. One is enough.
     frequency : {"infinite", "zero"}
         Which limit.
     step : float
@@ -200,7 +203,20 @@ def solve_plate_limit(
     ------
     InputError
         When the plate goes through the bed, stands on it at zero frequency, or a mode gives no finite velocity.
+
+    Examples
+    --------
+    A plate that hangs 2 m deep far from the bed, 2 rho d^2 / pi at infinite and pi rho d^2 / 2 at zero frequency:
+
+    >>> from moyai.potential import Plate, solve_plate_limit
+    >>> from moyai.sea import Water
+    >>> plate, water = Plate((0.0, 0.0), (0.0, -2.0)), Water(float("inf"), 1000.0, 9.81)
+    >>> round(float(solve_plate_limit(plate, water).added_mass[0, 0]), 1)                        # [kg/m]
+    2546.5
+    >>> round(float(solve_plate_limit(plate, water, frequency="zero").added_mass[0, 0]), 1)
+    6283.2
     """
+    velocities = _velocities_of(modes)
     stands = _stands_on_bed(plate, water)
     if frequency == "zero" and stands:
         raise InputError(
@@ -215,12 +231,31 @@ def solve_plate_limit(
     if plate.pierces and plate.corner < _CUSP:
         # Nodes crowd there as the inverse of the distance: a wide step is fine enough elsewhere
         step = max(step, 0.45)
-        coarse = _solve(plate, water, modes, mirrored, stands, step, 2.0 * _CUT_CUSP)
-        fine = _solve(plate, water, modes, mirrored, stands, step, _CUT_CUSP)
+        coarse = _solve(plate, water, velocities, mirrored, stands, step, 2.0 * _CUT_CUSP)
+        fine = _solve(plate, water, velocities, mirrored, stands, step, _CUT_CUSP)
         # The cut cusp costs in proportion to its length
         mass = 2.0 * fine.added_mass - coarse.added_mass
         return PlateLimit(plate, mass, fine.points, fine.arc, fine.jump, fine.centre_of_pressure)
-    return _solve(plate, water, modes, mirrored, stands, step, _CUT_SURFACE)
+    return _solve(plate, water, velocities, mirrored, stands, step, _CUT_SURFACE)
+
+
+def _velocities_of(modes: Modes | Sequence[NormalVelocity]) -> Sequence[NormalVelocity]:
+    """Return normal velocities, of the displacement fields where those are given."""
+    if isinstance(modes, Modes):
+
+        def along_normal(field: DisplacementField) -> NormalVelocity:
+            return lambda points, normals: np.einsum("ij,ij->i", np.asarray(field(points), dtype=float), normals)
+
+        return [along_normal(field) for field in modes.functions]
+    found = modes if isinstance(modes, Sequence) else (modes,)
+    for mode in found:
+        if not callable(mode):
+            raise InputError(
+                f"{mode!r} is no motion",
+                path="modes",
+                allowed="rigid_modes(centre), other Modes, or functions of points and normals",
+            )
+    return found
 
 
 def _stands_on_bed(plate: Plate, water: Water) -> bool:

@@ -43,7 +43,7 @@ class VerticalBarrier:
 
 
 def solve_vertical_barrier(
-    draught: float, water: Water, omega: ArrayLike, *, polynomials: int = 14, modes: int = 4000
+    draught: float, water: Water, omega: ArrayLike, *, polynomials: int = 14, evanescent_modes: int = 4000
 ) -> VerticalBarrier:
     """Solve a vertical barrier in water of finite depth.
 
@@ -55,7 +55,7 @@ def solve_vertical_barrier(
         Finite depth, density, gravity.
     omega : array_like
         [rad/s].
-    polynomials, modes : int
+    polynomials, evanescent_modes : int
         Chebyshev polynomials in the gap and evanescent modes; the sum beyond the last mode is added in the mean.
 
     Raises
@@ -73,7 +73,7 @@ def solve_vertical_barrier(
             allowed=f"greater than 0, less than {depth:g} m",
         )
     frequencies = np.atleast_1d(np.asarray(omega, dtype=float))
-    parts = np.array([_one(draught, water, float(value), polynomials, modes) for value in frequencies])
+    parts = np.array([_one(draught, water, float(value), polynomials, evanescent_modes) for value in frequencies])
     return VerticalBarrier(
         frequencies,
         parts[:, 0].real,

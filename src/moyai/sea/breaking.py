@@ -72,6 +72,23 @@ def breaking_limit(period: float, water: Water, current_along_wave: float = 0.0)
         Depth and gravity.
     current_along_wave : float
         Uniform current along the heading [m/s].
+
+    Returns
+    -------
+    BreakingLimit
+        Height [m], the criterion that decides and its source.
+
+    Raises
+    ------
+    InputError
+        Where the current blocks the wave, or the period is not positive.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water, breaking_limit
+    >>> limit = breaking_limit(6.0, Water(depth=4.0, density=1025.0, gravity=9.81))
+    >>> round(limit.height, 2), limit.criterion
+    (3.05, 'Miche 0.142 L tanh kh')
     """
     length = linear_wavelength(period, water, current_along_wave)
     miche, mccowan = miche_height(length, water.depth), mccowan_height(water.depth)

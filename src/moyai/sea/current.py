@@ -9,11 +9,13 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.single import plain
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
@@ -30,13 +32,13 @@ class CurrentProfile(ABC):
     def _breaks(self, z_bottom: float, z_top: float) -> Array:
         """Return the limits and the heights between which the profile is smooth."""
 
-    def speed(self, z: ArrayLike) -> Array:
-        """Return the speed [m/s] at heights z [m]."""
-        return np.asarray(np.hypot(*np.moveaxis(self.velocity(z), -1, 0)))
+    def speed(self, z: ArrayLike) -> Any:
+        """Return the speed [m/s] at heights z [m], a float for one height."""
+        return plain(np.hypot(*np.moveaxis(self.velocity(z), -1, 0)))
 
-    def component(self, z: ArrayLike, heading: float) -> Array:
+    def component(self, z: ArrayLike, heading: float) -> Any:
         """Return the component along ``heading`` [rad] [m/s]: for a structure, the heading of its normal."""
-        return np.asarray(self.velocity(z) @ np.array([math.cos(heading), math.sin(heading)]))
+        return plain(self.velocity(z) @ np.array([math.cos(heading), math.sin(heading)]))
 
     def in_depth(self, water_depth: float) -> CurrentProfile:
         """Return the current at another water level: the same heights below the surface; a power law reaches the bed.

@@ -238,6 +238,14 @@ def wave_number(omega: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike) ->
     ------
     InputError
         When an argument is negative, NaN, or an infinite frequency.
+
+    Examples
+    --------
+    >>> import math
+    >>> from moyai.sea import wave_number
+    >>> k = wave_number(2.0 * math.pi / 6.0, water_depth=10.0, gravity=9.81)
+    >>> round(2.0 * math.pi / k, 2)                                  # wavelength of a wave of 6 s [m]
+    48.41
     """
     return _spread(
         _wave_numbers,
@@ -337,7 +345,26 @@ def phase_velocity(omega: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike)
 def group_velocity(omega: ArrayLike, water_depth: ArrayLike, gravity: ArrayLike) -> Any:
     """Return the group velocity d omega / d k [m/s] in still water [eq:sea-group-velocity].
 
-    Arguments and errors as :func:`wave_number`.
+    Parameters
+    ----------
+    omega, water_depth, gravity : array_like
+        As for :func:`wave_number`, broadcast against each other.
+
+    Returns
+    -------
+    float or ndarray
+        Of the broadcast shape.
+
+    Raises
+    ------
+    InputError
+        As :func:`wave_number`.
+
+    Examples
+    --------
+    >>> from moyai.sea import group_velocity
+    >>> round(group_velocity(1.0, water_depth=float("inf"), gravity=9.81), 3)   # g / (2 omega) in deep water [m/s]
+    4.905
     """
     k = wave_number(omega, water_depth, gravity)
     return _spread(_group_velocities, np.asarray(k), np.asarray(water_depth, float), np.asarray(gravity, float))

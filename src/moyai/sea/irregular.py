@@ -95,6 +95,15 @@ def synthesise(
     InputError
         When an argument is out of range, the duration is too short for one component, the time step too long for the
         band, or the current blocks components.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water, spectra, synthesise
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> spectrum = spectra.jonswap(significant_height=2.0, peak_period=7.0, peak_enhancement=3.3)
+    >>> sea = synthesise(spectrum, water, duration=600.0, seed=1)
+    >>> sea.elevation([0.0, 1.0, 2.0], 0.0, 0.0).shape               # [m] at three instants at the origin
+    (3,)
     """
     _check_request(duration, seed, method, count, summation, heading_count, amplitudes)
     low, high = choose_band(spectrum, lower_omega, upper_omega)

@@ -19,7 +19,7 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.sea import dispersion
 from moyai.sea.breaking import highest_steady_wave
-from moyai.sea.permanent_wave import NonlinearWave, Theory
+from moyai.sea.permanent_wave import RESIDUAL, NonlinearWave, Theory
 from moyai.sea.stream_function import StreamFunctionProblem, StreamFunctionSolution, solve_stream_function
 from moyai.sea.water import Water
 
@@ -31,8 +31,6 @@ Array = NDArray[np.float64]
 _DEEP_IN_WAVELENGTHS = 3.0
 #: Number of stream-function components tried in turn when the caller names no order.
 _ORDERS = (6, 9, 13, 19, 28, 40, 60)
-#: Largest accepted free-surface residual between the collocation points, relative to g H.
-_RESIDUAL = 1e-5
 #: Residual above which the answer is refused: the series has not found a wave, or the wave is about to break.
 _REFUSED = 1e-3
 
@@ -200,7 +198,8 @@ def nonlinear_wave(
         Period in the fixed frame [s] or wavelength [m]: exactly one.
     order : int, optional
         Stokes: 1 to 5 (5 when not given). Stream function: number of components; when not given it is raised until
-        the free-surface conditions between the collocation points hold to 1e-5 of g H, or 60 is reached.
+        the free-surface conditions between the collocation points hold to 1e-5 of g H, or 60 is reached; a wave that
+        misses them says so in :meth:`NonlinearWave.notices`.
     heading : float
         Direction of travel [rad].
     current_along_wave : float
@@ -220,6 +219,14 @@ def nonlinear_wave(
         When an argument is out of range.
     ConvergenceError
         When no such wave is found, for instance above the breaking height.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water, nonlinear_wave
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> wave = nonlinear_wave("stream_function", height=2.0, water=water, period=6.0)
+    >>> round(float(wave.elevation(0.0, 0.0, 0.0)), 2)               # the crest is higher than half the height [m]
+    1.12
     """
     _check_arguments(theory, height, period, wavelength, order, current_along_wave, solver)
 
@@ -299,8 +306,11 @@ def _raise_order(
         amplitudes = found.coefficients * np.arange(1, number + 1) * math.sqrt(water.gravity / k)
         velocities = _raised_to_crest(amplitudes, elevation, k, water.depth)
         solution = _Solution(elevation, velocities, found.celerity * math.sqrt(water.gravity / k))
-        wave = finish(solution, 2.0 * math.pi / k, number)
-        if max(wave.surface_residuals()) < _RESIDUAL:
+        tried = finish(solution, 2.0 * math.pi / k, number)
+        # near breaking more components may be worse: the best is kept
+        if wave is None or max(tried.surface_residuals()) < max(wave.surface_residuals()):
+            wave = tried
+        if max(wave.surface_residuals()) < RESIDUAL:
             break
     if wave is None:
         raise failure or ConvergenceError("no wave found", path="height")

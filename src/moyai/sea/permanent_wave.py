@@ -13,10 +13,14 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.validity import Notice
 from moyai.sea.water import Water
 
 Array = NDArray[np.float64]
 Theory = Literal["airy", "stokes", "stream_function"]
+
+RESIDUAL = 1e-5
+"""Free-surface residual that a stream-function wave keeps between its collocation points, over g H."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -200,6 +204,23 @@ class NonlinearWave:
         (u, w, _, _), shape = self._fields(time, x, y, z)
         head = self.bernoulli_constant - 0.5 * ((u - self.relative_celerity) ** 2 + w**2)
         return (self.water.density * head).reshape(shape)
+
+    def notices(self) -> tuple[Notice, ...]:
+        """Return a warning where a stream-function wave misses its free surface by more than :data:`RESIDUAL`."""
+        worst = max(self.surface_residuals())
+        if self.theory != "stream_function" or worst <= RESIDUAL:
+            return ()
+        return (
+            Notice(
+                "wave-residual",
+                f"the stream-function wave of H {self.height:.4g} m and T {self.period:.4g} s misses the conditions of "
+                f"its surface by {worst:.2g} of g H with {self.order} components; the crest is near breaking",
+                value=worst,
+                limit=RESIDUAL,
+                remedy="take a lower wave, or read its crest velocity with this error",
+                source="Rienecker and Fenton (1981)",
+            ),
+        )
 
     def surface_residuals(self, points: int = 64) -> tuple[float, float]:
         """Return how far the wave is from the exact free-surface conditions.

@@ -88,10 +88,22 @@ def jonswap(
     sigma_low, sigma_high : float
         Peak widths of Hasselmann et al. (1973) [-].
 
+    Returns
+    -------
+    Spectrum
+        Density [m2 s] over angular frequency [rad/s], one-sided.
+
     Raises
     ------
     InputError
         When a value is not positive or gamma is below 1.
+
+    Examples
+    --------
+    >>> from moyai.sea import spectra
+    >>> spectrum = spectra.jonswap(significant_height=2.0, peak_period=7.0, peak_enhancement=3.3)
+    >>> round(spectrum.significant_height, 6), round(spectrum.zero_crossing_period, 2)   # [m], [s]
+    (2.0, 5.44)
     """
     _positive("significant_height", significant_height)
     peak = 2.0 * math.pi / _positive("peak_period", peak_period)

@@ -3,6 +3,10 @@
 The equations are those of Rienecker and Fenton (1981), made dimensionless with the wave number and gravity; the wave
 number is one of the unknowns, so a wave of given period costs no more than one of given length, and infinite depth is
 a limit of the depth functions rather than a large number [eq:sea-stream-function].
+
+With many components of a steep wave the equations are nearly dependent: the j-th component grows by e^{jkH} from trough
+to crest, so that rounding moves the high ones freely. Such a wave is reached over fewer components, with Newton steps
+of least squares in unknowns scaled to the crest that leave out what rounding decides.
 """
 
 from __future__ import annotations
@@ -21,6 +25,12 @@ Array = NDArray[np.float64]
 
 #: Smallest part of the height by which the continuation advances before it gives up.
 _SMALLEST_ADVANCE = 1.0 / 400.0
+#: Singular values of the scaled equations, over the largest, below which rounding decides a direction.
+_NOISE = 1e-9
+#: Residual of the dimensionless conditions at which a step of least squares ends.
+_LEAST_SQUARES_RESIDUAL = 1e-11
+#: Ratio of the numbers of components on the way to many of them, and the number that needs no such way.
+_LADDER, _FEW = 1.2, 13
 
 
 @dataclass(frozen=True)
@@ -203,6 +213,27 @@ def _newton(start: Array, problem: StreamFunctionProblem, height: float) -> Arra
     return None
 
 
+def _newton_of_least_squares(start: Array, problem: StreamFunctionProblem, height: float) -> Array | None:
+    """Solve from an estimate where the equations are nearly dependent; None where that leaves the range of waves.
+
+    The unknowns B_j are scaled by their size at the crest, which makes the step of least length the smoothest wave.
+    """
+    vector = start.copy()
+    order = (vector.size - 5) // 2
+    for _ in range(25):
+        residual, jacobian = _equations(vector, problem, height)
+        if float(np.max(np.abs(residual))) < _LEAST_SQUARES_RESIDUAL:
+            return vector
+        scale = np.ones(vector.size)
+        scale[order + 1 : -4] = np.exp(-np.arange(1, order + 1) * max(float(vector[0]), 0.0))
+        step = scale * np.linalg.lstsq(jacobian * scale, residual, rcond=_NOISE)[0]
+        vector = vector - step
+        reach = float(np.max(np.abs(vector[: order + 1])))
+        if not np.isfinite(vector).all() or reach > 3.0 or abs(float(step[-1])) > 1.0:
+            return None
+    return None
+
+
 def _is_wave(solution: StreamFunctionSolution) -> bool:
     """Tell a wave of one crest from the spurious solutions of the equations."""
     surface = solution.surface
@@ -230,10 +261,35 @@ def solve_stream_function(
         When the continuation stops below the height wanted; the message tells how far it came.
     """
     if estimate is not None:
-        found = _newton(estimate.refined(order).vector(), problem, problem.height)
+        refined = _refine(estimate, problem, order)
+        if refined is not None:
+            return refined
+    try:
+        return _continue(problem, order)
+    except ConvergenceError:
+        if estimate is not None or order <= _FEW:
+            raise
+        fewer = solve_stream_function(problem, max(_FEW, int(order / _LADDER)))
+        refined = _refine(fewer, problem, order)
+        if refined is None:
+            raise
+        return refined
+
+
+def _refine(
+    estimate: StreamFunctionSolution, problem: StreamFunctionProblem, order: int
+) -> StreamFunctionSolution | None:
+    """Return the wave with more components than its estimate, None where none is found."""
+    start = estimate.refined(order).vector()
+    for newton in (_newton, _newton_of_least_squares):
+        found = newton(start, problem, problem.height)
         if found is not None and _is_wave(StreamFunctionSolution.of_vector(found)):
             return StreamFunctionSolution.of_vector(found)
-    # continuation: each wave starts from the line through the two lower ones
+    return None
+
+
+def _continue(problem: StreamFunctionProblem, order: int) -> StreamFunctionSolution:
+    """Return the wave by continuation in the height: each starts from the line through the two lower ones."""
     reached, advance = 0.0, 0.1
     lower: list[tuple[float, Array]] = []
     while reached < 1.0:

@@ -19,12 +19,12 @@ class Water:
     density : float
         Density rho [kg/m3].
     gravity : float
-        Acceleration of gravity g [m/s2].
+        Acceleration of gravity g [m/s2]; 0 leaves weight and buoyancy out of a network, and has no waves.
 
     Raises
     ------
     InputError
-        When one of them is not positive.
+        When one of them is not positive (gravity: negative).
     """
 
     depth: float
@@ -34,8 +34,10 @@ class Water:
     def __post_init__(self) -> None:
         for name in ("depth", "density", "gravity"):
             value = getattr(self, name)
-            if math.isnan(value) or value <= 0.0 or (math.isinf(value) and name != "depth"):
-                raise InputError(f"{name} is {value:g}", path=f"water.{name}", allowed="greater than 0")
+            weightless = name == "gravity" and value == 0.0
+            if not (value > 0.0 or weightless) or (math.isinf(value) and name != "depth"):
+                allowed = "0 or more" if name == "gravity" else "greater than 0"
+                raise InputError(f"{name} is {value:g}", path=f"water.{name}", allowed=allowed)
 
     def with_depth(self, depth: float) -> Water:
         """Return the same water at another depth."""

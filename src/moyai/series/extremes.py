@@ -57,6 +57,10 @@ class Fit:
     log_likelihood: float
     threshold: float | None = None
 
+    def __post_init__(self) -> None:
+        for name in ("location", "scale", "shape", "log_likelihood"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+
     @property
     def _start(self) -> float:
         """``((threshold - location) / scale)^shape``, zero where the whole Weibull is meant."""
@@ -138,6 +142,14 @@ def fit(values: ArrayLike, family: Family, *, location: float | None = None, thr
     -----
     Coles (2001), ch. 3 and 4 [eq:extremes-gumbel] [eq:extremes-weibull] [eq:extremes-pareto]; the equations of the
     Gumbel and Weibull reduce to one unknown, that of the Pareto to a search along one (Grimshaw 1993).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import fit
+    >>> fitted = fit(np.random.default_rng(1).gumbel(100.0, 10.0, 2000), "gumbel")
+    >>> round(float(fitted.location)), round(float(fitted.scale))
+    (100, 10)
     """
     data = np.asarray(values, dtype=float).ravel()
     if not np.isfinite(data).all():
@@ -276,6 +288,15 @@ def maximum_interval(
     -------
     Interval
         Basic bootstrap of the logarithmic distance from the location, so that it never falls below the location.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series import fit, maximum_interval
+    >>> fitted = fit(np.random.default_rng(1).gumbel(100.0, 10.0, 200), "gumbel")
+    >>> found = maximum_interval(fitted, 1, seed=1, probability=0.9, repetitions=100)
+    >>> found.lower < found.value < found.upper
+    True
     """
 
     def level(one: Fit) -> float:

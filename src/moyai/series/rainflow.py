@@ -26,6 +26,13 @@ def count_cycles(series: ArrayLike) -> tuple[Array, Array, Array]:
     ------
     InputError
         For a record with NaN or fewer than three values.
+
+    Examples
+    --------
+    >>> from moyai.series import count_cycles
+    >>> ranges, means, counts = count_cycles([0.0, 2.0, -1.0, 3.0, 0.0])
+    >>> ranges.tolist(), counts.tolist()
+    ([2.0, 3.0, 4.0, 3.0], [0.5, 0.5, 0.5, 0.5])
     """
     import rainflow
 

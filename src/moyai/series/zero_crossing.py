@@ -333,10 +333,24 @@ def zero_crossing(
     parabolic : bool
         Refine crests and troughs by a parabola through three samples.
 
+    Returns
+    -------
+    Waves
+        Start, period, height, crest and trough of every wave, arrays (n,).
+
     Raises
     ------
     InputError
         When lengths differ, times do not increase, or a value is NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from moyai.series.zero_crossing import zero_crossing
+    >>> time = np.arange(0.0, 30.0, 0.01)
+    >>> waves = zero_crossing(time, 0.5 * np.sin(2.0 * np.pi * (time - 1.0) / 5.0), mean_level=0.0)
+    >>> waves.height.round(3).tolist(), waves.period.round(3).tolist()
+    ([1.0, 1.0, 1.0, 1.0, 1.0], [5.0, 5.0, 5.0, 5.0, 5.0])
     """
     t = np.ascontiguousarray(time, dtype=np.float64)
     v = np.ascontiguousarray(values, dtype=np.float64)

@@ -88,10 +88,22 @@ def line_type(name: str, diameter: float) -> LineProperties:
     diameter : float
         Nominal diameter [m].
 
+    Returns
+    -------
+    LineProperties
+        Masses per metre [kg/m], axial stiffness and breaking load [N], with their source.
+
     Raises
     ------
     InputError
         For an unknown name or a diameter that is not positive, or so large that the strength formula turns down.
+
+    Examples
+    --------
+    >>> from moyai.tables import line_type
+    >>> chain = line_type("studless_chain_R3", 0.05)
+    >>> round(chain.breaking_load / 1e6, 2)                          # [MN]
+    2.23
     """
     if not (math.isfinite(diameter) and diameter > 0.0):
         raise InputError(f"diameter is {diameter:g} m", path="diameter", allowed="greater than 0")

@@ -13,7 +13,7 @@ from moyai.flexible.network import Bed
 from moyai.flexible.panels import NetPanels, PanelLaw, forces_on_panels
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import Ring, RingArrays
-from moyai.morison.net_law import Net, net_law
+from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.current import uniform
 from moyai.sea.water import Water
 from moyai.structures.cage.flexible.build import build_cage

@@ -14,7 +14,7 @@ from moyai.flexible.modes import natural_modes
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType, Network
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.mooring.catenary import solve_catenary
 from moyai.sea.water import Water

@@ -22,10 +22,10 @@ from moyai.floating.drift import DriftedMotions, DriftProblem, solve_with_drift
 from moyai.floating.far_field import dissipated_fraction
 from moyai.floating.forcing import CalmWater, RegularForcing
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.hydrostatics import Hydrostatics, hydrostatics, inertia_matrix, righting_curve
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.modes import natural_modes
+from moyai.floating.statics import Hydrostatics, hydrostatics, inertia_matrix, righting_curve
 from moyai.floating.time import CumminsModel, Simulation, simulate
 from moyai.mooring.lines import Line, LineType, Segment
 from moyai.mooring.system import LineSystem

@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.core.validation import ValidationCase
 from moyai.morison.net_fouling import foul
-from moyai.morison.net_law import Net, net_law
+from moyai.morison.net_law_names import Net, net_law
 from moyai.morison.net_laws.kristiansen_faltinsen import cylinder_drag
 from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.morison.net_wake import wake_factor

@@ -52,7 +52,7 @@ def _ursell() -> float:
 def _eigenfunctions() -> float:
     """Largest difference of added mass, over 2 rho d^2 / pi, and of R from the sums over eigenfunctions, h/d = 3."""
     omega = np.sqrt(9.81 * np.array([0.1, 0.5, 1.0, 2.0, 4.0]))
-    reference = solve_vertical_barrier(1.0, Water(3.0, 1.0, 9.81), omega, modes=8000, polynomials=18)
+    reference = solve_vertical_barrier(1.0, Water(3.0, 1.0, 9.81), omega, evanescent_modes=8000, polynomials=18)
     found = _swaying(3.0, list(omega), 1e-6)
     mass = np.abs(found.added_mass[:, 0, 0] - reference.added_mass).max() * math.pi / 2.0
     return float(max(mass, np.abs(found.normal.reflection - reference.reflection).max()))

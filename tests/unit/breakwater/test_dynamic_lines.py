@@ -10,7 +10,7 @@ import pytest
 import moyai
 from moyai.core.errors import CaseError
 from moyai.flexible.motion import Motion
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water

@@ -14,7 +14,7 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.mesh_groups import group_meshes
 from moyai.flexible.network import Bed
 from moyai.flexible.panels import panel_areas
-from moyai.morison.net_law import Net, net_law
+from moyai.morison.net_law_names import Net, net_law
 from moyai.morison.net_wake import wake_factor
 from moyai.sea.current import uniform
 from moyai.sea.water import Water

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from moyai.morison.net_law import Net, net_law, panel_force
+from moyai.morison.net_law_names import Net, net_law, panel_force
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import uniform
 from moyai.sea.dispersion import wave_number
@@ -411,7 +411,7 @@ def test_irregular_seas_from_their_series_are_those_summed_at_every_part():
 def test_net_is_loaded_by_its_law(name):
     """A still cage of one tilted face in a uniform current, against the force of the law itself."""
     rng = np.random.default_rng(11)
-    from moyai.morison.net_law import available_net_laws
+    from moyai.morison.net_law_names import available_net_laws
 
     full = next((item for item in available_net_laws() if item.startswith(name)), name)
     cage = replace(random_cage(rng), law=net_law(full))

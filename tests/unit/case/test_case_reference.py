@@ -1,7 +1,7 @@
 """docs/case_file.md holds the reference that the schemas give today."""
 
 from moyai.case.reference import reference_markdown, renew
-from moyai.case.schema import STRUCTURE_KINDS
+from moyai.core.kinds import structure_kinds
 
 
 def test_the_page_is_up_to_date(request):
@@ -11,7 +11,7 @@ def test_the_page_is_up_to_date(request):
 
 def test_every_kind_and_key_is_listed():
     text = reference_markdown()
-    for kind in STRUCTURE_KINDS:
+    for kind in structure_kinds():
         assert f"## Case of a {kind}" in text
     for key in ("water_depth", "peak_enhancement", "bilge_radius", "bed_friction", "line_slacks", "from_bearing_deg"):
         assert f"| `{key}` |" in text

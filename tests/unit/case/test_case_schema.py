@@ -6,9 +6,10 @@ import json
 import pytest
 from case_files import changed, faults
 
-from moyai.case.schema import STRUCTURE_KINDS, json_schema, root_schema
+from moyai.case.schema import json_schema, root_schema
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
+from moyai.core.kinds import structure_kinds
 
 SCHEMA = json_schema()
 
@@ -72,12 +73,12 @@ def test_every_reference_leads_somewhere_and_stands_alone():
     walk(SCHEMA)
 
 
-@pytest.mark.parametrize("kind", STRUCTURE_KINDS)
+@pytest.mark.parametrize("kind", structure_kinds())
 def test_the_templates_fit_the_schema_and_the_reader(validator, kind):
     assert list(validator.iter_errors(parse_yaml(template(kind)).data)) == []
 
 
-@pytest.mark.parametrize("kind", STRUCTURE_KINDS)
+@pytest.mark.parametrize("kind", structure_kinds())
 def test_the_templates_are_plain_ascii_and_without_faults(kind):
     text = template(kind)
     assert text.isascii()
@@ -145,6 +146,6 @@ def test_schema_and_reader_accept_the_same(validator, change):
 
 
 def test_every_kind_has_a_root_schema_and_a_template():
-    for kind in STRUCTURE_KINDS:
+    for kind in structure_kinds():
         assert "structure" in root_schema(kind).model_fields
         assert f"kind: {kind}" in template(kind)

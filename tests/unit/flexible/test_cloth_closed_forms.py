@@ -16,7 +16,7 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, FIXED, Bars, Network, Nodes
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid, sheet_stress
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 

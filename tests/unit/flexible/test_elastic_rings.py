@@ -14,7 +14,7 @@ from moyai.flexible.network import BarType
 from moyai.flexible.result import State
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import Ring, RingArrays, ring_moments
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 
 

@@ -26,7 +26,7 @@ from moyai.flexible.part_kernel import panel_rate_blocks, sheet_blocks, stress_s
 from moyai.flexible.result import State
 from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets, sheet_grid
-from moyai.flexible.simulate import Method, simulate
+from moyai.flexible.simulation import Method, simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 

@@ -12,7 +12,7 @@ from moyai.core.errors import InputError
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 
 WATER = Water(20.0, 1000.0, 1e-9)

@@ -17,8 +17,8 @@ from moyai.flexible.network import BarType, Network
 from moyai.flexible.panel_kernel import panel_tangent
 from moyai.flexible.panels import NetPanels, PanelArrays, PanelLaw, forces_on_panels
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
-from moyai.morison.net_law import Net, net_law, panel_force
+from moyai.flexible.simulation import simulate
+from moyai.morison.net_law_names import Net, net_law, panel_force
 from moyai.sea.water import Water
 
 WATER = Water(50.0, 1025.0, 9.81)

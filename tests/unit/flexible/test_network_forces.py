@@ -16,7 +16,7 @@ from moyai.flexible.network import Bars, BarType, Network, Nodes
 from moyai.flexible.refine import with_viscosity
 from moyai.flexible.relaxation import kernel_bed, kernel_system, plan_of
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.sparse import make_plan
 from moyai.sea.irregular import WaveComponents
 from moyai.sea.water import Water

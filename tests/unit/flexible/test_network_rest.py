@@ -15,7 +15,7 @@ from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
 from moyai.flexible.recovery import read_state, write_state
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 

@@ -15,7 +15,7 @@ from moyai.flexible.panels import NetPanels, PanelLaw
 from moyai.flexible.refine import refined
 from moyai.flexible.result import State
 from moyai.flexible.sensitivity import peak_sensitivity
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.components import WaveComponents
 from moyai.sea.dispersion import wave_number

@@ -13,7 +13,7 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import Bars, BarType, Bed, Network, Nodes, RopeCurve
 from moyai.flexible.refine import refined, with_viscosity
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 from moyai.tables.lines import line_type

@@ -18,7 +18,7 @@ from moyai.flexible.network import Bars, BarType, Bed, Nodes, Strand
 from moyai.flexible.refine import more_viscous, refined
 from moyai.flexible.result import State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 from moyai.series.snaps import find_snaps

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 
 NO_WEIGHT = Water(20.0, 1000.0, 1e-9)

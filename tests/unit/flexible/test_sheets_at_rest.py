@@ -14,7 +14,7 @@ from moyai.flexible.network import FIXED, Bars, Network, Nodes
 from moyai.flexible.relaxation import Relaxation
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid, sheet_stress
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import solve_equilibrium
 from moyai.sea.water import Water
 

@@ -15,7 +15,7 @@ from moyai.flexible.modes import natural_modes
 from moyai.flexible.network import FIXED, FREE, Bars, BarType, Network, Nodes
 from moyai.flexible.result import State
 from moyai.flexible.sheets import Sheets, sheet_grid
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.irregular import WaveComponents
 from moyai.sea.water import Water
 

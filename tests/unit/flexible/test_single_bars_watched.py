@@ -8,7 +8,7 @@ import pytest
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import BarType
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from moyai.floating.checks import check_motion, check_statics
-from moyai.floating.hydrostatics import hydrostatics
+from moyai.floating.statics import hydrostatics
 from moyai.potential import shapes
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.floating.hydrostatics import (
+from moyai.floating.statics import (
     body_to_site,
     find_equilibrium,
     hydrostatics,

@@ -70,6 +70,25 @@ def test_random_linear_systems_agree_with_the_matrix_exponential_and_converge_at
     assert np.all(orders > 3.7), orders
 
 
+def _with_convolution(model: CumminsModel) -> CumminsModel:
+    time = np.linspace(0.0, 8.0, 3201)
+    kernel = model.memory.kernel(time)  # type: ignore[union-attr]
+    memory = ConvolutionMemory(time, kernel, np.zeros((3, 3)))
+    return CumminsModel(model.inertia, model.stiffness, model.linear_damping, memory)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_chosen_step_is_as_accurate_with_a_convolution(seed: int) -> None:
+    model = _random_model(seed)
+    other = _with_convolution(model)
+    step, notice = choose_time_step(other, CALM)
+    assert "second order" in notice.remedy and notice.limit == pytest.approx(step)
+    assert _error(other, seed, step, model) < 5e-4
+    step, notice = choose_time_step(model, CALM)
+    assert "fourth order" in notice.remedy
+    assert _error(model, seed, step) < 5e-4
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_convolution_converges_at_second_order_to_the_same_motion(seed: int) -> None:
     model = _random_model(seed)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.morison.net_law import Net, NetLaw, available_net_laws, known_net_law, net_law, panel_force
+from moyai.morison.net_law_names import Net, NetLaw, available_net_laws, known_net_law, net_law, panel_force
 from moyai.morison.net_laws.kristiansen_faltinsen import KristiansenFaltinsen, cylinder_drag
 from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.morison.net_laws.twines import TwineLaw

@@ -10,7 +10,7 @@ import pytest
 from moyai.core.errors import InputError
 from moyai.morison.net_fouling import check_fouling, diameter_for_drag, foul, foul_by_name
 from moyai.morison.net_grouping import group_twines, panel_bars
-from moyai.morison.net_law import Net, available_net_laws, net_law
+from moyai.morison.net_law_names import Net, available_net_laws, net_law
 from moyai.morison.net_wake import WAKE_LAWS, speed_through, wake_factor
 
 VISCOSITY = 1.1e-6

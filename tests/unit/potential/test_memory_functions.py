@@ -209,3 +209,37 @@ def test_bad_plan_input_is_named():
         recommend_frequencies(water, breadth=-1.0, wall_height=1.0)
     with pytest.raises(InputError):
         recommend_frequencies(water, breadth=1.0, wall_height=1.0, accuracy=0.5)
+
+
+@pytest.mark.parametrize("time", [np.arange(0.0, 30.0, 0.5), np.arange(0.0, 60.0, 5.0), [0.0, 0.4], [0.0, 1000.0]])
+def test_identities_are_of_the_water_and_not_of_the_instants_of_the_output(time):
+    """Fine output holds them to 6e-6 and 3e-5; few instants of the same functions are as right."""
+    water = Water(5.0, 1025.0, G)
+    plan = recommend_frequencies(water, breadth=4.0, wall_height=1.0)
+    found = solve_rectangle(4.0, 1.0, water, plan.omega, centre=(0.0, 0.0))
+    coarse = memory_functions(
+        plan.omega,
+        found.radiation_damping,
+        found.infinite_frequency_added_mass,
+        time=time,
+        start="even",
+        added_mass=found.added_mass,
+    )
+    figures = {check.name: check.value for check in coarse.checks}
+    assert figures["Ogilvie"] < 1e-4 and figures["lambda is the integral of K"] < 1e-5
+
+
+def test_the_ogilvie_check_still_sees_a_wrong_added_mass_on_coarse_output():
+    water = Water(5.0, 1025.0, G)
+    plan = recommend_frequencies(water, breadth=4.0, wall_height=1.0)
+    found = solve_rectangle(4.0, 1.0, water, plan.omega, centre=(0.0, 0.0))
+    wrong = memory_functions(
+        plan.omega,
+        found.radiation_damping,
+        1.05 * found.infinite_frequency_added_mass,
+        time=np.arange(0.0, 60.0, 5.0),
+        start="even",
+        added_mass=found.added_mass,
+    )
+    (check,) = (check for check in wrong.checks if check.name == "Ogilvie")
+    assert check.value > 0.01 and not check.passed

@@ -377,3 +377,11 @@ def test_bad_modes_are_refused():
         solve(shapes.rectangle(6.0, 4.0).immersed(2.0), Water(8.0, 1000.0, GRAVITY), [1.0], modes=bad)
     with pytest.raises(InputError, match="centre"):
         rigid_modes((np.nan, 0.0))
+
+
+def test_a_hull_that_is_not_set_into_the_water_says_what_to_do():
+    hull, water = shapes.rectangle(4.0, 2.0), Water(5.0, 1025.0, GRAVITY)
+    with pytest.raises(InputError, match=r"hull\.immersed\(draught=\.\.\.\)"):
+        solve(hull, water, [1.0], modes=rigid_modes((0.0, 0.0)))
+    with pytest.raises(InputError, match="tuple is no Modes"):
+        solve(hull.immersed(draught=1.0), water, [1.0], modes=("sway",))

@@ -7,7 +7,10 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from moyai.core.errors import InputError
+from moyai.potential.modes import rigid_modes
+from moyai.potential.solver import solve
 from moyai.potential.thin_plate import Plate, hanging_arc, horizontal_motion, solve_plate_limit
+from moyai.potential.thin_plate_waves import plate_section
 from moyai.sea.water import Water
 
 ZETA_3 = 1.2020569031595942
@@ -168,3 +171,23 @@ def test_normal_of_a_hanging_plate_looks_downstream():
     assert (solution.jump < 0.0).all()
     assert Plate((0, 0), (0, -1)).slope(np.array([0.5]))[0] == pytest.approx(-1j)
     assert hanging_arc(1.0, 0.2).position(np.array([0.5])).real[0] > 0.0
+
+
+def test_a_plate_takes_the_modes_of_any_section():
+    """Sway of the rigid modes is the horizontal motion; heave slides along a vertical plate."""
+    water, plate = Water(6.0, 1000.0, 9.81), Plate((0.0, 0.0), (0.0, -2.0))
+    own = solve_plate_limit(plate, water, (horizontal_motion,)).added_mass[0, 0]
+    rigid = solve_plate_limit(plate, water, rigid_modes((0.0, 0.0))).added_mass
+    assert rigid.shape == (3, 3)
+    assert rigid[0, 0] == pytest.approx(own, rel=1e-12)
+    assert np.abs(rigid[1]).max() < 1e-9 * own
+    # roll about the waterline moves each point by its depth below it, against the solver of any section
+    assert rigid[0, 2] == pytest.approx(rigid[2, 0], rel=1e-9)
+    section = plate_section(plate)
+    other = solve(section, water, [1.0], modes=rigid_modes((0.0, 0.0)), accuracy=1e-4).infinite_frequency_added_mass
+    assert np.allclose(rigid, other, atol=1e-3 * own)
+
+
+def test_what_is_no_motion_is_refused():
+    with pytest.raises(InputError, match="'sway' is no motion"):
+        solve_plate_limit(Plate((0.0, 0.0), (0.0, -2.0)), Water(6.0, 1000.0, 9.81), ("sway",))

@@ -15,7 +15,7 @@ from moyai.case.templates import template
 from moyai.cli.main import app
 from moyai.core.errors import CaseError
 from moyai.core.results import read_result
-from moyai.morison.net_law import net_law
+from moyai.morison.net_law_names import net_law
 from moyai.records.nets.case.build import load_nets
 from moyai.report.writer import compose_document
 

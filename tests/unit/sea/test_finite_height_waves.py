@@ -252,3 +252,28 @@ def test_bad_requests(options, name):
     request = {"theory": "stokes", "height": 1.0, "period": 7.0, "water": Water(20.0, 1025.0, 9.81), **options}
     with pytest.raises(InputError, match=name):
         nonlinear_wave(request.pop("theory"), **request)
+
+
+DEEP = Water(math.inf, 1025.0, 9.81)
+
+
+@pytest.mark.parametrize("order", [35, 45, 60])
+def test_many_components_of_a_steep_deep_wave_give_the_wave_of_few(order):
+    """H/L = 0.12: the 25-th component is 1e-7 of the first, so that more of them change nothing."""
+    few, many = (
+        nonlinear_wave("stream_function", height=12.0, water=DEEP, wavelength=100.0, order=count)
+        for count in (25, order)
+    )
+    assert max(many.surface_residuals()) < 1e-7
+    assert many.period == pytest.approx(few.period, rel=1e-9)
+
+
+def test_the_residual_that_is_promised_is_kept_or_told():
+    kept = nonlinear_wave("stream_function", height=13.5, water=DEEP, wavelength=100.0)
+    assert max(kept.surface_residuals()) < 1e-5 and not kept.notices()
+    missed = nonlinear_wave("stream_function", height=13.7, water=DEEP, wavelength=100.0)
+    (notice,) = missed.notices()
+    assert notice.value == pytest.approx(max(missed.surface_residuals())) and 1e-5 < notice.value < 1e-3
+    assert "misses the conditions of its surface" in notice.message
+    few = nonlinear_wave("stream_function", height=12.0, water=DEEP, wavelength=100.0, order=9)
+    assert few.notices()

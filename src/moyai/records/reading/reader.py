@@ -67,6 +67,18 @@ def read_record(source: LoggerSource, *, start: float = -math.inf, end: float = 
     ------
     InputError
         With file, row and column of what is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> from moyai.records.reading.reader import read_record
+    >>> from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
+    >>> file = Path(mkdtemp()) / "logger.csv"
+    >>> _ = file.write_text("t [s],level [cm]\\n0.0,10.0\\n0.5,-20.0\\n", encoding="utf-8")
+    >>> record = read_record(LoggerSource("gauge", (file,), (ColumnSource("level", "level"),), TimeSource(("t",))))
+    >>> record.units, record.values[:, 0].tolist()
+    (('m',), [0.1, -0.2])
     """
     return concatenate(chunk.between(start, end) for chunk in read_chunks(source))
 

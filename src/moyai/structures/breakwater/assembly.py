@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import Notice
-from moyai.floating.hydrostatics import Hydrostatics, body_to_site, find_equilibrium, hydrostatics, inertia_matrix
+from moyai.floating.statics import Hydrostatics, body_to_site, find_equilibrium, hydrostatics, inertia_matrix
 from moyai.mooring.lines import Line, LineElement, SpringLine
 from moyai.mooring.planar import PlanarLineSystem
 from moyai.mooring.system import LineSystem

@@ -7,6 +7,7 @@ import math
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.morison.circulation import HELD_LIMIT, LAMINAR_EDGE, LAW_LIMIT
+from moyai.morison.flow import NonlinearFlow
 from moyai.morison.members import StraightMember
 from moyai.sea.water import Water
 from moyai.structures.member.march import WaveForces
@@ -96,6 +97,8 @@ def member_notices(problem: MemberProblem, member: StraightMember) -> tuple[Noti
 def wave_notices(problem: MemberProblem, member: StraightMember, wave: Wave, found: WaveForces) -> tuple[Notice, ...]:
     """Hold one wave against slenderness and the range of the circulation law."""
     notices = list(found.notices)
+    if isinstance(wave.flow, NonlinearFlow):
+        notices.extend(wave.flow.wave.notices())
     section = member.placed_section
     length = 2.0 * math.pi / wave.wave_number
     where = wave.name if wave.regular else "the sea"

@@ -13,7 +13,7 @@ from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
@@ -65,7 +65,7 @@ class Run:
 
 
 def options_of(problem: NetworkProblem, plan: RunPlan) -> dict[str, Any]:
-    """Return the arguments of :func:`moyai.flexible.simulate.simulate` for a run."""
+    """Return the arguments of :func:`moyai.flexible.simulation.simulate` for a run."""
     settings = problem.settings
     method = "explicit" if settings.method == "auto" else settings.method
     return {

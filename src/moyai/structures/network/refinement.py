@@ -21,7 +21,7 @@ from moyai.flexible.network import Network
 from moyai.flexible.refine import refined
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 
@@ -95,7 +95,7 @@ def check_peak(
     skip : float
         Start-up that does not count [s].
     options : mapping
-        Arguments of :func:`moyai.flexible.simulate.simulate`.
+        Arguments of :func:`moyai.flexible.simulation.simulate`.
     progress : Progress
 
     Returns

@@ -409,7 +409,7 @@ _LINE_PLACES = {
 
 def _check_lines_at_rest(model: BreakwaterCase, unit: Breakwater, environment: Environment, findings: Findings) -> None:
     """Hold each line of the upright unit against its strength and its slack, at every water level."""
-    from moyai.floating.hydrostatics import body_to_site
+    from moyai.floating.statics import body_to_site
     from moyai.mooring.checks import check_line_system
     from moyai.mooring.system import LineSystem
     from moyai.structures.breakwater.assembly import site_lines

@@ -13,7 +13,7 @@ from moyai.case.criteria import criteria_of
 from moyai.core.errors import InputError
 from moyai.flexible.network import Bed
 from moyai.morison.net_fouling import foul, foul_by_name
-from moyai.morison.net_law import Net, net_law
+from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.environment import Environment
 from moyai.sea.water import Water
 from moyai.structures.cage.case import schema

@@ -12,7 +12,7 @@ from moyai.case.criteria import criteria_of
 from moyai.case.headings import heading_of
 from moyai.case.schema_environment import sea_names
 from moyai.core.errors import InputError
-from moyai.morison.net_law import Net, NetLaw, net_law
+from moyai.morison.net_law_names import Net, NetLaw, net_law
 from moyai.sea.environment import Environment
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water

@@ -23,7 +23,7 @@ _WATER_VISCOSITY = (2e-7, 3e-6)
 
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
     """Record every fault and warning of a rigid cage case in ``findings``."""
-    from moyai.morison.net_law import available_net_laws, known_net_law
+    from moyai.morison.net_law_names import available_net_laws, known_net_law
     from moyai.structures.cage.case.build_rigid import build_problem
     from moyai.structures.cage.rigid.statics import require_floating
 

@@ -15,7 +15,7 @@ from moyai.flexible.flow import Current, Flow
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.flexible.rings import ring_moments
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.structures.cage.flexible.loads import PARTS, drag_on_holds, drag_split, pull_on_anchors
 from moyai.structures.cage.flexible.model import FlexibleCage

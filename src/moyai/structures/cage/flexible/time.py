@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.series.snaps import find_snaps
 from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, ring_shape
 from moyai.structures.cage.flexible.loads import PARTS, drag_split

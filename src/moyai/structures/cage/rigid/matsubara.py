@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Literal
 
 from moyai.core.options import checks_words
-from moyai.morison.net_law import Net, net_law
+from moyai.morison.net_law_names import Net, net_law
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.model import LinePlan

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
-from moyai.morison.net_law import Net, NetLaw
+from moyai.morison.net_law_names import Net, NetLaw
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from moyai.core.options import checks_words
 from moyai.flexible.mass_blocks import MassBlocks
 from moyai.flexible.network import FIXED, Bars, BarType, Network, Nodes, Strand
 from moyai.flexible.result import State
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact, moved_mass, peak_by_energy
 from moyai.structures.curtain.impact.kernels import taut_shape

@@ -14,7 +14,7 @@ from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
 from moyai.flexible.sheets import sheet_stress
-from moyai.flexible.simulate import simulate
+from moyai.flexible.simulation import simulate
 from moyai.sea.water import Water
 from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.curtain.dynamic.assembly import build_span

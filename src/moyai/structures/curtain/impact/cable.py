@@ -205,7 +205,29 @@ def _slopes(b: float) -> tuple[float, float]:
 
 
 def closed_form(impact: Impact, mass: float | None = None) -> ImpactPeak:
-    """Return the small-strain peak of model A; time and displacement are infinite for l = B [eq:impact-closed-form]."""
+    """Return the small-strain peak of model A; time and displacement are infinite for l = B [eq:impact-closed-form].
+
+    Parameters
+    ----------
+    impact : Impact
+        The span.
+    mass : float, optional
+        Added mass per metre of span [kg/m]; M0 of the paper by default.
+
+    Returns
+    -------
+    ImpactPeak
+        Tension of both cables together [N], displacement of the middle [m] and time [s] after the span became taut.
+
+    Examples
+    --------
+    >>> from moyai.sea import Water
+    >>> from moyai.structures.curtain.impact.cable import Impact, closed_form
+    >>> water = Water(depth=10.0, density=1025.0, gravity=9.81)
+    >>> span = Impact(10.0, 10.2, 2.0, upper_stiffness=1e6, lower_stiffness=1e6, speed=0.3, water=water)
+    >>> round(closed_form(span).tension)
+    17369
+    """
     moved = moved_mass(impact, mass)
     tension = float(speed_factor(impact.span_ratio)) * impact.speed * math.sqrt(moved * impact.stiffness)
     b = taut_shape(impact.span_ratio)

@@ -165,6 +165,21 @@ def simulate(
     ------
     InputError
         For motions that are missing, unknown or too short, and numbers out of range.
+
+    Examples
+    --------
+    >>> from moyai.flexible import BarType, NetworkBuilder, simulate, solve_equilibrium
+    >>> from moyai.sea import Water
+    >>> builder = NetworkBuilder(Water(depth=10.0, density=1025.0, gravity=9.81))
+    >>> rope = BarType("rope", mass_per_length=10.0, axial_stiffness=1e7, diameter=0.05)
+    >>> builder.fixed("left", (0.0, 0.0, -2.0))
+    >>> builder.fixed("right", (20.0, 0.0, -2.0))
+    >>> builder.line("span", "left", "right", rope, length=21.0, segments=20)
+    >>> network = builder.build()
+    >>> rest = solve_equilibrium(network)
+    >>> history = simulate(network, {}, duration=0.5, output_step=0.1, start=rest.state)
+    >>> history.tension.shape                                        # instants, bars [N]
+    (6, 20)
     """
     flow = flow or Flow()
     start = start or State.at_rest(network)

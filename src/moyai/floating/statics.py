@@ -116,6 +116,17 @@ def hydrostatics(
     Implements [eq:floating-hydrostatic] and [eq:floating-metacentre]. Buoyancy, not weight, carries the lever of the
     centre of buoyancy; the weight acts at the centre of the modes and adds nothing. The part of the buoyancy that lines
     hold down acts through the geometric stiffness of those lines, which belongs to the mooring stiffness.
+
+    Examples
+    --------
+    >>> from moyai.floating import hydrostatics
+    >>> from moyai.potential import shapes
+    >>> section = shapes.rectangle(beam=4.0, height=2.0).immersed(draught=1.0)
+    >>> rest = hydrostatics(
+    ...     section, mass=82000.0, centre_of_gravity=(0.0, -0.2), length=20.0, density=1025.0, gravity=9.81
+    ... )
+    >>> round(rest.metacentric_height, 3)                            # KB + BM - KG = 0.5 + 4^2 / 12 - 0.8 [m]
+    1.033
     """
     positive(mass, "mass")
     positive(length, "length")
