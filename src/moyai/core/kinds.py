@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
     from moyai.core.results import Result
+    from moyai.core.vocabulary import Vocabulary
 
 GROUP = "moyai.structures"
 
@@ -40,6 +41,10 @@ class Kind(ABC):
     package: str
     #: Commented files to start from: name for ``moyai new`` and file within the package
     templates: tuple[tuple[str, str], ...] = ()
+
+    @abstractmethod
+    def vocabulary(self) -> Vocabulary:
+        """Return the names that results of this kind may carry."""
 
     @abstractmethod
     def compose(self, result: Result) -> Any:

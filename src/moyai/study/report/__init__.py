@@ -6,6 +6,7 @@ from typing import Any
 
 from moyai.core.kinds import Kind
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class StudyKind(Kind):
@@ -14,6 +15,11 @@ class StudyKind(Kind):
     name = "study"
     package = "moyai.study"
     templates = (("study", "template.yaml"),)
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.study.variables import vocabulary
+
+        return vocabulary()
 
     def compose(self, result: Result) -> Any:
         from moyai.study.report.page import compose
