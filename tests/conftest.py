@@ -5,6 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from moyai.core.vocabulary import Strictness
+
+# A name of a result that no vocabulary declares is an error in every test
+Strictness.names = True
+
 
 @pytest.fixture(scope="session")
 def shared_data() -> Path:

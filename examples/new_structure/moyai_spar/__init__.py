@@ -38,6 +38,9 @@ class SparKind(StructureKind):
     def run(self, problem: SparProblem, progress: Progress, keep: Path | None) -> Result:
         return run.run(problem, progress)
 
+    def vocabulary(self) -> Any:
+        return run.VOCABULARY
+
     def compose(self, result: Result) -> Any:
         return page.compose(result)
 

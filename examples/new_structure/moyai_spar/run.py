@@ -6,10 +6,10 @@ import xarray as xr
 
 from moyai.core.collected import Collected
 from moyai.core.headline import Headline
-from moyai.core.labels import with_labels
 from moyai.core.progress import Progress
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.vocabulary import Vocabulary
 from moyai_spar.model import SparProblem, SparState, equilibrium
 
 VARIABLES = {
@@ -18,6 +18,7 @@ VARIABLES = {
     "drag": ("N", "drag of the current"),
     "tension": ("N", "tension of the chain at the keel"),
 }
+VOCABULARY = Vocabulary.of("spar", VARIABLES)
 
 
 def run(problem: SparProblem, progress: Progress) -> Result:
@@ -27,12 +28,12 @@ def run(problem: SparProblem, progress: Progress) -> Result:
         progress("water levels", index, len(problem.water_levels))
         state = states[name] = equilibrium(problem, level)
         values = {key: value for key, value in asdict(state).items() if key in VARIABLES}
-        collected.groups[f"/{name}"] = with_labels(xr.Dataset(values), VARIABLES)
+        collected.groups[f"/{name}"] = xr.Dataset(values)
         collected.checks.append(IdentityCheck(f"{name}: buoyancy bears spar and hanging chain", state.residual, 1e-6))
         if state.draught >= problem.height:
             collected.notices.append(Notice("spar-under-water", f"{name}: the spar is pulled under", severity="error"))
     headlines = headlines_of(problem, states)
-    return collected.close(problem.attributes, headlines=headlines, criteria=problem.criteria)
+    return collected.close(VOCABULARY, problem.attributes, headlines=headlines, criteria=problem.criteria)
 
 
 def headlines_of(problem: SparProblem, states: dict[str, SparState]) -> tuple[Headline, ...]:

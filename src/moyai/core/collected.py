@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from moyai.core.headline import Criterion, Headline, judge
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.vocabulary import Vocabulary
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,6 +62,7 @@ class Collected:
 
     def close(
         self,
+        vocabulary: Vocabulary,
         attributes: Mapping[str, Any],
         seeds: Iterable[int] = (),
         *,
@@ -69,10 +71,12 @@ class Collected:
         headlines: Iterable[Headline] = (),
         criteria: Iterable[Criterion] = (),
     ) -> Result:
-        """Close the run: status, message, notices by their weight, provenance.
+        """Close the run: names, status, message, notices by their weight, provenance.
 
         Parameters
         ----------
+        vocabulary : Vocabulary
+            Names that the groups may carry.
         attributes : mapping
             Of the root group: ``title``, ``structure``, ``case_hash``, ``case_text`` and what the structure adds.
         seeds : iterable of int
@@ -85,14 +89,20 @@ class Collected:
             The numbers of the first page, the governing one first.
         criteria : iterable of Criterion
             What they are judged against.
+
+        Raises
+        ------
+        VocabularyError
+            When a group holds a name that is not declared, where names are held strictly.
         """
         import xarray as xr
 
+        groups = vocabulary.close(self.groups)
         status, message = self.status(fulfilled)
         numbers = tuple(headlines)
         known = {name: attributes[name] for name in ("title", "case_hash", "structure")}
         return Result(
-            tree=xr.DataTree.from_dict({"/": xr.Dataset(attrs=dict(attributes)), **self.groups}),
+            tree=xr.DataTree.from_dict({"/": xr.Dataset(attrs=dict(attributes)), **groups}),
             status=status,
             message=message,
             checks=tuple(self.checks),

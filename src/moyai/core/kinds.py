@@ -20,6 +20,7 @@ from moyai.core.errors import InputError
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
     from moyai.core.results import Result
+    from moyai.core.vocabulary import Vocabulary
 
 GROUP = "moyai.structures"
 
@@ -43,6 +44,10 @@ class Kind(ABC):
     package: str
     #: Commented files to start from: name for ``moyai new`` and file within the package
     templates: tuple[tuple[str, str], ...] = ()
+
+    def vocabulary(self) -> Vocabulary | None:
+        """Return the names that results of this kind may carry; None where the user's file makes them."""
+        return None
 
     @abstractmethod
     def compose(self, result: Result) -> Any:

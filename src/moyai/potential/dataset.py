@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.vocabulary import Vocabulary
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -35,6 +37,22 @@ _VARIABLES: dict[str, tuple[str, str, str]] = {
         "wave per unit velocity, motion as exp(i k sin(beta) y)",
     ),
 }
+
+VOCABULARY = Vocabulary.of(
+    "hydrodynamic coefficients",
+    {
+        **{name: (units, text) for name, (_, units, text) in _VARIABLES.items()},
+        "omega": ("rad/s", "angular frequency"),
+        "period": ("s", "period"),
+        "wavenumber": ("rad/m", "wave number"),
+        "wave_direction": ("rad", "direction in which waves travel, 0 along +x"),
+    },
+    labels={
+        "radiating_dof": "mode that moves",
+        "influenced_dof": "mode that is pushed",
+        "side": "side of the section, x to minus or plus infinity",
+    },
+)
 
 
 def build_dataset(solution: RadiationDiffraction) -> xr.Dataset:

@@ -27,7 +27,7 @@ from moyai.report.document import (
 from moyai.report.formatting import display_unit
 from moyai.report.html import STATUS_WORDS
 from moyai.report.notices import first_page_notices
-from moyai.report.reading import Group, walk
+from moyai.report.reading import Group, root_of, walk
 
 MOST_CURVES = 12
 
@@ -43,7 +43,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     sections = [Section("summary", "Summary", (*notice_blocks(result), case_listing(root)))]
     for path, group in [("/", root), *walk(root)]:
         blocks = group_blocks(group, path)

@@ -1,4 +1,4 @@
-"""Read groups of a result without stumbling over what is absent."""
+"""Read groups of a result: what was not run is blank, what was run and is absent is an error."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.errors import InputError
+from moyai.core.kinds import kind_of_result
+from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 from moyai.report.formatting import display_unit, largest_magnitude
 
 if TYPE_CHECKING:
@@ -18,9 +22,42 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+class AbsentError(InputError):
+    """A result lacks what its analysis always writes."""
+
+
+def _absent(path: str, *names: str) -> AbsentError:
+    words = ", ".join(f"'{name}'" for name in names)
+    return AbsentError(
+        f"group '{path.strip('/')}' of the result lacks {words}",
+        path="result",
+        remedy="it was written by another version of moyai, or changed since: run the case again",
+    )
+
+
+def root_of(result: Result) -> Group:
+    """Return the root of a result, read through the vocabulary of its kind.
+
+    Raises
+    ------
+    AbsentError
+        When a group lacks what its analysis always writes.
+    """
+    kind = kind_of_result(str(result.tree.attrs.get("structure", "")))
+    own = None if kind is None else kind.vocabulary()
+    for node in result.tree.subtree if own is not None else ():
+        missing = own.absent(node.path, node.variables) if own is not None else ()
+        if missing:
+            raise _absent(node.path, *missing)
+    return Group("", result.tree, own)
+
+
 @dataclass(frozen=True)
 class Group:
-    """One group of a result; everything asked of it may be absent.
+    """One group of a result.
+
+    What depends on the options of a case may be absent and is blank then; :meth:`require` asks for what is always
+    there. A name that the vocabulary of the result does not declare is an error wherever it is asked for.
 
     Parameters
     ----------
@@ -28,10 +65,13 @@ class Group:
         Last part of its path.
     node : xarray.DataTree or None
         ``None`` where the group does not exist.
+    vocabulary : Vocabulary or None
+        Names that the result may carry; ``None`` for a result of no known kind.
     """
 
     name: str
     node: xr.DataTree | None
+    vocabulary: Vocabulary | None = None
 
     @property
     def exists(self) -> bool:
@@ -48,20 +88,45 @@ class Group:
         node: Any = self.node
         for part in path.split("/"):
             node = None if node is None or part not in node.children else node.children[part]
-        return Group(path.rsplit("/", 1)[-1], node)
+        return Group(path.rsplit("/", 1)[-1], node, self.vocabulary)
 
     def children(self) -> tuple[Group, ...]:
         """Return the groups directly below."""
-        return () if self.node is None else tuple(Group(name, node) for name, node in self.node.children.items())
+        return (
+            ()
+            if self.node is None
+            else tuple(Group(name, node, self.vocabulary) for name, node in self.node.children.items())
+        )
 
     def variable(self, name: str) -> xr.DataArray | None:
-        """Return a variable or coordinate, ``None`` where it is absent or not numeric."""
+        """Return a variable or coordinate, ``None`` where it is absent or not numeric.
+
+        Raises
+        ------
+        VocabularyError
+            When no result of this kind can have it, where names are held strictly (the tests).
+        """
+        if self.vocabulary is not None:
+            self.vocabulary.require(name)
         if self.node is None:
             return None
         if name not in self.node.data_vars and name not in self.node.coords:
             return None
         found: Any = self.node[name]
         return found if np.issubdtype(found.dtype, np.number) or np.issubdtype(found.dtype, np.bool_) else None
+
+    def require(self, name: str, *dims: str, **choice: str) -> Array:
+        """As :meth:`real`, for what the group holds whenever its analysis was run.
+
+        Raises
+        ------
+        AbsentError
+            When it is absent.
+        """
+        found = self.real(name, *dims, **choice)
+        if found is None:
+            raise _absent("" if self.node is None else self.node.path, name)
+        return found
 
     def array(self, name: str, *dims: str, **choice: str) -> NDArray[Any] | None:
         """Return a variable with its dimensions in the order of ``dims``, after selecting the labels of ``choice``.

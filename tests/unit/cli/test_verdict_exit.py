@@ -12,6 +12,7 @@ from moyai.cli.main import exit_code
 from moyai.core.collected import Collected
 from moyai.core.headline import Criterion, Headline
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.vocabulary import Vocabulary
 
 DEPTH = Criterion("least_effective_depth", "effective_depth", 4.0, "at least", "case file", "effective depth", "m")
 
@@ -23,7 +24,7 @@ def result(depth: float, *notices: Notice, failure: str = "", violation: float =
     collected.checks.append(IdentityCheck("balance", violation, 1e-6))
     headlines = (Headline("effective_depth", "Effective depth", depth, "m"),)
     attributes = {"title": "t", "case_hash": "h", "structure": "curtain"}
-    return collected.close(attributes, headlines=headlines, criteria=(DEPTH,))
+    return collected.close(Vocabulary.of("curtain", {}), attributes, headlines=headlines, criteria=(DEPTH,))
 
 
 OUTSIDE = Notice("range", "the wave breaks", severity="error")

@@ -8,6 +8,7 @@ import pytest
 
 from moyai.core.collected import STOPPED, Collected, by_weight
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.vocabulary import Vocabulary
 
 ATTRIBUTES = {"title": "a case", "structure": "curtain", "case_hash": "0", "case_text": "", "model": "B"}
 BROKEN = IdentityCheck("energy", 0.2, 0.01, "in equals out")
@@ -21,7 +22,7 @@ def test_graver_states_outrank_lighter_ones(broken: bool, grave: bool, failed: b
     collected.notices.extend([GRAVE] if grave else [])
     collected.failures.extend(["sea 1: no end"] if failed else [])
     collected.interrupted = STOPPED if stopped else ""
-    result = collected.close(ATTRIBUTES, [3], fulfilled="all is well")
+    result = collected.close(Vocabulary.of("curtain", {}), ATTRIBUTES, [3], fulfilled="all is well")
     if stopped:
         assert (result.status, result.message) == ("interrupted", STOPPED)
     elif failed or broken:

@@ -11,6 +11,7 @@ import xarray as xr
 from moyai.core.collected import Collected
 from moyai.core.headline import Band, Criterion, Headline, judge
 from moyai.core.results import read_result
+from moyai.core.vocabulary import Vocabulary
 
 MOST = Criterion("transmission", "transmission", 0.5, "at most", "case file")
 LEAST = Criterion("least_effective_depth", "effective_depth", 4.0, "at least", "case file", unit="m")
@@ -59,7 +60,10 @@ def test_headlines_and_verdict_survive_the_file(tmp_path: Path) -> None:
     collected = Collected()
     collected.groups["/a"] = xr.Dataset()
     result = collected.close(
-        {"title": "t", "case_hash": "h", "structure": "s"}, headlines=headlines, criteria=(MOST, LEAST)
+        Vocabulary.of("s", {}),
+        {"title": "t", "case_hash": "h", "structure": "s"},
+        headlines=headlines,
+        criteria=(MOST, LEAST),
     )
     again = read_result(result.write(tmp_path / "results.nc"))
     assert again.headlines[0] == headlines[0]

@@ -5,9 +5,9 @@ import pytest
 
 from moyai.core.single import plain
 from moyai.core.validity import IdentityCheck
-from moyai.series import fit
 from moyai.mooring import solve_catenary
 from moyai.sea import current
+from moyai.series import fit
 
 
 @pytest.mark.parametrize("value", [2.0, np.float64(2.0), np.array(2.0), np.int64(2)])

@@ -6,6 +6,7 @@ from typing import Any
 
 from moyai.core.kinds import Kind
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class ComparisonKind(Kind):
@@ -13,6 +14,11 @@ class ComparisonKind(Kind):
 
     name = "comparison"
     package = __name__
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.records.comparison.run import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.records.comparison.report.page import compose

@@ -15,6 +15,7 @@ from moyai.core.errors import InputError
 from moyai.core.results import Result, make_provenance
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
+from moyai.core.vocabulary import NO_UNIT, Vocabulary
 from moyai.records.comparison.model import Agreement, agreement_by_state, overlay
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.record import FloatArray, Record
@@ -110,7 +111,7 @@ def compare_result(
             classes = record[state][inside], tuple(edges) or _edges(record[state])
         label = f"{name.strip('/').replace('/', ' ')} against {pairing.column}"
         groups[label.replace("/", " ")] = _group(found, unit, axis, label, classes, record, state)
-    tree = xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
+    tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
     title = str(result.tree.attrs.get("title", "")) or "result"
     tree.attrs = {"title": f"{title} against {path.name}", "structure": "comparison", "case_text": "", "case_hash": ""}
     message = f"{len(groups)} variables compared with {path.name}"
@@ -305,6 +306,18 @@ def _edges(state: FloatArray) -> tuple[float, ...]:
     return tuple(float(border) for border in borders)
 
 
+VOCABULARY = Vocabulary.of(
+    "comparison",
+    {
+        "coordinate": (NO_UNIT, "coordinate"),
+        "model": (NO_UNIT, "model"),
+        "observed": (NO_UNIT, "record"),
+        "agreement": (NO_UNIT, "agreement"),
+        "by_state": (NO_UNIT, "agreement by class of the sea state"),
+        "state_count": ("1", "pairs of the class"),
+    },
+    labels={"figure": "figure of the agreement", "state": "class of the sea state"},
+)
 FIGURES = (
     ("count", "pairs"),
     ("bias", "bias, model minus record"),
@@ -337,16 +350,16 @@ def _group(
     import xarray as xr
 
     data: dict[str, Any] = {
-        "coordinate": ("place", found.time, {"units": "", "long_name": axis}),
-        "model": ("place", found.model, {"units": unit, "long_name": "model"}),
-        "observed": ("place", found.observed, {"units": unit, "long_name": "record"}),
-        "agreement": ("figure", np.array(_row(found.agreement)), {"units": "", "long_name": "agreement"}),
+        "coordinate": ("place", found.time, {"long_name": axis}),
+        "model": ("place", found.model, {"units": unit}),
+        "observed": ("place", found.observed, {"units": unit}),
+        "agreement": ("figure", np.array(_row(found.agreement))),
     }
     coordinates: dict[str, Any] = {"figure": np.array([words for _, words in FIGURES], dtype=object)}
     if classes is not None:
         rows = agreement_by_state(found.model, found.observed, *classes)
-        data["by_state"] = (("state", "figure"), np.array([_row(entry.agreement) for entry in rows]), {"units": ""})
-        data["state_count"] = ("state", np.array([float(entry.count) for entry in rows]), {"units": ""})
+        data["by_state"] = (("state", "figure"), np.array([_row(entry.agreement) for entry in rows]))
+        data["state_count"] = ("state", np.array([float(entry.count) for entry in rows]))
         unit_of_state = record.units[record.index(state)]
         coordinates["state"] = np.array([f"{entry.lower:.4g} to {entry.upper:.4g} {unit_of_state}" for entry in rows],
                                         dtype=object)  # fmt: skip

@@ -6,6 +6,7 @@ from typing import Any
 
 from moyai.core.kinds import Kind
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class ForceRecordKind(Kind):
@@ -13,6 +14,11 @@ class ForceRecordKind(Kind):
 
     name = "force_record"
     package = __name__
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.records.forces.result import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.records.forces.report.page import compose

@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck
+from moyai.core.vocabulary import Vocabulary
 from moyai.records.forces.fit import COEFFICIENTS
 from moyai.records.forces.identification import Coefficient, Identification
 
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
-    "time": ("s", "time"),
     "force": ("N/m", "force per length"),
     "velocity": ("m/s", "velocity of the water"),
     "acceleration": ("m/s2", "acceleration of the water"),
@@ -40,7 +40,12 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "equivalent_gamma": ("1", "gamma of the circulation that the reduction stands for"),
     "equivalent_gamma_half_width": ("1", "half width of that gamma, from that of C_M"),
     "residual_deviation": ("N/m", "standard deviation of the residual"),
+    "component": ("1", "number of the component"),
 }
+VOCABULARY = Vocabulary.of(
+    "force_record", VARIABLES, labels={"fit_method": "method of the fit", "coefficient": "coefficient"}
+)
+_labelled = VOCABULARY.describe
 
 
 def identification_dataset(found: Identification) -> xr.Dataset:
@@ -145,14 +150,6 @@ def record_dataset(found: Identification) -> xr.Dataset:
     )
 
 
-def _labelled(dataset: xr.Dataset) -> xr.Dataset:
-    for name in list(dataset.variables):
-        if str(name) in VARIABLES:
-            units, words = VARIABLES[str(name)]
-            dataset[name].attrs = {"units": units, "long_name": words}
-    return dataset
-
-
 def identification_result(found: Identification, *, title: str, text: str = "", source: str = "") -> Result:
     """Return the result that is written and reported.
 
@@ -180,7 +177,9 @@ def identification_result(found: Identification, *, title: str, text: str = "", 
     status: Status = "outside_validity" if grave else "converged"
     return Result(
         tree=xr.DataTree.from_dict(
-            {"/": root, "/coefficients": identification_dataset(found), "/record": record_dataset(found)}
+            VOCABULARY.close(
+                {"/": root, "/coefficients": identification_dataset(found), "/record": record_dataset(found)}
+            )
         ),
         status=status,
         message=grave[0].message if grave else "all fits were made",

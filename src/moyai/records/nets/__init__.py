@@ -6,6 +6,7 @@ from typing import Any
 
 from moyai.core.kinds import Kind
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class NetTestsKind(Kind):
@@ -14,6 +15,11 @@ class NetTestsKind(Kind):
     name = "nets"
     package = __name__
     templates = (("nets", "template.yaml"),)
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.records.nets.result import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.records.nets.report.page import compose

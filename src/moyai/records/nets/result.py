@@ -9,6 +9,7 @@ import numpy as np
 
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck
+from moyai.core.vocabulary import Vocabulary
 from moyai.records.nets.campaign import NetFindings
 from moyai.records.nets.regression import TERMS
 
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
-    "time": ("s", "time"),
-    "frequency": ("Hz", "frequency"),
     "density": ("1", "spectral density of the force over its median"),
     "background": ("1", "smooth spectrum about each frequency"),
     "speed": ("m/s", "speed of towing"),
@@ -78,6 +77,18 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "tension_first_phase": ("rad", "phase of the first harmonic of the tension"),
     "slack": ("1", "share of the time that the line is slack"),
 }
+VOCABULARY = Vocabulary.of(
+    "nets",
+    VARIABLES,
+    labels={
+        "line_end": "run, line and end of the line",
+        "term": "term of the law",
+        "other_term": "term of the law",
+    },
+    # Series of the ends of lines, in the order of the attribute "ends"
+    patterns={r"tension_\d+": "N"},
+)
+_labelled = VOCABULARY.describe
 _TOW = ("speed", "reynolds", "frame_force", "drag", "drag_half_width", "drag_error", "freedom", "lift")
 _WAVE = (
     "reynolds",
@@ -100,14 +111,6 @@ _WAVE = (
     "lift_amplitude",
     "lift_share",
 )
-
-
-def _labelled(dataset: xr.Dataset) -> xr.Dataset:
-    for name in list(dataset.variables):
-        if str(name) in VARIABLES:
-            units, words = VARIABLES[str(name)]
-            dataset[name].attrs = {"units": units, "long_name": words}
-    return dataset
 
 
 def _rows(items: Sequence[Any], names: Sequence[str], dim: str, labels: dict[str, list[str]]) -> xr.Dataset:
@@ -167,7 +170,7 @@ def nets_result(found: NetFindings, *, text: str = "") -> Result:
     status: Status = "outside_validity" if grave else "converged"
     count = len(found.towing) + len(found.waves) + len(found.tensions)
     return Result(
-        tree=xr.DataTree.from_dict(groups),
+        tree=xr.DataTree.from_dict(VOCABULARY.close(groups)),
         status=status,
         message=grave[0].message if grave else f"{count} runs were evaluated",
         checks=_checks(found),

@@ -6,6 +6,7 @@ from typing import Any
 
 from moyai.core.kinds import Kind
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class StreaksKind(Kind):
@@ -13,6 +14,11 @@ class StreaksKind(Kind):
 
     name = "streaks"
     package = __name__
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.records.streaks.variables import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.records.streaks.report.page import compose

@@ -30,6 +30,7 @@ from moyai.records.streaks.run import (
     fit_background,
     gather,
 )
+from moyai.records.streaks.variables import VOCABULARY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -304,7 +305,7 @@ def _result(
         message = f"{len(measured)} of {len(campaign.runs)} runs are done; the same command goes on from there"
     unique = tuple(dict.fromkeys(notices))
     return Result(
-        xr.DataTree.from_dict(groups),
+        xr.DataTree.from_dict(VOCABULARY.close(groups)),
         status="interrupted" if interrupted else "converged",
         message=message,
         checks=tuple(checks),

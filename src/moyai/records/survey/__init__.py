@@ -6,6 +6,7 @@ from typing import Any
 
 from moyai.core.kinds import Kind
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class SurveyKind(Kind):
@@ -14,6 +15,11 @@ class SurveyKind(Kind):
     name = "records"
     package = __name__
     templates = (("records", "template.yaml"),)
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.records.survey.variables import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.records.survey.report.page import compose

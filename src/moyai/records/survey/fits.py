@@ -62,13 +62,13 @@ def fit_relations(survey: Survey, groups: Mapping[str, xr.Dataset]) -> xr.Datase
         return None
     columns = list(zip(*rows, strict=True))
     names = ("relation", "of", "parameter", "value", "error", "low", "high", "determination", "count")
-    words = ("relation", "fitted to", "parameter", "estimate", "standard error", "lower 95 % bound", "upper 95 % bound",
-             "R^2", "blocks")  # fmt: skip
     data = {
-        name: ("fit", np.array(column, dtype=object if place < 3 else float), {"units": "", "long_name": label})
-        for place, (name, label, column) in enumerate(zip(names, words, columns, strict=True))
+        name: ("fit", np.array(column, dtype=object if place < 3 else float))
+        for place, (name, column) in enumerate(zip(names, columns, strict=True))
     }
-    return xr.Dataset(data)
+    out = xr.Dataset(data)
+    out["count"].attrs["long_name"] = "blocks"
+    return out
 
 
 def _of(dataset: xr.Dataset, name: str, place: int | None = None) -> FloatArray:

@@ -19,6 +19,7 @@ from moyai.records.reading.record import FloatArray, Record, instant_text
 from moyai.records.survey.blocks import BlockResult, work_off
 from moyai.records.survey.fits import fit_relations
 from moyai.records.survey.model import Survey
+from moyai.records.survey.variables import VOCABULARY
 from moyai.series.spectra import FIGURES
 from moyai.series.wave_statistics import fit_rayleigh, fit_weibull
 from moyai.series.zero_crossing import STATISTICS
@@ -31,54 +32,6 @@ if TYPE_CHECKING:
 MOST_FINDINGS = 5000
 MOST_SLIPS = 10
 """Slips of a unit told one by one; more are told together and stand in the table."""
-
-LONG_NAMES = {
-    "count": ("number of waves", ""),
-    "maximum_height": ("highest wave Hmax", "m"),
-    "maximum_period": ("period of the highest wave", "s"),
-    "tenth_height": ("mean height of the highest tenth H1/10", "m"),
-    "tenth_period": ("mean period of the highest tenth T1/10", "s"),
-    "third_height": ("significant height H1/3", "m"),
-    "third_period": ("significant period T1/3", "s"),
-    "mean_height": ("mean height", "m"),
-    "mean_period": ("mean zero-crossing period", "s"),
-    "rms_height": ("root mean square height", "m"),
-    "maximum_crest": ("highest crest", "m"),
-    "minimum_trough": ("lowest trough", "m"),
-    "spectral_height": ("spectral height 4 sqrt(m0)", "m"),
-    "peak_period": ("peak period Tp", "s"),
-    "smooth_peak_period": ("peak period from the centroid of S^4", "s"),
-    "period_m01": ("mean period m0/m1", "s"),
-    "period_m02": ("mean period sqrt(m0/m2)", "s"),
-    "period_energy": ("energy period m-1/m0", "s"),
-    "spectral_width": ("spectral width", ""),
-    "mean_heading": ("mean heading, direction of travel", "rad"),
-    "spread": ("directional spread", "rad"),
-    "peak_heading": ("heading at the peak", "rad"),
-    "peak_spread": ("spread at the peak", "rad"),
-    "current_x": ("mean current along x", "m/s"),
-    "current_y": ("mean current along y", "m/s"),
-    "current_speed": ("speed of the mean current", "m/s"),
-    "current_heading": ("heading of the mean current", "rad"),
-    "current_deviation": ("deviation from the mean current", "m/s"),
-    "current_normal": ("mean current normal to the structure U_x", "m/s"),
-    "reflection_coefficient": ("reflection coefficient", ""),
-    "reflection_error": ("standard error of the reflection coefficient", ""),
-    "incident_height": ("height of the incident waves 4 sqrt(m0)", "m"),
-    "reflected_height": ("height of the reflected waves 4 sqrt(m0)", "m"),
-    "transmission_coefficient": ("transmission coefficient", ""),
-    "transmission_error": ("standard error of the transmission coefficient", ""),
-    "transmitted_height": ("height of the transmitted waves 4 sqrt(m0)", "m"),
-    "steady": ("steady tension", "N"),
-    "maximum": ("highest tension of a wave above the steady part T_max", "N"),
-    "tenth": ("mean of the highest tenth T_1/10", "N"),
-    "third": ("mean of the highest third T_1/3", "N"),
-    "mean": ("mean of all waves T_mean", "N"),
-    "waves": ("waves that were matched", ""),
-    "snaps": ("snap events", ""),
-    "lag": ("lag of the tension behind the wave", "s"),
-}
-"""Words and unit of every figure of a block."""
 
 
 def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK_ROWS) -> Result:
@@ -232,7 +185,7 @@ def _assemble(survey: Survey, found: Sequence[BlockResult], dated: bool) -> tupl
     whole = _whole(survey, found)
     if whole is not None:
         groups["whole"] = whole
-    tree = xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
+    tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
     tree.attrs = {
         "title": survey.title,
         "structure": "records",
@@ -262,7 +215,7 @@ def _channels(found: Sequence[BlockResult], names: Sequence[str], symbols: dict[
     for place, name in enumerate(names):
         table = np.array([block.channels.get(name, (math.nan,) * 5) for block in found])
         for column, (key, label) in enumerate(zip(("mean", "deviation", "smallest", "largest", "share"), labels)):
-            unit = "" if key == "share" else symbols.get(name, "")
+            unit = "1" if key == "share" else symbols.get(name, "")
             attributes = {"units": unit, "long_name": f"{label} of {name}", "channel": name}
             data[f"channel_{place}_{key}"] = ("block", table[:, column], attributes)
     dataset = xr.Dataset(data, {"time": time})
@@ -282,8 +235,7 @@ def _figures(
     data = {}
     for key in keys:
         values = np.array([[row.get(member, {}).get(key, math.nan) for member in members] for row in rows])
-        long_name, unit = LONG_NAMES[key]
-        data[key] = (("block", dimension), values, {"units": unit, "long_name": long_name})
+        data[key] = (("block", dimension), values)
     return xr.Dataset(data, {"time": time, dimension: np.array(members, dtype=object)})
 
 
@@ -292,9 +244,8 @@ def _flat(rows: Sequence[dict[str, float]], keys: Sequence[str], time: Any) -> x
 
     data = {}
     for key in keys:
-        long_name, unit = LONG_NAMES[key]
         values = np.array([row.get(key, math.nan) for row in rows])
-        data[key] = ("block", values, {"units": unit, "long_name": long_name})
+        data[key] = ("block", values)
     return xr.Dataset(data, {"time": time})
 
 
@@ -317,17 +268,13 @@ def _spectra(survey: Survey, found: Sequence[BlockResult], time: Any) -> dict[st
                 freedom[row, column] = degrees
     dataset = xr.Dataset(
         {
-            "density": (
-                ("block", "gauge", "frequency"),
-                density,
-                {"units": "m2/Hz", "long_name": "one-sided spectral density"},
-            ),
-            "degrees_of_freedom": (("block", "gauge"), freedom, {"units": "", "long_name": "degrees of freedom"}),
+            "density": (("block", "gauge", "frequency"), density),
+            "degrees_of_freedom": (("block", "gauge"), freedom),
         },
         {
             "time": time,
             "gauge": np.array(survey.waves, dtype=object),
-            "frequency": ("frequency", frequency, {"units": "Hz", "long_name": "frequency"}),
+            "frequency": ("frequency", frequency),
         },
     )
     return {"spectra": dataset}
@@ -351,26 +298,14 @@ def _responses(survey: Survey, found: Sequence[BlockResult], symbols: dict[str, 
             tables["phase"][row, column] = np.angle(entry.response)
             tables["error"][row, column] = entry.error
             tables["coherence"][row, column] = entry.coherence
-    words = {
-        "modulus": "response amplitude per wave amplitude",
-        "phase": "phase of the response, Re(X exp(-i omega t))",
-        "error": "standard error of the response amplitude",
-        "coherence": "squared coherence",
-    }
     wave = symbols.get(survey.responses.wave, "m")
     units = ", ".join(f"{name} {symbols.get(name, '')}/{wave}" for name in names)
-    data = {
-        key: (
-            ("block", "motion", "frequency"),
-            table,
-            {"units": "rad" if key == "phase" else "", "long_name": words[key]},
-        )
-        for key, table in tables.items()
-    }
+    data: dict[str, Any] = {key: (("block", "motion", "frequency"), table) for key, table in tables.items()}
+    data["error"] = (*data["error"], {"long_name": "standard error of the response amplitude"})
     coordinates = {
         "time": time,
         "motion": np.array(names, dtype=object),
-        "frequency": ("frequency", longest.frequency, {"units": "Hz", "long_name": "frequency"}),
+        "frequency": ("frequency", longest.frequency),
     }
     return xr.Dataset(data, coordinates, {"units_of_modulus": units})
 
@@ -429,12 +364,12 @@ def _quality(
         notices.append(Notice("findings-cut", f"{lost} further stretches are not listed; all are counted", float(lost)))
     columns: list[Any] = list(zip(*rows)) if rows else [[] for _ in range(6)]
     data = {
-        "channel": ("finding", np.array(columns[0], dtype=object), {"units": "", "long_name": "channel"}),
-        "kind": ("finding", np.array(columns[1], dtype=object), {"units": "", "long_name": "what was found"}),
-        "start": ("finding", np.array(columns[2], dtype=float), {"units": "s", "long_name": "first instant"}),
+        "channel": ("finding", np.array(columns[0], dtype=object)),
+        "kind": ("finding", np.array(columns[1], dtype=object), {"long_name": "what was found"}),
+        "start": ("finding", np.array(columns[2], dtype=float)),
         "end": ("finding", np.array(columns[3], dtype=float), {"units": "s", "long_name": "last instant"}),
-        "count": ("finding", np.array(columns[4], dtype=float), {"units": "", "long_name": "samples"}),
-        "detail": ("finding", np.array(columns[5], dtype=object), {"units": "", "long_name": "detail"}),
+        "count": ("finding", np.array(columns[4], dtype=float), {"long_name": "samples"}),
+        "detail": ("finding", np.array(columns[5], dtype=object)),
     }
     dataset = xr.Dataset(data)
     dataset.attrs["samples"] = samples
@@ -475,17 +410,16 @@ def _whole(survey: Survey, found: Sequence[BlockResult]) -> xr.Dataset | None:
         return None
     levels = kept[0][1] if len(kept) == 1 else np.linspace(0.0, max(entry[1][-1] for entry in kept), 89)
     gauge = np.array([entry[0] for entry in kept], dtype=object)
-    ratio = {"units": "", "long_name": "height over the H1/3 of its block"}
     exceedance = [np.interp(levels, entry[1], entry[2], right=0.0) for entry in kept]
-    data["exceedance"] = (("gauge", "ratio"), np.array(exceedance), {"units": "", "long_name": "share of waves above"})
-    for key, label, values in (
-        ("weibull_scale", "scale of the Weibull fit", [entry[3].scale for entry in kept]),
-        ("weibull_shape", "shape of the Weibull fit (2: Rayleigh)", [entry[3].shape for entry in kept]),
-        ("weibull_shape_error", "standard error of the shape", [entry[3].shape_error for entry in kept]),
-        ("weibull_distance", "distance of the Weibull fit", [entry[3].distance for entry in kept]),
-        ("rayleigh_scale", "scale of the Rayleigh fit", [entry[4].scale for entry in kept]),
-        ("rayleigh_distance", "distance of the Rayleigh fit", [entry[4].distance for entry in kept]),
-        ("wave_count", "waves of the whole record", [float(entry[5]) for entry in kept]),
+    data["exceedance"] = (("gauge", "ratio"), np.array(exceedance))
+    for key, values in (
+        ("weibull_scale", [entry[3].scale for entry in kept]),
+        ("weibull_shape", [entry[3].shape for entry in kept]),
+        ("weibull_shape_error", [entry[3].shape_error for entry in kept]),
+        ("weibull_distance", [entry[3].distance for entry in kept]),
+        ("rayleigh_scale", [entry[4].scale for entry in kept]),
+        ("rayleigh_distance", [entry[4].distance for entry in kept]),
+        ("wave_count", [float(entry[5]) for entry in kept]),
     ):
-        data[key] = ("gauge", np.array(values), {"units": "", "long_name": label})
-    return xr.Dataset(data, {"gauge": gauge, "ratio": ("ratio", levels, ratio)})
+        data[key] = ("gauge", np.array(values))
+    return xr.Dataset(data, {"gauge": gauge, "ratio": ("ratio", levels)})

@@ -8,6 +8,7 @@ from typing import Any
 from moyai.core.kinds import StructureKind
 from moyai.core.progress import Progress
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class BreakwaterKind(StructureKind):
@@ -54,6 +55,11 @@ class BreakwaterKind(StructureKind):
 
         store = None if keep is None else DatasetStore(keep)
         return run(problem, progress, store=store, coefficients=planar_coefficients(problem))
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.structures.breakwater.variables import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.structures.breakwater.report.page import compose

@@ -30,7 +30,7 @@ from moyai.structures.breakwater.model import BreakwaterProblem, RegularSea
 from moyai.structures.breakwater.screening import check_screening
 from moyai.structures.breakwater.sensitivity import sensitivity_datasets
 from moyai.structures.breakwater.statics import mooring_dataset, moving_shapes, statics_dataset
-from moyai.structures.breakwater.variables import labelled
+from moyai.structures.breakwater.variables import VOCABULARY, labelled
 from moyai.structures.breakwater.viscous_damping import viscous_notices
 
 if TYPE_CHECKING:
@@ -236,6 +236,7 @@ def _result(problem: BreakwaterProblem, collected: Collected) -> Result:
     }
     seeds = [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)]
     return collected.close(
+        VOCABULARY,
         attributes,
         seeds,
         fulfilled="all identities hold and all iterations converged",

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from moyai.core.labels import with_labels
-
-if TYPE_CHECKING:
-    import xarray as xr
+from moyai.core.vocabulary import Vocabulary
+from moyai.potential.dataset import VOCABULARY as POTENTIAL
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
     "omega": ("rad/s", "angular frequency"),
     "period": ("s", "wave period"),
-    "wavelength": ("m", "wave length L"),
-    "wave_number": ("1/m", "wave number k"),
     "wavelength_over_beam": ("1", "wave length over beam, L/B"),
     "wave_direction": ("rad", "heading of the waves, 0 towards +x"),
     "draught": ("m", "draught d"),
@@ -126,7 +120,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "position": ("m", "position relative to rest (roll: rad)"),
     "tension": ("N", "tension at the fairlead of one line"),
     "surface_elevation": ("m", "incident waves at x = 0"),
-    "time": ("s", "time"),
     "velocity_kernel": ("N/m", "memory K(t) on velocity, of the unit"),
     "acceleration_kernel": ("N s/m", "memory lambda(t) on acceleration, of the unit"),
     "added_mass": ("kg", "added mass of the unit"),
@@ -177,7 +170,18 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "is_snap": ("1", "whether the peak counts as a snap"),
 }
 
+# Texts, and numbers that count the entries along a dimension
+LABELS: dict[str, str] = {
+    "influenced_dof": "degree of freedom that is pushed",
+    "radiating_dof": "degree of freedom that moves",
+    "mode": "natural mode",
+}
 
-def labelled(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    return with_labels(dataset, VARIABLES)
+VOCABULARY = Vocabulary.of(
+    "breakwater",
+    VARIABLES,
+    labels=LABELS,
+    parts={".*/hydrodynamics(_oblique)?": POTENTIAL},
+    open_groups=("/measured",),
+)
+labelled = VOCABULARY.describe

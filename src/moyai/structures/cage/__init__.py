@@ -8,6 +8,7 @@ from typing import Any
 from moyai.core.kinds import StructureKind
 from moyai.core.progress import Progress
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary, joined
 
 
 class CageKind(StructureKind):
@@ -57,6 +58,12 @@ class CageKind(StructureKind):
         from moyai.structures.cage.run import run
 
         return run(problem, progress)
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.structures.cage.flexible.variables import VOCABULARY as FLEXIBLE
+        from moyai.structures.cage.rigid.variables import VOCABULARY as RIGID
+
+        return joined("cage", (RIGID, FLEXIBLE))
 
     def compose(self, result: Result) -> Any:
         from moyai.structures.cage.report.page import compose

@@ -8,6 +8,7 @@ from typing import Any
 from moyai.core.kinds import StructureKind
 from moyai.core.progress import Progress
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class CurtainKind(StructureKind):
@@ -51,6 +52,11 @@ class CurtainKind(StructureKind):
         from moyai.structures.curtain.run import run
 
         return run(problem, progress)
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.structures.curtain.variables import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.structures.curtain.report.page import compose

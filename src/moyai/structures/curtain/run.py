@@ -27,6 +27,7 @@ from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_data
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.seas.states import DesignWave, design_waves, significant_height
+from moyai.structures.curtain.variables import VOCABULARY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -198,6 +199,7 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         "case_text": problem.case_text,
     }
     return collected.close(
+        VOCABULARY,
         attributes,
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
         notices=_placed(collected, len(problem.environment.water_levels)),

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from moyai.core.labels import with_labels
+from moyai.core.vocabulary import Vocabulary
 from moyai.structures.curtain.statics.steady_load import QUANTITIES
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
+    "wave_amplitude": ("m", "amplitude of a component of the waves"),
+    "wave_omega": ("rad/s", "angular frequency of a component of the waves"),
+    "wave_wave_number": ("1/m", "wave number of a component of the waves"),
+    "wave_heading": ("rad", "heading of a component of the waves"),
+    "wave_phase": ("rad", "phase of a component of the waves"),
     # statics
     "span": ("m", "distance of the supports B"),
     "unstretched_length": ("m", "unstretched length of the curtain between the supports l"),
@@ -150,7 +150,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "march_predicted_error": ("1", "-(pi/8) omega dt, for a linear spring"),
     "forward_iteration_converges": ("1", "whether the paper's iteration of one step converges"),
     "reverse_iteration_converges": ("1", "whether the reverse iteration converges"),
-    "time": ("s", "time"),
     "displacement": ("m", "mid-span from its just-taut place, downstream"),
     "speed": ("m/s", "speed of mid-span"),
     "tension": ("N", "sum of the tensions of both cables"),
@@ -301,7 +300,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_contacts": ("1", "times that the slack line comes taut"),
     "line_snaps": ("1", "contacts whose peak exceeds the threshold"),
     "slack_level": ("N", "tension up to which the line counts as slack"),
-    "snap_threshold": ("N", "peak above which a contact counts as a snap"),
     "snap_rise_time": ("s", "median rise of the snaps, from a tenth to nine tenths"),
     "both_peak": ("N", "highest sum of the tensions of both cables"),
     "both_peak_time": ("s", "when it stands"),
@@ -324,10 +322,45 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "node_position": ("m", "places of the nodes, axes of the span"),
     "bar_tension": ("N", "tensions of the bars"),
     "triangle_tension": ("N/m", "higher principal tension of the skirt's triangles"),
+    "seed": ("1", "seed of the realisation"),
+    "bar_nodes": ("1", "nodes of the bar"),
+    "triangle_nodes": ("1", "nodes of the triangle"),
 }
 """Loads of the table have the unit of their row, in ``load_unit``."""
 
+# Texts, and numbers that count the entries along a dimension
+LABELS: dict[str, str] = {
+    "bar_line": "cable or line that the bar belongs to",
+    "drag_case": "end of the range of the drag coefficient",
+    "section_law": "load law of the section",
+    "plan_law": "load law of the plan",
+    "steady_model": "model of the steady load",
+    "steady_cause": "what is varied",
+    "compared_why": "why the model has that standing",
+    "compared_standing": "standing of the model",
+    "planning_formula": "planning formula",
+    "model": "model",
+    "wave_source": "where the wave load is from",
+    "impact_source": "where the impact load is from",
+    "dynamic_source": "where the load of the whole span is from",
+    "governing": "what the governing load is made of",
+    "load_unit": "unit of the loads of the component",
+    "limit_bound": "whether the limit is only a bound",
+    "limit_component": "component that limits",
+    "limit_governing": "what governs the limit",
+    "limit_note": "note on the limit",
+    "assumption": "what the model assumes",
+    "dynamic_model": "model of the impact",
+    "impact_model": "model of the impact",
+    "sea": "sea state",
+    "component": "component",
+    "cable": "cable",
+    "direction_rule": "rule of the direction",
+}
 
-def labelled(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    return with_labels(dataset, VARIABLES)
+VOCABULARY = Vocabulary.of(
+    "curtain",
+    VARIABLES,
+    labels=LABELS,
+)
+labelled = VOCABULARY.describe

@@ -8,6 +8,7 @@ from typing import Any
 from moyai.core.kinds import StructureKind
 from moyai.core.progress import Progress
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class MemberKind(StructureKind):
@@ -51,6 +52,11 @@ class MemberKind(StructureKind):
         from moyai.structures.member.run import run
 
         return run(problem, progress)
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.structures.member.variables import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.structures.member.report.page import compose

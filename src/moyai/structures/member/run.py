@@ -23,7 +23,7 @@ from moyai.structures.member.march import WaveForces, march
 from moyai.structures.member.model import MemberProblem, RegularWaves
 from moyai.structures.member.surface import can_be_evaluated, relative_heading, surface_effect, surface_notices
 from moyai.structures.member.sweep import sweep
-from moyai.structures.member.variables import labelled
+from moyai.structures.member.variables import VOCABULARY, labelled
 from moyai.structures.member.waves import Wave, waves_of
 
 if TYPE_CHECKING:
@@ -222,6 +222,7 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
     }
     collected.notices.extend(range_notices(problem, collected.groups))
     return collected.close(
+        VOCABULARY,
         attributes,
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
         headlines=headlines_of(problem, collected.groups),

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from moyai.core.labels import with_labels
-
-if TYPE_CHECKING:
-    import xarray as xr
+from moyai.core.vocabulary import Vocabulary
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
@@ -29,7 +24,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "inertia_error": ("1", "estimated relative error of the ideal inertia coefficients"),
     "wave_height": ("m", "wave height H, or significant height"),
     "period": ("s", "wave period T, or peak period"),
-    "wavelength": ("m", "wave length L"),
     "keulegan_carpenter": ("1", "Keulegan-Carpenter number u T / B"),
     "reynolds": ("1", "Reynolds number u B / nu"),
     "beta": ("1", "frequency parameter B2 f / nu"),
@@ -55,7 +49,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "inertia_force": ("N", "inertia force on the member"),
     "drag_force": ("N", "drag force on the member"),
     "magnus_force": ("N", "Magnus force on the member"),
-    "time": ("s", "time"),
     "arai_inertia_coefficient": ("1", "circulation of Arai et al., gamma = 0.936"),
     "otsuka_inertia_coefficient": ("1", "circulation of Otsuka and Ikeda, gamma = 1"),
     "chaplin_inertia_coefficient": ("1", "circulation of Chaplin, gamma = 1.036"),
@@ -70,9 +63,19 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "near_surface_inertia_coefficient": ("1", "inertia coefficient under the free surface by potential theory"),
     "near_surface_change": ("1", "its departure from the ideal one, over the ideal one"),
     "radiation_ratio": ("1", "wave damping over omega rho A"),
+    "phase": ("rad", "phase of the orbit"),
+    "strip_keulegan_carpenter": ("1", "Keulegan-Carpenter number along the member"),
 }
 
+# Texts, and numbers that count the entries along a dimension
+LABELS: dict[str, str] = {
+    "other_axis": "axis",
+    "component": "component of the force",
+}
 
-def labelled(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    return with_labels(dataset, VARIABLES)
+VOCABULARY = Vocabulary.of(
+    "member",
+    VARIABLES,
+    labels=LABELS,
+)
+labelled = VOCABULARY.describe

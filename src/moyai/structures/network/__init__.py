@@ -8,6 +8,7 @@ from typing import Any
 from moyai.core.kinds import StructureKind
 from moyai.core.progress import Progress
 from moyai.core.results import Result
+from moyai.core.vocabulary import Vocabulary
 
 
 class NetworkKind(StructureKind):
@@ -52,6 +53,11 @@ class NetworkKind(StructureKind):
         from moyai.structures.network.run import run
 
         return run(problem, progress, coefficients=coefficients_of_bodies(problem))
+
+    def vocabulary(self) -> Vocabulary:
+        from moyai.structures.network.variables import VOCABULARY
+
+        return VOCABULARY
 
     def compose(self, result: Result) -> Any:
         from moyai.structures.network.report.page import compose

@@ -37,7 +37,7 @@ from moyai.structures.network.resume import earlier_run, read_earlier
 from moyai.structures.network.run_notices import OVER, overturned
 from moyai.structures.network.runs import run_plans, steady_flow
 from moyai.structures.network.summary import contacts_dataset, lean_of, summary_dataset
-from moyai.structures.network.variables import labelled
+from moyai.structures.network.variables import VOCABULARY, labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -373,6 +373,7 @@ def _result(problem: NetworkProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
     }
     return collected.close(
+        VOCABULARY,
         attributes,
         [sea.seed for sea in problem.environment.sea_states if hasattr(sea, "seed")],
         headlines=headlines_of(problem, collected.groups),

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from moyai.core.labels import with_labels
-
-if TYPE_CHECKING:
-    import xarray as xr
+from moyai.core.vocabulary import Vocabulary
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
+    "sensitivity_peak": ("N", "largest peak of the lines, that the repeated runs are compared with"),
     "time": ("s", "time since the start of the run"),
     "frame": ("s", "time of the frame"),
     "node_position": ("m", "place of the node as built, z above still water"),
@@ -96,9 +92,47 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "wave_number": ("1/m", "wave number of the wave component"),
     "wave_heading": ("rad", "direction of travel of the wave component"),
     "wave_phase": ("rad", "phase of the wave component at the origin"),
+    "body_node": ("1", "nodes that carry something"),
+    "body_height": ("m", "its vertical extent"),
+    "body_volume": ("m3", "its volume"),
+    "body_mass": ("kg", "its mass"),
+    "sheet_nodes": ("1", "nodes of the triangles of sheets"),
+    "solid_size": ("m", "size of the body along its axes"),
+    "solid_part_solid": ("1", "body of the part"),
+    "solid_part_start": ("m", "one end, in axes of the body"),
+    "solid_part_end": ("m", "other end, in axes of the body"),
+    "solid_part_diameter": ("m", "diameter of the part"),
+    "net_tension": ("N", "highest tension in the net since the row before"),
+    "is_snap": ("1", "whether the peak exceeds the threshold"),
+    "final_position": ("m", "last state"),
+    "final_velocity": ("m/s", "velocity of the last state"),
+    "final_memory": ("1", "last state of the radiation of the body"),
+    "final_poles": ("1", "states of the radiation of the body"),
+    "final_motion": ("", "last state of the body, in m, 1, m/s and rad/s"),
+    "mode": ("1", "number of the mode"),
+    "contact": ("1", "number of the contact"),
 }
 
+# Texts, and numbers that count the entries along a dimension
+LABELS: dict[str, str] = {
+    "point": "point",
+    "condition": "condition of the equilibrium",
+    "direction": "direction of the force",
+    "driven": "driven point",
+    "node": "node",
+    "bar": "bar",
+    "point_kind": "what moves the point",
+    "solid": "body",
+    "solid_shape": "shape of the body",
+    "body_axis": "axis of the body",
+    "turn": "angle of the body",
+    "measure": "measure",
+    "left": "body of the last state",
+}
 
-def labelled(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    return with_labels(dataset, VARIABLES)
+VOCABULARY = Vocabulary.of(
+    "network",
+    VARIABLES,
+    labels=LABELS,
+)
+labelled = VOCABULARY.describe

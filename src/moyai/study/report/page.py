@@ -26,7 +26,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import display_unit, format_number, format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import root_of
 from moyai.study.report.drawings import heat_map, parallel_coordinates, rose
 from moyai.study.report.reading import StudyPages, read_study
 
@@ -68,7 +68,7 @@ def compose(result: Result) -> Document:
         Section("maps", "Over the axes", _maps(pages, names)),
         Section("long-run", "Extremes", _extremes(pages)),
         Section("matrix", "Load-case matrix", _matrix(pages, names)),
-        Section("input", "Base case", (case_listing(Group("", result.tree)),)),
+        Section("input", "Base case", (case_listing(root_of(result)),)),
     ]
     axes = " x ".join(f"{len(axis.labels)} {axis.name.replace('_', ' ')}" for axis in pages.axes)
     return Document(

@@ -27,7 +27,7 @@ from moyai.report.document import (
 from moyai.report.encoding import slug
 from moyai.report.formatting import DASH, format_number
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 
 COEFFICIENTS = (("inertia", "C_M"), ("drag", "C_D"))
 
@@ -44,7 +44,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     found, record = root.child("coefficients"), root.child("record")
     fits = [
         Option(f"component {component}, {method.replace('_', ' ')}", tuple(_fit_figures(record, method, component)))

@@ -30,7 +30,7 @@ from moyai.report.document import (
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_number
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 
 Array = NDArray[np.float64]
 _MOST_POINTS = 3000
@@ -50,7 +50,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     towing, waves, nets = root.child("towing"), root.child("waves"), root.child("nets")
     tensions = root.child("tensions")
     sections = [

@@ -29,7 +29,7 @@ from moyai.report.document import (
 from moyai.report.encoding import slug
 from moyai.report.formatting import DASH, format_number
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     runs = root.child("runs").children()
     law = root.child("law")
     sections = [

@@ -27,7 +27,7 @@ from moyai.report.document import (
 )
 from moyai.report.formatting import format_percent, format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import root_of
 
 Array = NDArray[np.float64]
 
@@ -74,7 +74,7 @@ def compose(result: Result) -> Document:
     clock = _Clock(tree)
     sections = [
         Section(
-            "summary", "Summary", (*_key_figures(result, clock), *notice_blocks(result), case_listing(Group("", tree)))
+            "summary", "Summary", (*_key_figures(result, clock), *notice_blocks(result), case_listing(root_of(result)))
         )
     ]
     for key, title, make in (

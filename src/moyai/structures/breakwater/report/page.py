@@ -18,7 +18,7 @@ from moyai.report.document import (
 from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail, with_colours
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, closing_section, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 from moyai.structures.breakwater.report import damping, figures, sea_figures, tables
 from moyai.structures.breakwater.report.reading import (
     MODES,
@@ -57,7 +57,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     levels = water_levels(result)
     numbers = all_numbers(levels)
     decides = governing_entry(result, numbers)

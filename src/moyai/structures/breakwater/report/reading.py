@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.core.results import Result
 from moyai.report.formatting import largest_magnitude
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 
 Array = NDArray[np.float64]
 
@@ -90,7 +90,7 @@ def _number(value: object) -> float:
 
 def water_levels(result: Result) -> tuple[Level, ...]:
     """Return the water levels that a result holds, in the order of the case file."""
-    root = Group("", result.tree)
+    root = root_of(result)
     return tuple(
         Level(child)
         for child in root.children()

@@ -24,6 +24,7 @@ from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 from moyai.structures.cage.flexible.sensitivity import sensitivity_dataset
 from moyai.structures.cage.flexible.statics import cage_dataset, statics_dataset
 from moyai.structures.cage.flexible.time import run_cage, time_dataset
+from moyai.structures.cage.flexible.variables import VOCABULARY
 from moyai.structures.cage.flexible.wake import ScaledCurrent
 from moyai.structures.cage.headlines import flexible_headlines
 from moyai.structures.cage.rigid.model import RegularWaves
@@ -176,6 +177,7 @@ def _result(problem: FlexibleCageProblem, collected: Collected) -> Result:
         "case_text": problem.case_text,
     }
     return collected.close(
+        VOCABULARY,
         attributes,
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
         headlines=flexible_headlines(problem, collected.groups),

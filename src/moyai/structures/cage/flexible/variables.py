@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    import xarray as xr
+from moyai.core.vocabulary import Vocabulary
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
@@ -77,7 +74,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "tension_mean": ("N", "mean tension at the upper end"),
     "tension_minimum": ("N", "smallest tension at the upper end"),
     "tension_maximum": ("N", "highest tension in the line"),
-    "slack_share": ("1", "share of the time that the line is slack"),
     "snaps": ("1", "number of snaps"),
     "snap_peak": ("N", "highest snap"),
     "wave_elevation": ("m", "water surface over the middle of the cages"),
@@ -86,13 +82,28 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "collar_range": ("m", "range of the mean place of the collar, largest less smallest"),
     "drag_mean": ("N", "mean drag of each part along x and y"),
     "drag_largest": ("N", "largest horizontal drag of each part"),
+    "anchor_node": ("1", "node of the anchor"),
+    "buoy_node": ("1", "node of the buoy"),
+    "sinker_node": ("1", "node of the weight"),
+    "drag_time": ("s", "time"),
+    "frame_time": ("s", "time of the frame"),
 }
 
+# Texts, and numbers that count the entries along a dimension
+LABELS: dict[str, str] = {
+    "part": "part of the cage",
+    "anchor": "anchor",
+    "cage": "cage",
+    "horizontal": "horizontal axis",
+    "line_kind": "kind of line",
+    "quantity": "quantity, with its unit",
+    "variant": "what is varied",
+    "value": "value of the quantity",
+}
 
-def described(dataset: xr.Dataset) -> xr.Dataset:
-    """Give every variable its units and meaning."""
-    for name in dataset.variables:
-        if str(name) in VARIABLES:
-            units, meaning = VARIABLES[str(name)]
-            dataset[name].attrs.update(units=units, long_name=meaning)
-    return dataset
+VOCABULARY = Vocabulary.of(
+    "flexible cage",
+    VARIABLES,
+    labels=LABELS,
+)
+described = VOCABULARY.describe

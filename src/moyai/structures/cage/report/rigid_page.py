@@ -12,7 +12,7 @@ from moyai.report.document import Block, Choice, Document, Option, Paragraph, Se
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 from moyai.structures.cage.report import rigid_figures as figures
 from moyai.structures.cage.report import rigid_tables as tables
 from moyai.structures.cage.report.rigid_drawing import elevation_drawing, orbit_drawing
@@ -36,7 +36,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     levels = levels_of(root)
 
     def at_each_level(compose_level: Callable[[Level], Sequence[Block | None]]) -> tuple[Block, ...]:

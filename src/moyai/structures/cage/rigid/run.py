@@ -33,6 +33,7 @@ from moyai.structures.cage.rigid.runs import Run, run_wave
 from moyai.structures.cage.rigid.sensitivity import sensitivity_dataset
 from moyai.structures.cage.rigid.setup import at_level, lines_of
 from moyai.structures.cage.rigid.statics import Rest, free_floating, rest_with_lines, size_of
+from moyai.structures.cage.rigid.variables import VOCABULARY
 from moyai.structures.cage.rigid.waves import current_along, waves_of
 
 if TYPE_CHECKING:
@@ -218,6 +219,7 @@ def _result(problem: RigidCageProblem, collected: Collected) -> Result:
         "equations": problem.equations,
     }
     return collected.close(
+        VOCABULARY,
         attributes,
         [sea.seed for sea in problem.seas if isinstance(sea, IrregularSea)],
         headlines=rigid_headlines(collected.groups),

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from moyai.core.labels import with_labels
-
-if TYPE_CHECKING:
-    import xarray as xr
+from moyai.core.vocabulary import Vocabulary
 
 # name: (units, long name)
 VARIABLES: dict[str, tuple[str, str]] = {
@@ -23,7 +18,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "reserve_buoyancy": ("N", "what the floats carry beyond the whole cage under water"),
     "net_area": ("m2", "outline area of the net"),
     "solidity": ("1", "geometric solidity of the net"),
-    "solidity_listed": ("1", "listed solidity of the net"),
     "outline_x": ("m", "section of the cage from its middle, along x"),
     "outline_z": ("m", "section of the cage from its middle, upwards"),
     "float_x": ("m", "float from the middle of the cage, along x"),
@@ -48,7 +42,6 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "natural_shape": ("1", "shape of the natural mode: sway and heave over the size of the cage, rotation in rad"),
     "wave_height": ("m", "wave height H, or significant height"),
     "period": ("s", "wave period T, or peak period"),
-    "wavelength": ("m", "wave length L"),
     "orbit_ratio": ("1", "horizontal over vertical axis of the water's orbit at the surface, coth kh"),
     "range": ("m", "mean range of the motion from crest to trough (roll in rad)"),
     "largest_range": ("m", "largest range within a wave period (roll in rad)"),
@@ -67,9 +60,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "mean_tension": ("N", "mean tension"),
     "peak_tension": ("N", "largest tension"),
     "mean_peak_tension": ("N", "mean of the largest tension in each wave period"),
-    "slack_share": ("1", "share of the time that the line is slack"),
     "steps_per_period": ("1", "time steps in a wave period"),
-    "time": ("s", "time"),
     "surface_elevation": ("m", "surface at x = 0"),
     "sway": ("m", "centre of gravity from rest, along x"),
     "heave": ("m", "centre of gravity from rest, upwards"),
@@ -81,7 +72,17 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "varied_stiffness": ("N/m", "stiffness of the lines"),
 }
 
+# Texts, and numbers that count the entries along a dimension
+LABELS: dict[str, str] = {
+    "mode": "degree of freedom",
+    "other_mode": "degree of freedom",
+    "situation": "freely floating or moored",
+    "translation": "degree of freedom along an axis",
+}
 
-def labelled(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with ``units`` and ``long_name`` on every variable that this room owns."""
-    return with_labels(dataset, VARIABLES)
+VOCABULARY = Vocabulary.of(
+    "rigid cage",
+    VARIABLES,
+    labels=LABELS,
+)
+labelled = VOCABULARY.describe

@@ -9,7 +9,7 @@ from moyai.core.results import Result
 from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, closing_section, provenance, report_title
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 from moyai.structures.curtain.report import figures, limits, sea_figures, sea_tables, tables
 from moyai.structures.curtain.report.drawing import drawings
 from moyai.structures.curtain.report.dynamic import dynamic_blocks
@@ -33,7 +33,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     levels = water_levels(result)
     worst = governing_component(levels)
     default = next((n for n, level in enumerate(levels) if worst is not None and level.name == worst[0].name), 0)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.core.results import Result
 from moyai.report.encoding import slug
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 
 Array = NDArray[np.float64]
 
@@ -149,7 +149,7 @@ def key(level: CurtainLevel, *parts: str) -> str:
 
 def water_levels(result: Result) -> tuple[CurtainLevel, ...]:
     """Return the water levels that a result holds, in the order of the case file."""
-    root = Group("", result.tree)
+    root = root_of(result)
     return tuple(
         CurtainLevel(child)
         for child in root.children()

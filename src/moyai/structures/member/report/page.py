@@ -17,7 +17,7 @@ from moyai.report.document import (
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 from moyai.structures.member.report import figures
 
 MOST_RUNS = 12
@@ -35,7 +35,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root = Group("", result.tree)
+    root = root_of(result)
     levels = tuple(child for child in root.children() if "water_depth" in child.attributes)
 
     def at_each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:

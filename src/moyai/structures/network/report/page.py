@@ -10,7 +10,7 @@ from moyai.report.document import Block, Choice, Document, Option, Paragraph, Se
 from moyai.report.formatting import format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.headlines import headline_figures
-from moyai.report.reading import Group
+from moyai.report.reading import root_of
 from moyai.structures.network.report import figures, tables
 from moyai.structures.network.report.reading import Governing, NetworkLevel, attribute, governing_of, levels_of
 from moyai.structures.network.report.scene import mode_animations, rest_animation, run_animation
@@ -30,7 +30,7 @@ def compose(result: Result) -> Document:
     -------
     Document
     """
-    root, levels = Group("", result.tree), levels_of(result)
+    root, levels = root_of(result), levels_of(result)
     governing = governing_of(levels)
     default = next((n for n, level in enumerate(levels) if governing and level.name == governing.level.name), 0)
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.results import Result
-from moyai.report.reading import Group
+from moyai.report.reading import Group, root_of
 
 Array = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ class Governing:
 
 def levels_of(result: Result) -> tuple[NetworkLevel, ...]:
     """Return the water levels of a result."""
-    root = Group("", result.tree)
+    root = root_of(result)
     return tuple(NetworkLevel(child) for child in root.children() if "water_depth" in child.attributes)
 
 

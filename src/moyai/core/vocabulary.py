@@ -1,0 +1,275 @@
+"""The vocabulary of results: one declaration a concept, and the refusal of what is not declared.
+
+Concepts that several kinds of result share are declared here. A kind adds its own in ``variables.py`` of its folder and
+closes its groups through its :class:`Vocabulary`; reports and studies ask through the same declarations. A name without
+a declaration is a fault of the program, never of a case.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Unit of texts, and of numbers whose unit changes from row to row and stands in another variable.
+NO_UNIT = ""
+
+
+class Strictness:
+    """Whether a name without a declaration is an error, as in the tests of the program.
+
+    A user's run keeps what it computed and gets a warning: hours of work are not lost for a missing word.
+    """
+
+    names = False
+
+
+class VocabularyError(LookupError):
+    """A name of a result that no vocabulary declares, or a declared one that a finished analysis did not write."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One concept of a result.
+
+    Parameters
+    ----------
+    name : str
+        Name in the file.
+    units : str
+        SI unit; ``"1"`` without dimension, :data:`NO_UNIT` for texts.
+    long_name : str
+        What it is, in words.
+    dims : tuple of str
+        Dimensions that it always has, in any order among others; empty where they are not fixed.
+    """
+
+    name: str
+    units: str
+    long_name: str
+    dims: tuple[str, ...] = ()
+
+
+LINE_TENSION_MAXIMUM = Variable("line_tension_maximum", "N", "largest tension of the line", ("line",))
+LINE_TENSION_MINIMUM = Variable("line_tension_minimum", "N", "smallest tension of the line", ("line",))
+LINE_TENSION_MEAN = Variable("line_tension_mean", "N", "mean tension of the line", ("line",))
+LINE_TENSION_PEAK_SINCE_ROW = Variable(
+    "line_tension_peak_since_row", "N", "highest tension of the line since the row before", ("line",)
+)
+
+_QUANTITIES = (
+    LINE_TENSION_MAXIMUM,
+    LINE_TENSION_MINIMUM,
+    LINE_TENSION_MEAN,
+    LINE_TENSION_PEAK_SINCE_ROW,
+    Variable("time", "s", "time"),
+    Variable("wavelength", "m", "wave length L"),
+    Variable("wave_number", "1/m", "wave number k"),
+    Variable("slack_share", "1", "share of the time that the line is slack"),
+    Variable("snap_threshold", "N", "peak above which a contact counts as a snap"),
+    Variable("solidity_listed", "1", "listed solidity of the net"),
+    Variable("frequency", "Hz", "frequency"),
+)
+_LABELS = (
+    Variable("line", NO_UNIT, "line"),
+    Variable("dof", NO_UNIT, "degree of freedom"),
+    Variable("axis", NO_UNIT, "axis"),
+    Variable("law", NO_UNIT, "law of the net forces"),
+    Variable("wave", NO_UNIT, "wave"),
+    Variable("run", NO_UNIT, "run"),
+    Variable("end", NO_UNIT, "end"),
+    Variable("net", NO_UNIT, "net"),
+    Variable("kind", NO_UNIT, "kind"),
+    Variable("gauge", NO_UNIT, "wave gauge"),
+)
+#: Concepts and labels that several kinds of result share.
+COMMON: Mapping[str, Variable] = {variable.name: variable for variable in (*_QUANTITIES, *_LABELS)}
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """All names that the results of one kind may carry.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of result, for messages.
+    variables : mapping
+        Declarations by their name.
+    patterns : mapping
+        Units by a regular expression that names of the user's making match as a whole: channels of a record. Such a
+        variable brings its own words; :data:`NO_UNIT` where it brings its own unit as well.
+    parts : mapping
+        Vocabularies of groups that have one of their own, by a regular expression of their path.
+    open_groups : tuple of str
+        Paths of groups whose variables the user's file names.
+    always : mapping
+        Names that a group holds whenever its analysis was run, by a regular expression of its path.
+    """
+
+    kind: str
+    variables: Mapping[str, Variable]
+    patterns: Mapping[str, str] = field(default_factory=dict)
+    parts: Mapping[str, Vocabulary] = field(default_factory=dict)
+    open_groups: tuple[str, ...] = ()
+    always: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    @classmethod
+    def of(
+        cls,
+        kind: str,
+        own: Mapping[str, tuple[str, str]],
+        *,
+        labels: Mapping[str, str] | None = None,
+        patterns: Mapping[str, str] | None = None,
+        parts: Mapping[str, Vocabulary] | None = None,
+        open_groups: tuple[str, ...] = (),
+        always: Mapping[str, tuple[str, ...]] | None = None,
+    ) -> Vocabulary:
+        """Return a vocabulary of the common concepts and a kind's own.
+
+        Parameters
+        ----------
+        kind : str
+        own : mapping
+            Unit and long name by name. A common concept may have closer words here, never another unit.
+        labels : mapping, optional
+            Long names of texts and of numbers that only count entries along a dimension.
+        patterns, parts, open_groups, always
+            As in the class.
+
+        Raises
+        ------
+        ValueError
+            When a common concept has another unit, or ``always`` names what is not declared.
+        """
+        variables = dict(COMMON)
+        texts = {name: (NO_UNIT, words) for name, words in (labels or {}).items()}
+        for name, (units, words) in {**own, **texts}.items():
+            common = COMMON.get(name)
+            if common is not None and units != common.units:
+                raise ValueError(f"{kind}: '{name}' has the unit '{units}', the common concept '{common.units}'")
+            variables[name] = Variable(name, units, words, () if common is None else common.dims)
+        made = cls(kind, variables, patterns or {}, parts or {}, open_groups, always or {})
+        undeclared = sorted({name for names in made.always.values() for name in names} - variables.keys())
+        if undeclared:
+            raise ValueError(f"{kind}: {', '.join(undeclared)} must always be there and is not declared")
+        return made
+
+    def __contains__(self, name: object) -> bool:
+        own = name in self.variables or any(re.fullmatch(pattern, str(name)) for pattern in self.patterns)
+        return own or any(name in part for part in self.parts.values())
+
+    def at(self, path: str) -> Vocabulary | None:
+        """Return the vocabulary of a group, ``None`` where the user's file names its variables."""
+        place = f"/{path.strip('/')}"
+        if place in self.open_groups:
+            return None
+        return next((part for pattern, part in self.parts.items() if re.fullmatch(pattern, place)), self)
+
+    def require(self, name: str) -> None:
+        """Refuse a name that is not declared, where names are held strictly.
+
+        Raises
+        ------
+        VocabularyError
+        """
+        if Strictness.names and name not in self:
+            raise VocabularyError(f"results of kind '{self.kind}' have no variable '{name}': it is not declared")
+
+    def absent(self, path: str, names: Iterable[object]) -> tuple[str, ...]:
+        """Return what a group must hold and does not.
+
+        Parameters
+        ----------
+        path : str
+        names : iterable
+            What it holds.
+        """
+        place, held = f"/{path.strip('/')}", set(map(str, names))
+        wanted = [name for pattern, own in self.always.items() if re.fullmatch(pattern, place) for name in own]
+        return tuple(name for name in dict.fromkeys(wanted) if name not in held)
+
+    def describe(self, dataset: xr.Dataset) -> xr.Dataset:
+        """Return the dataset with ``units`` and ``long_name`` on every declared variable.
+
+        Words that a variable brings stay: those of one row of a table may be closer than the declaration.
+        """
+        out = dataset.copy()
+        for name in list(out.variables):
+            held, known = out[name], self.variables.get(str(name))
+            if known is None:
+                continue
+            number = held.dtype.kind in "iufcb"
+            said = {"units": known.units, "long_name": known.long_name} if number else {"long_name": known.long_name}
+            out[name].attrs = {**said, **held.attrs}
+        return out
+
+    def described(self, groups: Mapping[str, xr.Dataset]) -> tuple[dict[str, xr.Dataset], tuple[str, ...]]:
+        """Return the groups of a result, described, and what is wrong with their names: see :meth:`close`.
+
+        Parameters
+        ----------
+        groups : mapping
+            Datasets by their path.
+        """
+        owners = {path: self.at(path) for path in groups}
+        faults = [fault for path, own in owners.items() if own for fault in own._faults(path, groups[path])]
+        faults += [
+            f"{path}: '{name}' is absent" for path in groups for name in self.absent(path, groups[path].variables)
+        ]
+        out = {path: own.describe(groups[path]) if own else groups[path] for path, own in owners.items()}
+        return out, tuple(faults)
+
+    def close(self, groups: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+        """Return the groups of a result, described.
+
+        Parameters
+        ----------
+        groups : mapping
+            Datasets by their path.
+
+        Raises
+        ------
+        VocabularyError
+            With group and name of every variable or coordinate that is not declared, has another unit or lacks a
+            dimension, and of what a group must hold and does not.
+        """
+        out, faults = self.described(groups)
+        if faults and Strictness.names:
+            raise VocabularyError(f"results of kind '{self.kind}': {'; '.join(faults)}")
+        return out
+
+    def _faults(self, path: str, dataset: xr.Dataset) -> Iterator[str]:
+        for name, held in dataset.variables.items():
+            if name not in self:
+                yield f"{path}: '{name}' is not declared"
+                continue
+            known = self.variables.get(str(name))
+            if known is None:
+                continue
+            units = held.attrs.get("units", known.units)
+            if known.units != NO_UNIT and units != known.units:
+                yield f"{path}: '{name}' has the unit '{units}', declared is '{known.units}'"
+            missing = [dim for dim in known.dims if dim not in held.dims]
+            if missing:
+                yield f"{path}: '{name}' has no dimension {', '.join(missing)}"
+
+
+def joined(kind: str, parts: Iterable[Vocabulary]) -> Vocabulary:
+    """Return one vocabulary to read results of several models of a kind; of equal names the last declaration stands."""
+    out = Vocabulary(kind, {})
+    for part in parts:
+        out = Vocabulary(
+            kind,
+            {**out.variables, **part.variables},
+            {**out.patterns, **part.patterns},
+            {**out.parts, **part.parts},
+            (*out.open_groups, *part.open_groups),
+            {**out.always, **part.always},
+        )
+    return out
