@@ -111,7 +111,7 @@ def test_time_domain_with_nonlinear_chains(line: np.ndarray) -> None:
     heave = model.motion_ratio(line[0], 1)
     assert model.time_ratio(line[0], 1) == pytest.approx(heave, rel=5e-3)
     run, harmonics = model.paper_time(line[0])
-    assert run.status == "converged" and np.max(harmonics.remainder) < 1e-4
+    assert run.status == "converged" and np.max(harmonics.residual) < 1e-4
 
 
 def test_tension_and_offset_in_time() -> None:

@@ -29,17 +29,14 @@ class SparKind(StructureKind):
         return case.build_problem(model, case_text, case_hash)
 
     def derived(self, loaded: Any) -> Any:
-        problem = case.build_problem(loaded.model, "", "")
-        return (Number("spar", "", "draught without the chain", problem.free_draught, "m"),)
+        draught = case.build_problem(loaded.model, "", "").free_draught
+        return (Number("spar", "", "draught without the chain", draught, "m"),)
 
     def criteria(self, model: Any, given: Any) -> Any:
         return (*line_criteria(given, "", "static", ["chain"]), *given_criteria(given))
 
     def run(self, problem: SparProblem, progress: Progress, keep: Path | None) -> Result:
         return run.run(problem, progress)
-
-    def vocabulary(self) -> Any:
-        return run.VOCABULARY
 
     def compose(self, result: Result) -> Any:
         return page.compose(result)

@@ -18,7 +18,6 @@ VARIABLES = {
     "drag": ("N", "drag of the current"),
     "tension": ("N", "tension of the chain at the keel"),
 }
-VOCABULARY = Vocabulary.of("spar", VARIABLES)
 
 
 def run(problem: SparProblem, progress: Progress) -> Result:
@@ -32,8 +31,8 @@ def run(problem: SparProblem, progress: Progress) -> Result:
         collected.checks.append(IdentityCheck(f"{name}: buoyancy bears spar and hanging chain", state.residual, 1e-6))
         if state.draught >= problem.height:
             collected.notices.append(Notice("spar-under-water", f"{name}: the spar is pulled under", severity="error"))
-    headlines = headlines_of(problem, states)
-    return collected.close(VOCABULARY, problem.attributes, headlines=headlines, criteria=problem.criteria)
+    words, headlines = Vocabulary.of("spar", VARIABLES), headlines_of(problem, states)
+    return collected.close(words, problem.attributes, headlines=headlines, criteria=problem.criteria)
 
 
 def headlines_of(problem: SparProblem, states: dict[str, SparState]) -> tuple[Headline, ...]:

@@ -106,8 +106,10 @@ class Group:
         VocabularyError
             When no result of this kind can have it, where names are held strictly (the tests).
         """
-        if self.vocabulary is not None:
-            self.vocabulary.require(name)
+        own = self.vocabulary
+        # columns of a file of the user's have names of the user's
+        if own is not None and (self.node is None or own.at(self.node.path) is not None):
+            own.require(name)
         if self.node is None:
             return None
         if name not in self.node.data_vars and name not in self.node.coords:

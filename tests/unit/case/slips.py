@@ -52,6 +52,8 @@ def sources() -> Iterator[tuple[str, str, Path]]:
     for kind in TEMPLATES:
         yield f"template {kind}", template(kind), ROOT
     for path in sorted((ROOT / "examples").rglob("*.yaml")):
+        if "new_structure" in path.parts:  # a structure of another package, which is not installed here
+            continue
         text = path.read_text(encoding="utf-8")
         if re.search(r"^structure:", text, re.MULTILINE):
             yield str(path.relative_to(ROOT)), text, path.parent
