@@ -14,10 +14,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 
 class PointCarrier(Protocol):

@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.coupled.hulls import Lumps, volume_lump
 from moyai.coupled.rigid import RigidBody
 from moyai.mooring.rotations import roll_pitch_yaw
 
-Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 #: Slices of a rod at least; an inclined rod that crosses the surface is followed slice by slice.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.attachment import PointCarrier
 from moyai.core.errors import InputError
 from moyai.coupled.joint import Joint
@@ -20,7 +21,6 @@ from moyai.flexible.stepping import carried_nodes
 from moyai.mooring.rotations import roll_pitch_yaw
 from moyai.sea.water import Water
 
-Array = NDArray[np.float64]
 Body = RigidBody | PlanarBody
 
 #: How far a point of the network may stand from where its body has it, over the extent of the network.

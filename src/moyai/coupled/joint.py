@@ -6,12 +6,10 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.attachment import PointCarrier, PointNetwork
 from moyai.core.errors import ConvergenceError
-
-Array = NDArray[np.float64]
 
 #: Passes of one step before it is cut in two, and how often a step is cut.
 MOST_PASSES, MOST_CUTS = 12, 10

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.attachment import PointCarrier
 from moyai.core.validity import Notice
 from moyai.coupled.bodies import Body
@@ -17,8 +17,6 @@ from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.stepping import LEAST_STEPS
 from moyai.floating.time import STEPS_PER_NATURAL_PERIOD, STEPS_PER_PERIOD
-
-Array = NDArray[np.float64]
 
 #: Longest step of a body that nothing hurries [s], and one for bodies under gravity alone over their size.
 CALM_STEP = 0.1

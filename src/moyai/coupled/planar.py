@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.flexible.flow import Flow
 from moyai.floating import kernel
@@ -18,8 +19,6 @@ from moyai.floating.forcing import Forcing
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, exponential_weights, packed_lines
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 #: Places of the force's table in its shortest period; a cubic between them keeps 1e-7.
 SAMPLES_PER_PERIOD = 160

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.coupled.bodies import Body
 from moyai.coupled.rigid import RigidBody, RigidCarrier
@@ -19,8 +19,6 @@ from moyai.flexible.result import State
 from moyai.flexible.statics import Equilibrium, solve_equilibrium
 from moyai.flexible.stepping import SteppedNetwork, carried_nodes
 from moyai.mooring.rotations import roll_pitch_yaw
-
-Array = NDArray[np.float64]
 
 #: Force left over the largest force at work.
 TOLERANCE = 1e-8

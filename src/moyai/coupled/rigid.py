@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.coupled import rigid_kernel as kernel
 from moyai.coupled.hulls import Lumps, no_lumps
@@ -17,9 +18,6 @@ from moyai.flexible.flow import Flow
 from moyai.floating.time import exponential_weights
 from moyai.mooring.rotations import rotation_from_vector, rotation_matrix
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 def _vector(value: ArrayLike, size: int, path: str) -> Array:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.attachment import PointCarrier
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
@@ -26,7 +27,6 @@ from moyai.flexible.result import State
 from moyai.flexible.simulation import ENERGY_STOP, ENERGY_TOLERANCE
 from moyai.flexible.stepping import SteppedNetwork, StepRecord
 
-Array = NDArray[np.float64]
 Status = Literal["converged", "not_converged", "interrupted"]
 
 #: Disagreement of the reaction that is left to the next step, over the largest reaction so far.

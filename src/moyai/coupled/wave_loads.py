@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.memory import StateSpaceMemory
@@ -17,8 +18,6 @@ from moyai.sea.components import WaveComponents
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 DOFS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 #: Accuracy and size of the states that carry the memory.

@@ -10,14 +10,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq, curve_fit
 from scipy.special import ndtr, ndtri
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.series.extremes import Fit, fit
-
-Array = NDArray[np.float64]
 
 YEAR = 365.25 * 86400.0
 """Seconds of a year."""

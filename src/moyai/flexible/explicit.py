@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.flow import Flow
@@ -22,8 +22,6 @@ from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import RingArrays
 from moyai.flexible.stability import step_limit
 from moyai.flexible.watch import watch_of
-
-Array = NDArray[np.float64]
 
 #: Part of the stable step that is used unless told otherwise.
 SAFETY = 0.95

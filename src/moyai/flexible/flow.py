@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.kinematics import Stretching, linear_velocity_acceleration, stretching_code
-
-Array = NDArray[np.float64]
 
 
 class Current(Protocol):

@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.flexible.network import Network
-
-Array = NDArray[np.float64]
 
 #: A rise counts as a front when it takes less than this part of the travel time of the wave, and is more than this part
 #: of the highest tension.

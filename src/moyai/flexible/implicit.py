@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.flexible import implicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
@@ -21,8 +21,6 @@ from moyai.flexible.relaxation import kernel_bed, kernel_plan, kernel_system, me
 from moyai.flexible.result import State
 from moyai.flexible.tableaus import TABLEAUS
 from moyai.flexible.watch import watch_of
-
-Array = NDArray[np.float64]
 
 #: Error of one step that is borne: of tensions over the largest tension, of places over the length of a bar.
 TOLERANCE = 1e-3

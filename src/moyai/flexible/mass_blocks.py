@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible import mass_block_kernel as kernel
 from moyai.flexible.checks import numbers_of, whole_numbers
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

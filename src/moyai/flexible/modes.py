@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible import force_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.flow import Flow
-from moyai.flexible.network import IntArray, Network
+from moyai.flexible.network import Network
 from moyai.flexible.parts import network_parts
 from moyai.flexible.relaxation import kernel_bed, kernel_system
 from moyai.flexible.result import State
@@ -20,8 +20,6 @@ from moyai.flexible.sheet_kernel import sheet_added_mass
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

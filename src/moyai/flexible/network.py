@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, BoolArray, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible.checks import whole_numbers
 from moyai.flexible.mass_blocks import MassBlocks
@@ -22,10 +23,6 @@ from moyai.flexible.rings import Ring
 from moyai.flexible.sheets import Sheets
 from moyai.sea.water import Water
 from moyai.tables.lines import LineProperties
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
-BoolArray = NDArray[np.bool_]
 
 #: Kinds of node: ``FREE`` moves by its forces, ``FIXED`` stays, ``DRIVEN`` follows a prescribed motion.
 FREE, FIXED, DRIVEN = 0, 1, 2

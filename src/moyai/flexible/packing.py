@@ -6,14 +6,11 @@ import mmap
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.arrays import KernelArrays
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Loops run over whole vectors of this many numbers.
 _LANES = 8

@@ -11,12 +11,9 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Points of a table: cosines from 0 to 1, and speeds (10 a decade) from 1 mm/s to 10 m/s.
 COSINES, SPEEDS = 129, 41

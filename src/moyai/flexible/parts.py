@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.flexible import sheet_kernel as sheet
 from moyai.flexible.network import Network
 from moyai.flexible.panel_kernel import panel_forces, panel_tangent
@@ -19,9 +19,6 @@ from moyai.flexible.part_kernel import ring_stiffness, sheet_blocks
 from moyai.flexible.ring_kernel import ring_forces
 from moyai.flexible.rings import RingArrays
 from moyai.flexible.sheet_kernel import sheet_forces, sheet_loads
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class Part(Protocol):

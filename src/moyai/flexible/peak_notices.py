@@ -8,13 +8,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.fronts import front_notices
 from moyai.flexible.implicit import ImplicitRun
 from moyai.flexible.network import Network
 
-Array = NDArray[np.float64]
 Run = ExplicitRun | ImplicitRun
 
 

@@ -8,10 +8,9 @@ from dataclasses import fields
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import IntArray
 from moyai.flexible.network import FREE, Nodes
 from moyai.flexible.sheets import Sheets
-
-IntArray = NDArray[np.int64]
 
 #: Two nodes, the lower number first.
 Edge = tuple[int, int]

@@ -12,16 +12,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.flexible import force_kernel, front_kernel, rest_kernel
 from moyai.flexible.arrays import KernelArrays, kernel_arrays
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import Network
 from moyai.flexible.parts import Part, network_parts
 from moyai.flexible.sparse import SparsePlan, make_plan
-
-Array = NDArray[np.float64]
 
 #: Steps below this turn of every bar [rad or strain] are taken whole, without a search along them.
 _SMALL_TURN = 1e-4

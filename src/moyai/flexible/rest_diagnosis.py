@@ -7,13 +7,12 @@ import contextlib
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.core.wording import spoken
 from moyai.flexible.checks import name_of_node, parts
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import FREE, Network
-
-Array = NDArray[np.float64]
 
 #: A mode this much slower than a pendulum of the size of the network is one that nothing resists.
 _LOOSE = 1e-3

@@ -6,12 +6,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.flexible.network import IntArray, Network
+from moyai.flexible.network import Network
 
-Array = NDArray[np.float64]
 RunStatus = Literal["converged", "not_converged", "interrupted"]
 
 

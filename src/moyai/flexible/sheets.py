@@ -9,13 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.flexible import sheet_kernel as kernel
 from moyai.flexible.checks import numbers_of, whole_numbers
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 _POSITIVE_OR_ZERO = (
     "warp_stiffness", "weft_stiffness", "shear_stiffness", "mass_per_area", "volume_per_area", "drag_normal",

@@ -14,10 +14,9 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from moyai.core.arrays import IntArray
 
 #: Nodes that are left together without a further cut.
 _LEAF = 4

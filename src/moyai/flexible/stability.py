@@ -7,13 +7,10 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.flexible.arrays import KernelArrays
 from moyai.flexible.sheet_kernel import sheet_stiffness
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @njit(cache=True, error_model="numpy")

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from os import PathLike
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.flow import Flow
@@ -18,8 +18,6 @@ from moyai.flexible.network import FREE, Network
 from moyai.flexible.relaxation import Attempt, Relaxation
 from moyai.flexible.rest_diagnosis import advice, refuse_impossible
 from moyai.flexible.result import State
-
-Array = NDArray[np.float64]
 
 #: Part of the largest force that may be left when the tolerance is out of reach.
 _GOOD_ENOUGH = 1e-5

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.flexible import explicit_kernel as kernel
@@ -23,9 +24,6 @@ from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, Network
 from moyai.flexible.peak_notices import peak_notices
 from moyai.flexible.result import State
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Accepted steps after which the step of the network is chosen again.
 _CHOSEN_FOR = 4

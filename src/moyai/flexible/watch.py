@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.flexible.fronts import WINDOW, Front, travel_time
 from moyai.flexible.network import Network
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Part of a rise that the stop of landing nodes could make at most, below which they are not held to have made it.
 LEAST_SHARE = 0.05

@@ -6,15 +6,13 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
-
-def square_matrix(value: ArrayLike, size: int, name: str) -> FloatArray:
+def square_matrix(value: ArrayLike, size: int, name: str) -> Array:
     """Return ``value`` as a finite (size, size) array, or raise."""
     matrix = np.asarray(value, dtype=float)
     if matrix.shape != (size, size):
@@ -36,7 +34,7 @@ def positive(value: float, name: str) -> float:
     return float(value)
 
 
-def increasing(value: ArrayLike, name: str) -> FloatArray:
+def increasing(value: ArrayLike, name: str) -> Array:
     """Return ``value`` as a strictly increasing 1-D array, or raise."""
     array = np.atleast_1d(np.asarray(value, dtype=float))
     if array.ndim != 1 or array.size == 0 or np.any(np.diff(array) <= 0.0):

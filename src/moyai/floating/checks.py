@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-from moyai.floating.arrays import FloatArray
 from moyai.floating.statics import Hydrostatics
 
 IMBALANCE_LIMIT = 1.0
@@ -60,7 +60,7 @@ def check_statics(statics: Hydrostatics, *, vertical_pull: float, gravity: float
     return tuple(notices)
 
 
-def check_motion(amplitude: FloatArray, *, draught: float, freeboard: float) -> tuple[Notice, ...]:
+def check_motion(amplitude: Array, *, draught: float, freeboard: float) -> tuple[Notice, ...]:
     """Check whether motions stay within linear theory of a fixed wetted section.
 
     Parameters

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.floating.arrays import ComplexArray, FloatArray, finite, increasing
+from moyai.floating.arrays import finite, increasing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,13 +51,13 @@ class Hydrodynamics:
         When shapes disagree or a number is not finite.
     """
 
-    omega: FloatArray
-    added_mass: FloatArray
-    radiation_damping: FloatArray
+    omega: Array
+    added_mass: Array
+    radiation_damping: Array
     excitation: ComplexArray
-    heading: FloatArray
+    heading: Array
     modes: tuple[str, ...]
-    infinite_frequency_added_mass: FloatArray | None = None
+    infinite_frequency_added_mass: Array | None = None
     reflection: ComplexArray | None = None
     transmission: ComplexArray | None = None
     radiated_wave: ComplexArray | None = None

@@ -9,15 +9,16 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.floating.arrays import ComplexArray, FloatArray, finite
+from moyai.floating.arrays import finite
 
-EquivalentDamping = Callable[[FloatArray, float], FloatArray]
+EquivalentDamping = Callable[[Array, float], Array]
 """Hook of drag-linearised lines: amplitude (regular) or standard deviation times sqrt(2) (irregular) of the velocities
 (m,) and a frequency [rad/s] -> equivalent linear damping (m, m)."""
 
 
-def critical_damping(inertia: FloatArray, added_mass: FloatArray, stiffness: FloatArray) -> FloatArray:
+def critical_damping(inertia: Array, added_mass: Array, stiffness: Array) -> Array:
     """Return the critical damping of each mode, 2 sqrt((M + A)_jj (K_H + K_M)_jj) [eq:floating-critical-damping].
 
     Parameters
@@ -49,8 +50,8 @@ class LinearDamping:
         zeta of each mode, of the critical damping with added mass; zero for modes that are left alone.
     """
 
-    matrix: FloatArray
-    critical_fraction: FloatArray
+    matrix: Array
+    critical_fraction: Array
 
     def __post_init__(self) -> None:
         finite(self.matrix, "matrix")
@@ -75,7 +76,7 @@ class LinearDamping:
         fraction = np.zeros(len(diagonal)) if critical_fraction is None else np.asarray(critical_fraction, dtype=float)
         return cls(np.diag(diagonal), fraction)
 
-    def at(self, inertia: FloatArray, added_mass: FloatArray, stiffness: FloatArray) -> FloatArray:
+    def at(self, inertia: Array, added_mass: Array, stiffness: Array) -> Array:
         """Return the damping matrix (..., m, m) with added mass (..., m, m) and total restoring (m, m)."""
         diagonal = self.critical_fraction * critical_damping(inertia, added_mass, stiffness)
         return self.matrix + diagonal[..., :, None] * np.eye(diagonal.shape[-1])
@@ -96,8 +97,8 @@ class QuadraticDamping:
         c_k, for roll b2 [N m s2].
     """
 
-    directions: FloatArray
-    coefficients: FloatArray
+    directions: Array
+    coefficients: Array
     count: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -121,32 +122,32 @@ class QuadraticDamping:
         rows = np.flatnonzero(values)
         return cls(np.eye(len(values))[rows], values[rows])
 
-    def force(self, velocity: FloatArray) -> FloatArray:
+    def force(self, velocity: Array) -> Array:
         """Return the force (m,) at the velocities (m,)."""
         measure = self.directions @ velocity
         return -self.directions.T @ (self.coefficients * np.abs(measure) * measure)
 
-    def _assembled(self, equivalent: FloatArray) -> FloatArray:
+    def _assembled(self, equivalent: Array) -> Array:
         return np.einsum("ki,...k,kj->...ij", self.directions, equivalent, self.directions)
 
-    def equivalent_regular(self, measure_amplitude: FloatArray) -> FloatArray:
+    def equivalent_regular(self, measure_amplitude: Array) -> Array:
         """Return the linear damping (..., m, m) of equal work at amplitudes (..., k) of J_k v.
 
         Implements b = 8/(3 pi) c |J v| [eq:floating-equal-work].
         """
         return self._assembled(8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude)
 
-    def carried_regular(self, measure_amplitude: FloatArray, water_motion: ComplexArray) -> ComplexArray:
+    def carried_regular(self, measure_amplitude: Array, water_motion: ComplexArray) -> ComplexArray:
         """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in regular waves."""
         equivalent = 8.0 / (3.0 * math.pi) * self.coefficients * measure_amplitude
         return np.asarray((equivalent * water_motion) @ self.directions)
 
-    def carried_irregular(self, measure_deviation: FloatArray, water_motion: ComplexArray) -> ComplexArray:
+    def carried_irregular(self, measure_deviation: Array, water_motion: ComplexArray) -> ComplexArray:
         """Return the force (..., m) of water that moves by (..., k) in the measures, equivalent as in a sea."""
         equivalent = math.sqrt(8.0 / math.pi) * self.coefficients * measure_deviation
         return np.asarray((equivalent * water_motion) @ self.directions)
 
-    def equivalent_irregular(self, measure_deviation: FloatArray) -> FloatArray:
+    def equivalent_irregular(self, measure_deviation: Array) -> Array:
         """Return the linear damping (..., m, m) of least error at Gaussian standard deviations (..., k) of J_k v.
 
         Implements b = sqrt(8/pi) c sigma [eq:floating-stochastic].

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.floating.arrays import FloatArray
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ class Decay:
     period: float
     damping_ratio: float
     quadratic_over_inertia: float
-    extremes: FloatArray
-    extreme_times: FloatArray
-    ratios: FloatArray
+    extremes: Array
+    extreme_times: Array
+    ratios: Array
     remainder: float
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
-from moyai.floating.arrays import ComplexArray, FloatArray
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, far_field
@@ -42,10 +42,10 @@ class DriftedMotions:
 
     motions: Motions
     far: FarField
-    drift_force: FloatArray
-    offset: FloatArray
-    mooring_stiffness: FloatArray
-    iterations: FloatArray
+    drift_force: Array
+    offset: Array
+    mooring_stiffness: Array
+    iterations: Array
     status: tuple[Status, ...]
     notices: tuple[Notice, ...] = ()
 
@@ -73,14 +73,14 @@ class DriftProblem:
     """
 
     hydrodynamics: Hydrodynamics
-    inertia: FloatArray
-    hydrostatic_stiffness: FloatArray
+    inertia: Array
+    hydrostatic_stiffness: Array
     mooring: Mooring
     water: Water
     damping: LinearDamping | None = None
     quadratic: QuadraticDamping | None = None
     line_damping: EquivalentDamping | None = None
-    steady_force: FloatArray | None = None
+    steady_force: Array | None = None
     heading_index: int = 0
     water_motion: ComplexArray | None = None
 
@@ -118,7 +118,7 @@ class _State:
     motions: Motions
     far: FarField
     offset: MeanOffset
-    stiffness: FloatArray
+    stiffness: Array
     force: float
 
 
@@ -126,11 +126,11 @@ def _answer(
     problem: DriftProblem,
     hydro: Hydrodynamics,
     drift: float,
-    weight: FloatArray,
-    amplitude: FloatArray,
-    start: FloatArray | None,
+    weight: Array,
+    amplitude: Array,
+    start: Array | None,
     with_drift: bool,
-    density: FloatArray | None,
+    density: Array | None,
 ) -> _State:
     """Return the motions about the offset of a given drift, and the drift that they cause."""
     size = hydro.size
@@ -273,12 +273,12 @@ def solve_irregular_with_drift(
 def _loop(
     problem: DriftProblem,
     hydro: Hydrodynamics,
-    weight: FloatArray,
-    amplitude: FloatArray,
+    weight: Array,
+    amplitude: Array,
     with_drift: bool,
     tolerance: float,
     maximum_iterations: int,
-    density: FloatArray | None = None,
+    density: Array | None = None,
 ) -> tuple[_State, int, Status]:
     """Find the drift force that causes itself [eq:floating-drift-loop]."""
     force = 0.0
@@ -306,7 +306,7 @@ def _loop(
     return state, used, "not_converged"
 
 
-def _loop_notices(status: tuple[Status, ...], omega: FloatArray) -> tuple[Notice, ...]:
+def _loop_notices(status: tuple[Status, ...], omega: Array) -> tuple[Notice, ...]:
     failed = [float(omega[index]) for index, item in enumerate(status) if item != "converged"]
     if not failed:
         return ()
@@ -329,8 +329,8 @@ def _carried(states: list[_State]) -> ComplexArray | None:
 def _joined(
     hydro: Hydrodynamics,
     states: list[_State],
-    amplitude: FloatArray,
-    iterations: FloatArray,
+    amplitude: Array,
+    iterations: Array,
     status: tuple[Status, ...],
     with_drift: bool,
 ) -> DriftedMotions:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck
-from moyai.floating.arrays import ComplexArray, FloatArray
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.frequency import Motions
 from moyai.sea import dispersion
@@ -32,8 +32,8 @@ class FarField:
 
     reflection: ComplexArray
     transmission: ComplexArray
-    loss: FloatArray
-    drift_coefficient: FloatArray
+    loss: Array
+    drift_coefficient: Array
 
 
 def far_field(hydrodynamics: Hydrodynamics, displacement: ComplexArray) -> FarField:
@@ -75,7 +75,7 @@ def far_field(hydrodynamics: Hydrodynamics, displacement: ComplexArray) -> FarFi
     )
 
 
-def energy_velocity(omega: ArrayLike, water: Water) -> tuple[FloatArray, FloatArray]:
+def energy_velocity(omega: ArrayLike, water: Water) -> tuple[Array, Array]:
     """Return group velocity and phase velocity [m/s]."""
     group = np.asarray(dispersion.group_velocity(omega, water.depth, water.gravity), dtype=float)
     phase = np.asarray(dispersion.phase_velocity(omega, water.depth, water.gravity), dtype=float)
@@ -83,8 +83,8 @@ def energy_velocity(omega: ArrayLike, water: Water) -> tuple[FloatArray, FloatAr
 
 
 def drift_force_per_amplitude_squared(
-    far: FarField, omega: FloatArray, heading: FloatArray, water: Water, length: float
-) -> FloatArray:
+    far: FarField, omega: Array, heading: Array, water: Water, length: float
+) -> Array:
     """Return the mean force along x over the square of the wave amplitude [N/m2], (n, h).
 
     Implements P3 equation (4), F_x = E (C_g / C) (2 C_R^2 + E_L) [eq:floating-drift], for oblique waves times
@@ -106,8 +106,8 @@ def drift_force_per_amplitude_squared(
 
 
 def dissipated_fraction(
-    omega: FloatArray, heading: FloatArray, velocity: ComplexArray, damping: FloatArray, water: Water, length: float
-) -> FloatArray:
+    omega: Array, heading: Array, velocity: ComplexArray, damping: Array, water: Water, length: float
+) -> Array:
     """Return the work of the damping beyond radiation over the incident energy flux, (n, h) [eq:floating-energy].
 
     Parameters
@@ -135,7 +135,7 @@ def dissipated_fraction(
     return power / flux
 
 
-def _driven_fraction(motions: Motions, water: Water, length: float) -> FloatArray:
+def _driven_fraction(motions: Motions, water: Water, length: float) -> Array:
     """Return the work of moving water through linearised drag over the incident energy flux, (n, h)."""
     assert motions.drag_excitation is not None
     group, _ = energy_velocity(motions.omega, water)

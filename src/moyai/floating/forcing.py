@@ -14,9 +14,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.floating.arrays import ComplexArray, FloatArray, finite, positive
+from moyai.floating.arrays import finite, positive
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.sea.components import WaveComponents
 from moyai.sea.time_sum import sum_in_window, window_pays
@@ -32,11 +33,11 @@ class Forcing(Protocol):
     def fitted_step(self, time_step: float) -> float:
         """Return a step not longer than ``time_step`` [s] that suits the forcing."""
 
-    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+    def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces (count, m) and surface elevation (count,) at times ``step * arange(count)``."""
 
 
-def cosine_ramp(time: ArrayLike, duration: float) -> FloatArray:
+def cosine_ramp(time: ArrayLike, duration: float) -> Array:
     """Return (1 - cos(pi t / duration)) / 2 up to ``duration``, then 1 [eq:floating-ramp]; all 1 for duration 0."""
     instants = np.asarray(time, dtype=float)
     if duration <= 0.0:
@@ -56,7 +57,7 @@ class CalmWater:
         Length of the cosine ramp of the steady force [s].
     """
 
-    steady: FloatArray
+    steady: Array
     ramp: float = 0.0
 
     @property
@@ -68,7 +69,7 @@ class CalmWater:
         """Return the step unchanged."""
         return time_step
 
-    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+    def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return the steady force and a flat surface."""
         shape = cosine_ramp(step * np.arange(count), self.ramp)
         return shape[:, None] * np.asarray(self.steady, dtype=float), np.zeros(count)
@@ -100,8 +101,8 @@ class RegularForcing:
     omega: float
     wave_amplitude: float
     excitation: ComplexArray
-    mean_drift: FloatArray
-    steady: FloatArray
+    mean_drift: Array
+    steady: Array
     drift_law: Literal["ramped", "pulsating"] = "ramped"
     ramp: float = 0.0
 
@@ -121,7 +122,7 @@ class RegularForcing:
         period = 2.0 * math.pi / self.omega
         return period / math.ceil(period / time_step - 1e-9)
 
-    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+    def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces and the incident surface at x = 0."""
         time = step * np.arange(count)
         shape = cosine_ramp(time, self.ramp)
@@ -158,11 +159,11 @@ class IrregularForcing:
         Share of the wave energy below ``shortest_period``'s frequency.
     """
 
-    omega: FloatArray
+    omega: Array
     amplitude: ComplexArray
     excitation: ComplexArray
-    drift: FloatArray | None
-    steady: FloatArray
+    drift: Array | None
+    steady: Array
     drift_law: Literal["newman", "newman_product", "ramped", "none"] = "newman"
     ramp: float = 0.0
     energy_share: float = 0.99
@@ -261,13 +262,13 @@ class IrregularForcing:
 
         return repeat / next_fast_len(math.ceil(repeat / time_step - 1e-9))
 
-    def mean_drift(self) -> FloatArray:
+    def mean_drift(self) -> Array:
         """Return the mean drift force (m,) of the sea, sum of T_i |a_i|^2."""
         if self.drift is None or self.drift_law == "none":
             return np.zeros(self.excitation.shape[1])
         return np.asarray(np.abs(self.amplitude) ** 2 @ self.drift, dtype=float)
 
-    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+    def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces and the incident surface at x = 0."""
         modes = self.excitation.shape[1]
         columns = [self.amplitude[:, None], self.amplitude[:, None] * self.excitation]
@@ -293,7 +294,7 @@ class IrregularForcing:
         return shape[:, None] * force, shape * elevation
 
 
-def complex_sum(omega: FloatArray, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
+def complex_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
     """Return ``sum_i amplitude_i exp(-i omega_i t)`` (count, c) at ``t = step * arange(count)``.
 
     Parameters
@@ -330,7 +331,7 @@ def complex_sum(omega: FloatArray, amplitude: ComplexArray, step: float, count: 
     return result
 
 
-def _transform_length(omega: FloatArray, step: float) -> int:
+def _transform_length(omega: Array, step: float) -> int:
     """Return the transform length that holds all frequencies exactly, 0 when there is none worth using."""
     unique = np.unique(omega)
     base = float(unique[0]) if len(unique) == 1 else float(np.min(np.diff(unique)))
@@ -346,7 +347,7 @@ def _transform_length(omega: FloatArray, step: float) -> int:
 
 
 @njit(cache=True, error_model="numpy")
-def _direct_sum(omega: FloatArray, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
+def _direct_sum(omega: Array, amplitude: ComplexArray, step: float, count: int) -> ComplexArray:
     components, columns = amplitude.shape
     result = np.zeros((count, columns), dtype=np.complex128)
     factor = np.exp(-1j * omega * step)

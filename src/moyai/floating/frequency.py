@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.floating.arrays import ComplexArray, FloatArray, square_matrix
+from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 
@@ -42,12 +43,12 @@ class Motions:
         Force of moving water through linearised quadratic drag, per unit wave amplitude.
     """
 
-    omega: FloatArray
-    heading: FloatArray
+    omega: Array
+    heading: Array
     modes: tuple[str, ...]
     displacement: ComplexArray
-    damping: FloatArray
-    wave_amplitude: FloatArray
+    damping: Array
+    wave_amplitude: Array
     iterations: int
     checks: tuple[IdentityCheck, ...] = ()
     notices: tuple[Notice, ...] = ()
@@ -59,7 +60,7 @@ class Motions:
         return -1j * self.omega[:, None, None] * self.displacement
 
 
-def dynamic_stiffness(omega: FloatArray, mass: FloatArray, damping: FloatArray, stiffness: FloatArray) -> ComplexArray:
+def dynamic_stiffness(omega: Array, mass: Array, damping: Array, stiffness: Array) -> ComplexArray:
     """Return ``-omega^2 M - i omega B + K`` [eq:floating-motion].
 
     Parameters
@@ -72,7 +73,7 @@ def dynamic_stiffness(omega: FloatArray, mass: FloatArray, damping: FloatArray, 
     return np.asarray(-(w**2) * mass - 1j * w * damping + stiffness, dtype=np.complex128)
 
 
-def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+def solve_scaled(matrix: ComplexArray, right: ComplexArray) -> tuple[ComplexArray, Array]:
     """Solve many small systems whose rows have different units, safely near singular ones.
 
     Parameters
@@ -181,7 +182,7 @@ def solve_motions(
 
     carried = np.zeros((count, headings, size), dtype=np.complex128)
 
-    def solution(extra: FloatArray, carried: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+    def solution(extra: Array, carried: ComplexArray) -> tuple[ComplexArray, Array]:
         right = hydrodynamics.excitation + carried
         return solve_scaled(dynamic_stiffness(omega, mass, radiation + extra, stiffness), right)
 
@@ -228,12 +229,12 @@ def solve_motions(
 
 def _equivalent(
     velocity: ComplexArray,
-    omega: FloatArray,
+    omega: Array,
     quadratic: QuadraticDamping | None,
     line_damping: EquivalentDamping | None,
     water_motion: ComplexArray | None,
-    amplitude: FloatArray,
-) -> tuple[FloatArray, ComplexArray]:
+    amplitude: Array,
+) -> tuple[Array, ComplexArray]:
     """Return the equivalent damping (n, h, m, m) at complex velocities (n, h, m), and the force of the moving water."""
     size = velocity.shape[-1]
     total = np.zeros((*velocity.shape, size))
@@ -251,7 +252,7 @@ def _equivalent(
 
 
 def _notices(
-    hydrodynamics: Hydrodynamics, condition: FloatArray, unsettled: bool, change: float, iterations: int
+    hydrodynamics: Hydrodynamics, condition: Array, unsettled: bool, change: float, iterations: int
 ) -> tuple[Notice, ...]:
     notices: list[Notice] = []
     worst = float(np.max(condition))

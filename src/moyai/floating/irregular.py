@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.floating.arrays import ComplexArray, FloatArray
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 from moyai.floating.frequency import Motions, solve_motions
 
 
-def integration_weights(omega: ArrayLike) -> FloatArray:
+def integration_weights(omega: ArrayLike) -> Array:
     """Return the weights of the trapezoidal rule on a frequency grid [rad/s]; one frequency has no width."""
     grid = np.atleast_1d(np.asarray(omega, dtype=float))
     if len(grid) < 2:
@@ -41,13 +41,13 @@ class ResponseStatistics:
         2 pi sqrt(m0/m2) [s].
     """
 
-    spectrum: FloatArray
-    moments: FloatArray
-    standard_deviation: FloatArray
-    significant: FloatArray
-    mean_zero_crossing_period: FloatArray
+    spectrum: Array
+    moments: Array
+    standard_deviation: Array
+    significant: Array
+    mean_zero_crossing_period: Array
 
-    def most_probable_maximum(self, duration: float) -> FloatArray:
+    def most_probable_maximum(self, duration: float) -> Array:
         """Return the most probable largest amplitude in ``duration`` [s], sigma sqrt(2 ln N), N = duration / T_z.
 
         Rayleigh statistics of a narrow-banded response [eq:floating-extreme]; zero where fewer than one cycle falls
@@ -126,8 +126,8 @@ class SeaMotions:
     """
 
     motions: Motions
-    equivalent_damping: FloatArray
-    measure_deviation: FloatArray
+    equivalent_damping: Array
+    measure_deviation: Array
     iterations: int
     converged: bool
 

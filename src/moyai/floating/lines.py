@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.floating.arrays import FloatArray
 from moyai.mooring.system import LineSystem
 from moyai.mooring.table import CompiledLines, compile_lines
 
@@ -87,7 +87,7 @@ class PlanarMooring:
         anchor = np.array([line.anchor for line in self.system.lines])
         return float(np.max(np.linalg.norm(fairlead - anchor, axis=-1))) if len(anchor) else 0.0
 
-    def _pose(self, position: ArrayLike) -> FloatArray:
+    def _pose(self, position: ArrayLike) -> Array:
         """Return the six-component pose (..., 6) of the body axes at motions (..., 3) of the centre of gravity."""
         motion = np.asarray(position, dtype=float) + np.asarray(self.rest)
         cosine, sine = np.cos(motion[..., 2]), np.sin(motion[..., 2])
@@ -98,18 +98,18 @@ class PlanarMooring:
         pose[..., 4] = motion[..., 2]
         return pose
 
-    def force(self, position: ArrayLike) -> FloatArray:
+    def force(self, position: ArrayLike) -> Array:
         """Return exact forces (..., 3) of all lines about the centre of gravity [N, N, N m]."""
         x, z = self.centre
         return np.asarray(self.system.forces(self._pose(position), (x, 0.0, z))[..., [0, 2, 4]])
 
-    def stiffness(self, position: ArrayLike) -> FloatArray:
+    def stiffness(self, position: ArrayLike) -> Array:
         """Return exact tangents (..., 3, 3) about the centre of gravity."""
         x, z = self.centre
         full = self.system.stiffness(self._pose(position), (x, 0.0, z))
         return np.asarray(full[..., [0, 2, 4], :][..., [0, 2, 4]])
 
-    def force_and_tension(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def force_and_tension(self, position: ArrayLike) -> tuple[Array, Array]:
         """Return what the time domain sees: compiled forces (..., 3) and fairlead tensions (..., lines)."""
         return self.compiled.forces(np.asarray(position, dtype=float) + np.asarray(self.rest))
 

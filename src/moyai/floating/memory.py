@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.floating.arrays import ComplexArray, FloatArray, finite, increasing
+from moyai.floating.arrays import finite, increasing
 
 
 class ModalForm(Protocol):
@@ -47,7 +48,7 @@ class StateSpaceMemory:
     poles: ComplexArray
     inputs: ComplexArray
     outputs: ComplexArray
-    dashpot: FloatArray
+    dashpot: Array
 
     def __post_init__(self) -> None:
         n, m = len(self.poles), self.dashpot.shape[0]
@@ -70,7 +71,7 @@ class StateSpaceMemory:
         """Number of modes."""
         return int(self.dashpot.shape[0])
 
-    def kernel(self, time: ArrayLike) -> FloatArray:
+    def kernel(self, time: ArrayLike) -> Array:
         """Return K(t) (n, m, m) of the states, without the dashpot."""
         instants = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles[None, :] * instants[:, None])
@@ -181,9 +182,9 @@ class ConvolutionMemory:
         keeps the slow motions right (see :meth:`truncated`).
     """
 
-    time: FloatArray
-    velocity_kernel: FloatArray
-    dashpot: FloatArray
+    time: Array
+    velocity_kernel: Array
+    dashpot: Array
 
     def __post_init__(self) -> None:
         increasing(self.time, "time")
@@ -223,7 +224,7 @@ class ConvolutionMemory:
             dashpot = np.asarray(steady_dashpot, dtype=float) - integral
         return ConvolutionMemory(time, kernel, dashpot)
 
-    def on_steps(self, half_step: float) -> FloatArray:
+    def on_steps(self, half_step: float) -> Array:
         """Return K at ``half_step * arange(2 l + 1)`` up to the end of the memory."""
         count = 2 * int(self.time[-1] / (2.0 * half_step)) + 1
         return np.ascontiguousarray(CubicSpline(self.time, self.velocity_kernel, axis=0)(half_step * np.arange(count)))

@@ -11,9 +11,10 @@ from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh
 from scipy.optimize import brentq, linear_sum_assignment
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.floating.arrays import FloatArray, square_matrix
+from moyai.floating.arrays import square_matrix
 from moyai.floating.coefficients import Hydrodynamics
 
 
@@ -37,10 +38,10 @@ class NaturalModes:
     """
 
     modes: tuple[str, ...]
-    period: FloatArray
-    omega: FloatArray
-    shape: FloatArray
-    damping_ratio: FloatArray
+    period: Array
+    omega: Array
+    shape: Array
+    damping_ratio: Array
     notices: tuple[Notice, ...] = ()
 
 
@@ -90,7 +91,7 @@ def natural_modes(
 
     scale = 1.0 / np.sqrt(np.diag(inertia))
 
-    def spectrum(omega: float) -> tuple[FloatArray, FloatArray]:
+    def spectrum(omega: float) -> tuple[Array, Array]:
         matrix = added(omega)
         dynamic = restoring - omega**2 * (inertia + 0.5 * (matrix + matrix.T))
         values, columns = eigh(dynamic * scale[:, None] * scale[None, :])
@@ -129,12 +130,12 @@ def natural_modes(
     return NaturalModes(hydrodynamics.modes, period, omega, shapes, ratio, notices)
 
 
-def _held(hydrodynamics: Hydrodynamics, values: FloatArray, above: FloatArray | None) -> Callable[[float], FloatArray]:
+def _held(hydrodynamics: Hydrodynamics, values: Array, above: Array | None) -> Callable[[float], Array]:
     """Return ``values`` as a function of frequency, ends held; ``above`` approached like 1/omega^2 beyond the last."""
     low, high = float(hydrodynamics.omega[0]), float(hydrodynamics.omega[-1])
     spline = CubicSpline(hydrodynamics.omega, values, axis=0) if len(hydrodynamics.omega) > 1 else None
 
-    def function(omega: float) -> FloatArray:
+    def function(omega: float) -> Array:
         inside = min(max(omega, low), high)
         value = values[0] if spline is None else spline(inside)
         if above is not None and omega > high:
@@ -144,18 +145,18 @@ def _held(hydrodynamics: Hydrodynamics, values: FloatArray, above: FloatArray | 
     return function
 
 
-def added_mass_function(hydrodynamics: Hydrodynamics) -> Callable[[float], FloatArray]:
+def added_mass_function(hydrodynamics: Hydrodynamics) -> Callable[[float], Array]:
     """Return A(omega) as a function, ends held (above: towards the infinite-frequency value where known)."""
     return _held(hydrodynamics, hydrodynamics.added_mass, hydrodynamics.infinite_frequency_added_mass)
 
 
-def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float], FloatArray]:
+def damping_function(hydrodynamics: Hydrodynamics) -> Callable[[float], Array]:
     """Return B(omega) as a function, ends held (above: towards zero)."""
     return _held(hydrodynamics, hydrodynamics.radiation_damping, np.zeros((hydrodynamics.size,) * 2))
 
 
 def _mode_frequency(
-    spectrum: Callable[[float], tuple[FloatArray, FloatArray]], number: int, hydrodynamics: Hydrodynamics
+    spectrum: Callable[[float], tuple[Array, Array]], number: int, hydrodynamics: Hydrodynamics
 ) -> float:
     """Return where eigenvalue ``number`` passes zero: 0 without restoring, NaN with negative restoring."""
     values = spectrum(0.0)[0]
@@ -182,7 +183,7 @@ def _mode_frequency(
     return float("nan")
 
 
-def _lead(vectors: FloatArray, inertia: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+def _lead(vectors: Array, inertia: Array) -> tuple[NDArray[np.intp], Array]:
     """Give every mode the motion that carries most of its kinetic energy, each motion once; scale it to 1 there."""
     share = vectors**2 * np.diag(inertia)
     share = share / np.sum(share, axis=1, keepdims=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from moyai.floating.arrays import ComplexArray, FloatArray
+from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.forcing import Forcing, complex_sum, cosine_ramp
 
 
@@ -29,7 +29,7 @@ class MovingWater:
     """
 
     forcing: Forcing
-    omega: FloatArray
+    omega: Array
     amplitude: ComplexArray
     water: ComplexArray
     ramp: float
@@ -43,7 +43,7 @@ class MovingWater:
         """Return the step that suits the forcing [s]."""
         return self.forcing.fitted_step(time_step)
 
-    def sample(self, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+    def sample(self, step: float, count: int) -> tuple[Array, Array]:
         """Return forces with the motion of the water in further columns (count, m + w), and the elevation."""
         force, elevation = self.forcing.sample(step, count)
         series = complex_sum(self.omega, self.amplitude[:, None] * self.water, step, count).real

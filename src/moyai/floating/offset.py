@@ -9,7 +9,8 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.floating.arrays import FloatArray, square_matrix
+from moyai.core.arrays import Array
+from moyai.floating.arrays import square_matrix
 
 Status = Literal["converged", "not_converged", "interrupted"]
 
@@ -17,10 +18,10 @@ Status = Literal["converged", "not_converged", "interrupted"]
 class Mooring(Protocol):
     """What the loop needs of the lines; positions are relative to the rest position, in the modes of the body."""
 
-    def force(self, position: FloatArray) -> FloatArray:
+    def force(self, position: Array) -> Array:
         """Return the force (m,) of all lines on the body at the position (m,)."""
 
-    def stiffness(self, position: FloatArray) -> FloatArray:
+    def stiffness(self, position: Array) -> Array:
         """Return the tangent (m, m), minus the derivative of the force."""
 
 
@@ -28,13 +29,13 @@ class Mooring(Protocol):
 class LinearMooring:
     """Springs of constant stiffness."""
 
-    matrix: FloatArray
+    matrix: Array
 
-    def force(self, position: FloatArray) -> FloatArray:
+    def force(self, position: Array) -> Array:
         """Return minus stiffness times position."""
         return -self.matrix @ position
 
-    def stiffness(self, position: FloatArray) -> FloatArray:
+    def stiffness(self, position: Array) -> Array:
         """Return the constant stiffness."""
         return self.matrix
 
@@ -43,14 +44,14 @@ class LinearMooring:
 class FunctionMooring:
     """Lines given by one function ``position -> force``; the tangent by central differences (P3, section 4)."""
 
-    function: Callable[[FloatArray], FloatArray]
-    steps: FloatArray
+    function: Callable[[Array], Array]
+    steps: Array
 
-    def force(self, position: FloatArray) -> FloatArray:
+    def force(self, position: Array) -> Array:
         """Return the force of the function."""
         return np.asarray(self.function(np.asarray(position, dtype=float)), dtype=float)
 
-    def stiffness(self, position: FloatArray) -> FloatArray:
+    def stiffness(self, position: Array) -> Array:
         """Return minus the central difference of the force."""
         size = len(self.steps)
         matrix = np.empty((size, size))
@@ -77,7 +78,7 @@ class MeanOffset:
     status : {"converged", "not_converged"}
     """
 
-    position: FloatArray
+    position: Array
     residual: float
     iterations: int
     status: Status
@@ -116,7 +117,7 @@ def mean_offset(
     position = np.zeros(len(load)) if start is None else np.array(start, dtype=float)
     rest = mooring.force(np.zeros(len(load)))
 
-    def residual(at: FloatArray) -> FloatArray:
+    def residual(at: Array) -> Array:
         return mooring.force(at) - rest - restoring @ at + load
 
     if not np.any(load):

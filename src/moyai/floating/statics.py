@@ -13,8 +13,9 @@ from typing import Protocol
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.floating.arrays import FloatArray, positive
+from moyai.floating.arrays import positive
 
 
 class SectionLike(Protocol):
@@ -67,7 +68,7 @@ class Hydrostatics:
         Displacement less weight [N]: what lines may pull down.
     """
 
-    stiffness: FloatArray
+    stiffness: Array
     displaced_mass: float
     mass: float
     centre: tuple[float, float]
@@ -155,7 +156,7 @@ def hydrostatics(
 
 def inertia_matrix(
     mass: float, roll_gyradius: float, additional_mass: tuple[float, float, float] = (0.0, 0.0, 0.0)
-) -> FloatArray:
+) -> Array:
     """Return the planar inertia matrix about the centre of gravity [kg, kg, kg m2].
 
     Parameters
@@ -265,7 +266,7 @@ def find_equilibrium(
     breadth = _scale_of(hull, draught_start)
     scale = np.array([weight, weight, weight * breadth])
 
-    def residual(position: FloatArray) -> FloatArray:
+    def residual(position: Array) -> Array:
         offset, draught, heel = position
         x_gravity, z_gravity = body_to_site(centre_of_gravity, draught, heel, offset)
         lines = (0.0, 0.0, 0.0) if line_pull is None else line_pull(x_gravity, z_gravity, heel)
@@ -355,14 +356,14 @@ class RightingCurve:
         Depth of the body origin that keeps the displacement [m].
     """
 
-    heel: FloatArray
-    lever: FloatArray
-    draught: FloatArray
+    heel: Array
+    lever: Array
+    draught: Array
 
 
 def righting_curve(
     hull: HullLike,
-    heel: FloatArray,
+    heel: Array,
     *,
     area: float,
     centre_of_gravity: tuple[float, float],

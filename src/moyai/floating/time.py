@@ -11,11 +11,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating import kernel
-from moyai.floating.arrays import ComplexArray, FloatArray, finite, square_matrix
+from moyai.floating.arrays import finite, square_matrix
 from moyai.floating.damping import QuadraticDamping
 from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
@@ -50,9 +51,9 @@ class CumminsModel:
     modes : tuple of str
     """
 
-    inertia: FloatArray
-    stiffness: FloatArray
-    linear_damping: FloatArray
+    inertia: Array
+    stiffness: Array
+    linear_damping: Array
     memory: Memory
     mooring: PlanarMooring | None = None
     quadratic: QuadraticDamping | None = None
@@ -101,12 +102,12 @@ class Simulation:
         CPU seconds of the parts, and the number of steps.
     """
 
-    time: FloatArray
-    position: FloatArray
-    velocity: FloatArray
-    mooring_force: FloatArray
-    tension: FloatArray
-    elevation: FloatArray
+    time: Array
+    position: Array
+    velocity: Array
+    mooring_force: Array
+    tension: Array
+    elevation: Array
     time_step: float
     status: Status
     message: str
@@ -176,7 +177,7 @@ def choose_time_step(
     return step, notice
 
 
-def _largest(inertia: FloatArray, matrix: FloatArray) -> float:
+def _largest(inertia: Array, matrix: Array) -> float:
     """Return the largest absolute eigenvalue of inverse inertia times a matrix."""
     return float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(inertia, matrix)))))
 
@@ -300,7 +301,7 @@ def simulate(
     )
 
 
-def packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, ...], FloatArray, int]:
+def packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, ...], Array, int]:
     """Return the lines as kernel arrays, their force at rest and their number."""
     if mooring is None:
         none: tuple[Any, ...] = (
@@ -317,7 +318,7 @@ def packed_lines(mooring: PlanarMooring | None, size: int) -> tuple[tuple[Any, .
     return mooring.packed(), rest, mooring.count
 
 
-def _packed_body(model: CumminsModel) -> tuple[FloatArray, ...]:
+def _packed_body(model: CumminsModel) -> tuple[Array, ...]:
     size = len(model.modes)
     quadratic = model.quadratic
     return (
@@ -331,16 +332,16 @@ def _packed_body(model: CumminsModel) -> tuple[FloatArray, ...]:
 
 def _stepper(
     memory: Memory,
-    q: FloatArray,
-    v: FloatArray,
+    q: Array,
+    v: Array,
     step: float,
-    force: FloatArray,
-    body: tuple[FloatArray, ...],
-    lines: tuple[FloatArray, ...],
-    rest: FloatArray,
-    limit: FloatArray,
+    force: Array,
+    body: tuple[Array, ...],
+    lines: tuple[Array, ...],
+    rest: Array,
+    limit: Array,
     every: int,
-    saved: tuple[FloatArray, ...],
+    saved: tuple[Array, ...],
 ) -> tuple[Any, tuple[Notice, ...]]:
     """Return ``advance(first, steps) -> (status, good steps)`` for the memory at hand, and what there is to say."""
     if isinstance(memory, StateSpaceMemory):

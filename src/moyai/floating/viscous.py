@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.floating.arrays import ComplexArray, FloatArray
 from moyai.floating.damping import QuadraticDamping
 
 PLATE_POINTS = 8
@@ -99,12 +99,12 @@ class Measure:
         c / (rho l) of the force c |J v| J v.
     """
 
-    weights: FloatArray
-    points: FloatArray
-    directions: FloatArray
+    weights: Array
+    points: Array
+    directions: Array
     coefficient: float
 
-    def row(self, centre: tuple[float, float]) -> FloatArray:
+    def row(self, centre: tuple[float, float]) -> Array:
         """Return J of sway, heave, roll about ``centre``."""
         rows = [
             weight * velocity_row(point, direction, centre)
@@ -141,7 +141,7 @@ def measures(corners: tuple[CornerEdge, ...], plates: tuple[PlateEdge, ...]) -> 
     return tuple(found)
 
 
-def velocity_row(point: FloatArray, direction: FloatArray, centre: tuple[float, float]) -> FloatArray:
+def velocity_row(point: Array, direction: Array, centre: tuple[float, float]) -> Array:
     """Return the velocity of a point of the body along a direction per unit velocity of sway, heave, roll."""
     x, z = point[0] - centre[0], point[1] - centre[1]
     return np.array([direction[0], direction[1], direction[0] * z - direction[1] * x])
@@ -183,9 +183,9 @@ def edge_damping(
 def water_measure(
     corners: tuple[CornerEdge, ...],
     plates: tuple[PlateEdge, ...],
-    omega: FloatArray,
-    wave_number: FloatArray,
-    heading: FloatArray,
+    omega: Array,
+    wave_number: Array,
+    heading: Array,
     depth: float,
 ) -> ComplexArray:
     """Return the undisturbed wave in the measures of :func:`edge_damping`, per metre of amplitude [eq:viscous-water].

@@ -9,8 +9,8 @@ from typing import Literal
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-from moyai.floating.arrays import FloatArray
 from moyai.floating.viscous import CornerEdge, Face, PlateEdge, rounding_factor
 from moyai.potential.edges import Edges
 from moyai.potential.sections import Chain, Section
@@ -36,7 +36,7 @@ class _Break:
     """Where a face ends: at the still water, at a hollow, or at a corner with its turn and radius."""
 
     kind: Kind
-    point: FloatArray
+    point: Array
     turn: float = 0.0
     radius: float = 0.0
 
@@ -75,7 +75,7 @@ def section_edges(section: Section) -> SectionEdges:
     return SectionEdges(tuple(corners), tuple(plates), _notices(corners, plates, odd, smooth, hollows, numbers))
 
 
-def _directions(edges: Edges) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _directions(edges: Edges) -> tuple[Array, Array, Array]:
     """Return the angles at the start and end of each edge, and how far it turns [rad]."""
     chord = edges.end - edges.start
     middle = np.arctan2(chord[:, 1], chord[:, 0])
@@ -139,7 +139,7 @@ def _bridged(breaks: list[_Break], closed: bool, numbers: EdgeDampingNumbers) ->
 
 
 def _round_bend(
-    chain: Chain, index: int, first: FloatArray, last: FloatArray, sweep: FloatArray, numbers: EdgeDampingNumbers
+    chain: Chain, index: int, first: Array, last: Array, sweep: Array, numbers: EdgeDampingNumbers
 ) -> _Break | None:
     """Return the corner that an arc rounds off, or ``None`` for one too large to have a corner."""
     edges, count = chain.edges, len(chain.edges)
@@ -227,7 +227,7 @@ def _face(other: _Break, here: _Break, arrives: bool) -> Face:
     return Face((float(far[0]), float(far[1])), length, (float(along[1]) / length, -float(along[0]) / length))
 
 
-def _plate(root: FloatArray, tip: FloatArray, numbers: EdgeDampingNumbers) -> PlateEdge:
+def _plate(root: Array, tip: Array, numbers: EdgeDampingNumbers) -> PlateEdge:
     return PlateEdge((float(root[0]), float(root[1])), (float(tip[0]), float(tip[1])), numbers.plate_coefficient)
 
 

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from moyai.core.arrays import ComplexArray
 from moyai.core.errors import InputError
-from moyai.interop.coefficients import DOFS, ComplexArray, assemble
+from moyai.interop.coefficients import DOFS, assemble
 
 
 def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int = 1) -> xr.Dataset:

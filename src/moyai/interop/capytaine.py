@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.results import join_complex
-from moyai.interop.coefficients import FloatArray, assemble, require
+from moyai.interop.coefficients import assemble, require
 
 _FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
 
@@ -98,7 +99,7 @@ def read_capytaine(
     )
 
 
-def _limits(raw: xr.Dataset, omega: FloatArray) -> dict[str, FloatArray]:
+def _limits(raw: xr.Dataset, omega: Array) -> dict[str, Array]:
     limits = {}
     for name, chosen in (
         ("zero_frequency_added_mass", omega == 0.0),

@@ -14,11 +14,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.results import DIRECTION_CONVENTION, TIME_CONVENTION
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 DOFS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 
@@ -40,18 +38,18 @@ def assemble(
     program: str,
     source: str,
     dofs: Sequence[str],
-    omega: FloatArray,
-    added_mass: FloatArray,
-    radiation_damping: FloatArray,
-    wave_direction: FloatArray,
+    omega: Array,
+    added_mass: Array,
+    radiation_damping: Array,
+    wave_direction: Array,
     forces: Mapping[str, ComplexArray],
     density: float,
     gravity: float,
     water_depth: float,
     reference_point: Sequence[float],
-    limits: Mapping[str, FloatArray] | None = None,
-    hydrostatic_stiffness: FloatArray | None = None,
-    mean_drift_force: FloatArray | None = None,
+    limits: Mapping[str, Array] | None = None,
+    hydrostatic_stiffness: Array | None = None,
+    mean_drift_force: Array | None = None,
 ) -> xr.Dataset:
     """Put arrays together; sorted by frequency, checked for shape, sign and completeness.
 

@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.interop.coefficients import LONG_NAMES, FloatArray
+from moyai.interop.coefficients import LONG_NAMES
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 
@@ -56,9 +57,7 @@ def complete_limits(dataset: xr.Dataset) -> xr.Dataset:
     return dataset.assign(infinite_frequency_added_mass=variable)
 
 
-def infinite_frequency_estimates(
-    omega: FloatArray, added_mass: FloatArray, radiation_damping: FloatArray
-) -> NDArray[np.float64]:
+def infinite_frequency_estimates(omega: Array, added_mass: Array, radiation_damping: Array) -> NDArray[np.float64]:
     """Return one estimate of the infinite-frequency added mass for each frequency of the inner band.
 
     Equation [eq:interop-kramers-kronig]. The singular part is integrated in closed form; beyond the band the damping
@@ -92,7 +91,7 @@ def infinite_frequency_estimates(
     return np.array(out)
 
 
-def _tail(omega: FloatArray, damping: FloatArray) -> FloatArray:
+def _tail(omega: Array, damping: Array) -> Array:
     """Return the integral of B / sigma^2 beyond the band for a power law fitted to the last tenth of the band."""
     last = omega > 0.9 * omega[-1]
     end = damping[-1]

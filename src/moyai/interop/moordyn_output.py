@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.interop.textfiles import parse_number, read_lines
-
-Array = NDArray[np.float64]
 
 #: Factors to SI of the units that MoorDyn prints.
 _TO_SI = {

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.coupled.assembly import ALIGNED, BodyAssembly, RodPart, VolumePart
 from moyai.coupled.rigid import RigidBody
@@ -24,7 +24,6 @@ from moyai.interop.moordyn_network import add_lines, add_point, builder_of, poin
 from moyai.mooring.rotations import rotation_matrix
 from moyai.sea.water import Water
 
-Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 

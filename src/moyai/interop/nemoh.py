@@ -15,8 +15,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.interop.coefficients import DOFS, ComplexArray, FloatArray, assemble
+from moyai.interop.coefficients import DOFS, assemble
 from moyai.interop.textfiles import leading_numbers, parse_number, read_lines
 
 _HEADING = re.compile(r"beta\s*=\s*([-+\d.eEdD]+)", re.IGNORECASE)
@@ -146,7 +147,7 @@ def _degree_of_freedom(entry: list[float], path: Path) -> tuple[str, tuple[float
     return DOFS[number], point
 
 
-def _to_omega(values: FloatArray, frequency_type: int) -> FloatArray:
+def _to_omega(values: Array, frequency_type: int) -> Array:
     if frequency_type == 1:
         return values
     if frequency_type == 2:
@@ -156,7 +157,7 @@ def _to_omega(values: FloatArray, frequency_type: int) -> FloatArray:
     raise InputError(f"frequency type {frequency_type}", path="coefficients", allowed=str(_FREQUENCY))
 
 
-def _read_matrices(path: Path, count: int, frequency_type: int) -> tuple[FloatArray, FloatArray]:
+def _read_matrices(path: Path, count: int, frequency_type: int) -> tuple[Array, Array]:
     numbers = [parse_number(token) for line in read_lines(path)[1:] for token in line.split()]
     block = 1 + count * count
     if any(number is None for number in numbers) or not numbers or len(numbers) % block:
@@ -168,9 +169,7 @@ def _read_matrices(path: Path, count: int, frequency_type: int) -> tuple[FloatAr
     return _to_omega(table[:, 0], frequency_type), table[:, 1:].reshape(-1, count, count)
 
 
-def _read_force(
-    results: Path, names: tuple[str, ...], omega: FloatArray, control: _Control
-) -> tuple[FloatArray, ComplexArray]:
+def _read_force(results: Path, names: tuple[str, ...], omega: Array, control: _Control) -> tuple[Array, ComplexArray]:
     """Read the first file that exists; one zone a heading, modulus and phase of every force."""
     path = next((results / name for name in names if (results / name).is_file()), None)
     if path is None:
@@ -202,7 +201,7 @@ def _read_force(
     return np.array(headings), np.swapaxes(modulus * np.exp(1j * phase), 0, 1)
 
 
-def _read_stiffness(root: Path, control: _Control) -> FloatArray | None:
+def _read_stiffness(root: Path, control: _Control) -> Array | None:
     """Return the hydrostatic stiffness of Mesh/KH.dat, where it is there, for the degrees of freedom of the run."""
     for folder in (root / "Mesh", root / "mesh", root):
         path = folder / "KH.dat"

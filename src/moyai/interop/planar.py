@@ -16,9 +16,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.interop.coefficients import DOFS, FloatArray
+from moyai.interop.coefficients import DOFS
 from moyai.sea.dispersion import wave_number
 
 PLANAR_DOFS = ("sway", "heave", "roll")
@@ -168,7 +169,7 @@ def neglected_coupling(dataset: xr.Dataset, sea: Literal["beam", "head"]) -> flo
     return float(np.max(cross / scale))
 
 
-def _transform(dataset: xr.Dataset, motion: FloatArray) -> xr.Dataset:
+def _transform(dataset: xr.Dataset, motion: Array) -> xr.Dataset:
     """Apply A' = M^T A M to all matrices and F' = M^T F to all forces; degrees of freedom keep their order."""
     out = dataset.drop_vars("mean_drift_force", errors="ignore").copy()
     for name in (*_MATRICES, "hydrostatic_stiffness"):
@@ -194,7 +195,7 @@ def _refer_phase(dataset: xr.Dataset, origin: NDArray[np.float64]) -> xr.Dataset
     return out
 
 
-def _wrap(angle: FloatArray) -> FloatArray:
+def _wrap(angle: Array) -> Array:
     """Return the angle in (-pi, pi], rounding-proof at the ends."""
     wrapped = np.mod(angle, 2.0 * math.pi)
     return np.where(wrapped > math.pi + 1e-9, wrapped - 2.0 * math.pi, wrapped)

@@ -20,9 +20,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.interop.coefficients import DOFS, ComplexArray, FloatArray, assemble, require
+from moyai.interop.coefficients import DOFS, assemble, require
 from moyai.interop.textfiles import find_companion, leading_numbers, read_lines, read_table
 from moyai.sea.dispersion import angular_frequency
 
@@ -162,7 +163,7 @@ class _FirstColumn:
     gravity: float
     source: str
 
-    def __call__(self, values: FloatArray) -> FloatArray:
+    def __call__(self, values: Array) -> Array:
         omega = np.full(values.shape, np.nan)
         special = values <= 0.0
         if self.zero_code is not None:
@@ -189,9 +190,7 @@ class _FirstColumn:
         return omega
 
 
-def _read_radiation(
-    path: Path, converter: _FirstColumn
-) -> tuple[FloatArray, FloatArray, FloatArray, dict[str, FloatArray]]:
+def _read_radiation(path: Path, converter: _FirstColumn) -> tuple[Array, Array, Array, dict[str, Array]]:
     rows = read_table(path, (4, 5))
     keys = np.array([row[0] for row in rows])
     indices = np.array([row[1:3] for row in rows], dtype=int) - 1
@@ -219,7 +218,7 @@ def _read_radiation(
     return omega[ordinary], added_mass[ordinary], damping[ordinary], limits
 
 
-def _read_forces(path: Path, converter: _FirstColumn, omega: FloatArray) -> tuple[FloatArray, ComplexArray]:
+def _read_forces(path: Path, converter: _FirstColumn, omega: Array) -> tuple[Array, ComplexArray]:
     rows = np.array(read_table(path, (7,)))
     directions = np.unique(rows[:, 1])
     frequencies = converter(rows[:, 0])
@@ -240,7 +239,7 @@ def _read_forces(path: Path, converter: _FirstColumn, omega: FloatArray) -> tupl
     return directions, forces
 
 
-def _nearest(omega: FloatArray, frequency: float, path: Path) -> int:
+def _nearest(omega: Array, frequency: float, path: Path) -> int:
     """Return the index of a frequency; the files print seven digits or fewer."""
     i = int(np.argmin(np.abs(omega - frequency)))
     if abs(omega[i] - frequency) > 2e-5 * frequency:
@@ -255,7 +254,7 @@ def _read_stiffness(path: Path) -> NDArray[np.float64]:
     return stiffness
 
 
-def _read_drift(path: Path, converter: _FirstColumn, omega: FloatArray, directions: FloatArray) -> FloatArray | None:
+def _read_drift(path: Path, converter: _FirstColumn, omega: Array, directions: Array) -> Array | None:
     """Return the mean drift of long-crested waves: far-field momentum (.8) where it is there, else pressure (.9).
 
     Momentum gives surge, sway and yaw and needs no velocities at the corners of the hull, where pressure integration is

@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.core.single import plain
 from moyai.mooring import kernels
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -42,13 +40,13 @@ class CatenarySolution:
         Codes of :mod:`moyai.mooring.kernels`, in words from :attr:`regime_names`.
     """
 
-    horizontal_tension: FloatArray
-    vertical_tension_fairlead: FloatArray
-    vertical_tension_anchor: FloatArray
-    horizontal_tension_anchor: FloatArray
-    grounded_length: FloatArray
-    stiffness: FloatArray
-    residual: FloatArray
+    horizontal_tension: Array
+    vertical_tension_fairlead: Array
+    vertical_tension_anchor: Array
+    horizontal_tension_anchor: Array
+    grounded_length: Array
+    stiffness: Array
+    residual: Array
     regime: IntArray
 
     @property
@@ -73,7 +71,7 @@ class CatenarySolution:
         return str(names) if names.ndim == 0 else names
 
 
-def _require(condition: NDArray[np.bool_], values: FloatArray, path: str, allowed: str, remedy: str = "") -> None:
+def _require(condition: NDArray[np.bool_], values: Array, path: str, allowed: str, remedy: str = "") -> None:
     if not np.all(condition):
         worst = np.extract(~condition, values)[0]
         raise InputError(f"{path.replace('_', ' ')} is {worst:g}", path=path, allowed=allowed, remedy=remedy)

@@ -8,13 +8,10 @@ in part. Newton steps in a variable that makes the equation almost straight, hel
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numba import njit
 
-if TYPE_CHECKING:
-    from moyai.mooring.catenary import FloatArray, IntArray
+from moyai.core.arrays import Array, IntArray
 
 # Regime codes, given back by every solver of this room.
 GROUNDED = 0  # part of the line on the bed, H > 0
@@ -507,14 +504,14 @@ def _sags_below(h: float, v: float, e: float, drop: float) -> bool:
 
 @njit(cache=True, error_model="numpy")
 def solve_batch(
-    horizontal: FloatArray,
-    vertical: FloatArray,
-    length: FloatArray,
-    axial_stiffness: FloatArray,
-    weight: FloatArray,
-    clearance: FloatArray,
-    friction: FloatArray,
-    out: FloatArray,
+    horizontal: Array,
+    vertical: Array,
+    length: Array,
+    axial_stiffness: Array,
+    weight: Array,
+    clearance: Array,
+    friction: Array,
+    out: Array,
     regime: IntArray,
 ) -> None:
     """Solve many lines; ``out`` is (n, 10) in the order of :func:`solve_single`, ``regime`` (n,)."""
@@ -529,14 +526,14 @@ def solve_batch(
 
 @njit(cache=True, error_model="numpy")
 def solve_line_batch(
-    horizontal: FloatArray,
-    vertical: FloatArray,
+    horizontal: Array,
+    vertical: Array,
     length: float,
     axial_stiffness: float,
     weight: float,
     clearance: float,
     friction: float,
-    out: FloatArray,
+    out: Array,
     regime: IntArray,
 ) -> None:
     """Solve one line at many fairlead positions; ``out`` is (n, 11): :func:`solve_single`, then q.
@@ -552,7 +549,7 @@ def solve_line_batch(
 
 
 @njit(cache=True, error_model="numpy")
-def plane_to_space(span: FloatArray, plane: FloatArray, count: int, force: FloatArray, stiffness: FloatArray) -> None:
+def plane_to_space(span: Array, plane: Array, count: int, force: Array, stiffness: Array) -> None:
     """Turn (H, V) and their stiffness (columns of :func:`solve_single`) into force on the body and 3x3 stiffness.
 
     ``span`` (n, 3) leads from anchor to fairlead; ``force`` (n, 3), ``stiffness`` (n, 3, 3): all copies, site axes.

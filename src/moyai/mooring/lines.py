@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.mooring import kernels, segments
-from moyai.mooring.catenary import FloatArray, IntArray
 
 if TYPE_CHECKING:
     from moyai.tables.lines import LineProperties
@@ -116,16 +116,16 @@ class LineState:
         Codes of :mod:`moyai.mooring.kernels`; -1 for a spring.
     """
 
-    force: FloatArray
-    stiffness: FloatArray
-    tension_fairlead: FloatArray
-    tension_anchor: FloatArray
-    horizontal_tension: FloatArray
-    vertical_tension_fairlead: FloatArray
-    vertical_tension_anchor: FloatArray
-    grounded_length: FloatArray
-    anchor_uplift_angle: FloatArray
-    residual: FloatArray
+    force: Array
+    stiffness: Array
+    tension_fairlead: Array
+    tension_anchor: Array
+    horizontal_tension: Array
+    vertical_tension_fairlead: Array
+    vertical_tension_anchor: Array
+    grounded_length: Array
+    anchor_uplift_angle: Array
+    residual: Array
     regime: IntArray
 
 
@@ -152,7 +152,7 @@ class LineElement(Protocol):
     def breaking_load(self) -> float:
         """Lowest breaking load along the line [N]."""
 
-    def solve(self, points: FloatArray, water_depth: float) -> LineState:
+    def solve(self, points: Array, water_depth: float) -> LineState:
         """Solve for fairlead positions (n, 3) in site axes."""
 
 
@@ -236,7 +236,7 @@ class Line:
         return min(segment.line_type.breaking_load for segment in self.segments)
 
     @cached_property
-    def table(self) -> FloatArray:
+    def table(self) -> Array:
         """One row a segment for the kernels: length, EA, submerged weight, clump at its upper end."""
         rows = np.zeros((len(self.segments), 4))
         for row, segment in zip(rows, self.segments):
@@ -280,9 +280,7 @@ class Line:
             )
         return clearance
 
-    def solve_plane(
-        self, horizontal: FloatArray, vertical: FloatArray, water_depth: float
-    ) -> tuple[FloatArray, IntArray]:
+    def solve_plane(self, horizontal: Array, vertical: Array, water_depth: float) -> tuple[Array, IntArray]:
         """Solve in the line's own vertical plane for distances (n,) from anchor to fairlead [m].
 
         Returns
@@ -304,7 +302,7 @@ class Line:
             segments.solve_segments_batch(x, z, rows, clearance, self.bed_friction, start, out, regime)
         return out, regime
 
-    def solve(self, points: FloatArray, water_depth: float) -> LineState:
+    def solve(self, points: Array, water_depth: float) -> LineState:
         """Solve for fairlead positions (n, 3) [m], site axes; see :class:`LineState`."""
         span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
         out, regime = self.solve_plane(np.hypot(span[:, 0], span[:, 1]), span[:, 2], water_depth)
@@ -368,7 +366,7 @@ class SpringLine:
         """Length at which the spring bears nothing [m]; may be negative when strongly pretensioned."""
         return math.dist(self.anchor, self.fairlead) - self.pretension / self.stiffness
 
-    def solve(self, points: FloatArray, water_depth: float) -> LineState:
+    def solve(self, points: Array, water_depth: float) -> LineState:
         """Solve for fairlead positions (n, 3) [m], site axes; the water depth plays no part."""
         span = np.asarray(points, dtype=float).reshape(-1, 3) - np.asarray(self.anchor)
         length = np.maximum(np.linalg.norm(span, axis=1), 1e-300)

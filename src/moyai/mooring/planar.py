@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.mooring.catenary import FloatArray
 from moyai.mooring.lines import LineState
 from moyai.mooring.system import (
     Equilibrium,
@@ -47,15 +47,15 @@ class PlanarLineSystem:
         """Solve every line for positions (n, 3) or (3,)."""
         return self.system.states(_space(position))
 
-    def forces(self, position: ArrayLike, about: tuple[float, float] = (0.0, 0.0)) -> FloatArray:
+    def forces(self, position: ArrayLike, about: tuple[float, float] = (0.0, 0.0)) -> Array:
         """Return (F_x, F_z, M_y) (..., 3) [N, N m] of all lines on the body, moment about the body point (x, z)."""
         return self.system.forces(_space(position), (about[0], 0.0, about[1]))[..., _KEPT]
 
-    def tensions(self, position: ArrayLike) -> FloatArray:
+    def tensions(self, position: ArrayLike) -> Array:
         """Return fairlead tensions (..., lines) [N] of one copy of every line."""
         return self.system.tensions(_space(position))
 
-    def stiffness(self, position: ArrayLike, about: tuple[float, float] = (0.0, 0.0)) -> FloatArray:
+    def stiffness(self, position: ArrayLike, about: tuple[float, float] = (0.0, 0.0)) -> Array:
         """Return the tangent stiffness (..., 3, 3) for sway, heave of the point ``about``, and roll.
 
         It is symmetric at every position when the bed is frictionless.
@@ -94,10 +94,10 @@ class PlanarLineSystem:
         )
         evaluate = self.system.evaluator()
 
-        def planar_force(position: FloatArray) -> FloatArray:
+        def planar_force(position: Array) -> Array:
             return evaluate(_space(position))[0][_KEPT]
 
-        def planar_stiffness(position: FloatArray) -> FloatArray:
+        def planar_stiffness(position: Array) -> Array:
             return evaluate(_space(position))[1][np.ix_(_KEPT, _KEPT)]
 
         rest = planar_force(np.zeros(3)) if subtract_rest_force else np.zeros(3)
@@ -116,7 +116,7 @@ class PlanarLineSystem:
         )
 
 
-def _space(planar: ArrayLike) -> FloatArray:
+def _space(planar: ArrayLike) -> Array:
     """Put (x, z, about y) into six components."""
     array = np.asarray(planar, dtype=float)
     if array.shape[-1:] != (3,):

@@ -6,16 +6,12 @@ this file as well, or the cache keeps the old inlined code.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numba import njit
 
+from moyai.core.arrays import Array, IntArray
 from moyai.mooring.kernels import solve_single
 from moyai.mooring.segments import solve_segments
-
-if TYPE_CHECKING:
-    from moyai.mooring.catenary import FloatArray, IntArray
 
 # columns of ``parameters``, one row a line
 KIND, ANCHOR_X, ANCHOR_Y, ANCHOR_Z, FAIRLEAD_X, FAIRLEAD_Y, FAIRLEAD_Z, COUNT = range(8)
@@ -35,7 +31,7 @@ def table_force(
     lookup_start: int,
     xi_bins: int,
     z_bins: int,
-    nodes: FloatArray,
+    nodes: Array,
     lookup: IntArray,
 ) -> tuple[float, float, bool]:
     """Return (H, V, inside) by bicubic Hermite interpolation; C1 in x and z ``[eq:mooring-table]``.
@@ -93,7 +89,7 @@ def table_force(
 
 @njit(cache=True, error_model="numpy")
 def _exact_segmented(
-    x: float, z: float, rows: FloatArray, clearance: float, friction: float, start: float
+    x: float, z: float, rows: Array, clearance: float, friction: float, start: float
 ) -> tuple[float, float]:
     state = np.empty(11)
     piece = np.empty(6)
@@ -106,13 +102,13 @@ def planar_line_force(
     sway: float,
     heave: float,
     roll: float,
-    parameters: FloatArray,
+    parameters: Array,
     index: IntArray,
-    nodes: FloatArray,
+    nodes: Array,
     lookup: IntArray,
-    memory: FloatArray,
-    force: FloatArray,
-    tension: FloatArray,
+    memory: Array,
+    force: Array,
+    tension: Array,
 ) -> None:
     """Add the force of all lines to ``force`` (F_x, F_z, M_y about the body origin) for one planar position.
 
@@ -193,13 +189,13 @@ def planar_line_force(
 
 @njit(cache=True, error_model="numpy")
 def planar_line_force_batch(
-    positions: FloatArray,
-    parameters: FloatArray,
+    positions: Array,
+    parameters: Array,
     index: IntArray,
-    nodes: FloatArray,
+    nodes: Array,
     lookup: IntArray,
-    force: FloatArray,
-    tension: FloatArray,
+    force: Array,
+    tension: Array,
 ) -> None:
     """Evaluate many planar positions (n, 3) one after another."""
     memory = np.zeros(parameters.shape[0])
@@ -219,9 +215,7 @@ def planar_line_force_batch(
 
 
 @njit(cache=True, error_model="numpy")
-def table_force_batch(
-    x: FloatArray, z: FloatArray, index: IntArray, nodes: FloatArray, lookup: IntArray, out: FloatArray
-) -> None:
+def table_force_batch(x: Array, z: Array, index: IntArray, nodes: Array, lookup: IntArray, out: Array) -> None:
     """Evaluate one table at many points; ``out`` (n, 2) receives H, V, NaN outside the window."""
     for k in range(x.size):
         h, v, inside = table_force(

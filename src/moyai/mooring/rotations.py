@@ -7,12 +7,12 @@ about z, all axes fixed to the site. ``R`` takes body coordinates to site coordi
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 
-def rotation_matrix(angles: ArrayLike) -> FloatArray:
+def rotation_matrix(angles: ArrayLike) -> Array:
     """Return R (..., 3, 3) for roll, pitch, yaw [rad] (..., 3)."""
     angles = np.asarray(angles, dtype=float)
     cr, cp, cy = (np.cos(angles[..., i]) for i in range(3))
@@ -25,7 +25,7 @@ def rotation_matrix(angles: ArrayLike) -> FloatArray:
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def roll_pitch_yaw(rotation: ArrayLike) -> FloatArray:
+def roll_pitch_yaw(rotation: ArrayLike) -> Array:
     """Return roll, pitch, yaw [rad] (..., 3) of R; pitch within a quarter turn."""
     r = np.asarray(rotation, dtype=float)
     pitch = np.arctan2(-r[..., 2, 0], np.hypot(r[..., 0, 0], r[..., 1, 0]))
@@ -34,7 +34,7 @@ def roll_pitch_yaw(rotation: ArrayLike) -> FloatArray:
     return np.stack([roll, pitch, yaw], axis=-1)
 
 
-def cross_matrix(vector: ArrayLike) -> FloatArray:
+def cross_matrix(vector: ArrayLike) -> Array:
     """Return S (..., 3, 3) with ``S @ b = vector x b``."""
     v = np.asarray(vector, dtype=float)
     out = np.zeros((*v.shape[:-1], 3, 3))
@@ -44,7 +44,7 @@ def cross_matrix(vector: ArrayLike) -> FloatArray:
     return out
 
 
-def rotation_from_vector(vector: ArrayLike) -> FloatArray:
+def rotation_from_vector(vector: ArrayLike) -> Array:
     """Return R (..., 3, 3) of a rotation by ``|vector|`` [rad] about ``vector`` (Rodrigues)."""
     v = np.asarray(vector, dtype=float)
     angle = np.linalg.norm(v, axis=-1)[..., None, None]
@@ -53,7 +53,7 @@ def rotation_from_vector(vector: ArrayLike) -> FloatArray:
     return np.eye(3) + np.sinc(angle / np.pi) * s + 0.5 * half**2 * (s @ s)
 
 
-def spin_of_angle_rates(angles: ArrayLike) -> FloatArray:
+def spin_of_angle_rates(angles: ArrayLike) -> Array:
     """Return B (..., 3, 3): a change d of (roll, pitch, yaw) turns the body by the vector ``B @ d``, site axes."""
     angles = np.asarray(angles, dtype=float)
     cp, cy = np.cos(angles[..., 1]), np.cos(angles[..., 2])

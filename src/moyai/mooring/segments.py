@@ -12,11 +12,10 @@ of the clump at its upper end [N] (negative: buoy; not used for the last segment
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numba import njit
 
+from moyai.core.arrays import Array, IntArray
 from moyai.mooring.kernels import (
     BELOW_BED,
     GROUNDED,
@@ -33,15 +32,12 @@ from moyai.mooring.kernels import (
     UNREACHABLE,
 )
 
-if TYPE_CHECKING:
-    from moyai.mooring.catenary import FloatArray, IntArray
-
 _NEUTRAL = 1e-6  # share of the mean weight given to neutrally buoyant segments of slack lines
 _X, _Z, _F11, _F12, _F21, _F22, _GROUND, _H_ANCHOR, _V_ANCHOR, _V_FAIRLEAD, _LOWEST = range(11)
 
 
 @njit(cache=True, error_model="numpy")
-def hanging_piece(h: float, v: float, w: float, axial: float, s: float, out: FloatArray) -> None:
+def hanging_piece(h: float, v: float, w: float, axial: float, s: float, out: Array) -> None:
     """Write (dx, dz, f11, f12, f22, lowest) of a piece of unstretched length s with vertical force v at its lower end.
 
     ``lowest`` is the height of its lowest inner point relative to its lower end (0 when it is an end).
@@ -99,9 +95,7 @@ def hanging_piece(h: float, v: float, w: float, axial: float, s: float, out: Flo
 
 
 @njit(cache=True, error_model="numpy")
-def walk(
-    h: float, q: float, data: FloatArray, bed: bool, friction: float, state: FloatArray, piece: FloatArray
-) -> None:
+def walk(h: float, q: float, data: Array, bed: bool, friction: float, state: Array, piece: Array) -> None:
     """Walk from anchor to fairlead at (H, q) and write position, flexibility and ends into ``state``."""
     n = data.shape[0]
     for i in range(state.size):
@@ -172,9 +166,9 @@ def _add_bed(
     rest: float,
     partial_clump: bool,
     v: float,
-    data: FloatArray,
+    data: Array,
     friction: float,
-    state: FloatArray,
+    state: Array,
 ) -> None:
     """Add the part on the bed, from the touchdown down to the anchor, with friction ``[eq:mooring-friction]``."""
     tension = h
@@ -235,11 +229,11 @@ def _match_height(
     scale: float,
     span: float,
     accuracy: float,
-    data: FloatArray,
+    data: Array,
     bed: bool,
     friction: float,
-    state: FloatArray,
-    piece: FloatArray,
+    state: Array,
+    piece: Array,
 ) -> float:
     """Return q that puts the fairlead at height z for a given H; ``floor`` is the lowest q allowed."""
     low = floor
@@ -278,15 +272,15 @@ def _match_height(
 def _quick(
     x: float,
     z: float,
-    data: FloatArray,
+    data: Array,
     bed: bool,
     friction: float,
     start: float,
     floor: float,
     scale: float,
     span: float,
-    state: FloatArray,
-    piece: FloatArray,
+    state: Array,
+    piece: Array,
 ) -> tuple[float, float, float, bool]:
     """Newton in both unknowns from a guess of H; gives up at the first sign of trouble. (H, q, residual, success)."""
     h = start
@@ -316,12 +310,12 @@ def _quick(
 def solve_segments(
     x: float,
     z: float,
-    data: FloatArray,
+    data: Array,
     bed: bool,
     friction: float,
     start: float,
-    state: FloatArray,
-    piece: FloatArray,
+    state: Array,
+    piece: Array,
 ) -> tuple[float, float, float, int]:
     """Solve one line of several segments; returns (H, q, residual over length, regime), the rest is left in ``state``.
 
@@ -412,7 +406,7 @@ def solve_segments(
 
 
 @njit(cache=True, error_model="numpy")
-def _vertical_flexibility(q: float, data: FloatArray, state: FloatArray) -> None:
+def _vertical_flexibility(q: float, data: Array, state: Array) -> None:
     """Transverse flexibility of a stretched vertical line (H = 0): the sum of the integrals of 1/T and 1/EA."""
     total = 0.0
     v = q
@@ -433,7 +427,7 @@ def _vertical_flexibility(q: float, data: FloatArray, state: FloatArray) -> None
 
 @njit(cache=True, error_model="numpy")
 def _weightless(
-    x: float, z: float, chord: float, span: float, data: FloatArray, state: FloatArray
+    x: float, z: float, chord: float, span: float, data: Array, state: Array
 ) -> tuple[float, float, float, int]:
     """Line without any weight: straight elastic bars in series, or nothing."""
     for i in range(state.size):
@@ -465,13 +459,13 @@ def _weightless(
 
 @njit(cache=True, error_model="numpy")
 def solve_segments_batch(
-    x: FloatArray,
-    z: FloatArray,
-    data: FloatArray,
+    x: Array,
+    z: Array,
+    data: Array,
     clearance: float,
     friction: float,
-    start: FloatArray,
-    out: FloatArray,
+    start: Array,
+    out: Array,
     regime: IntArray,
 ) -> None:
     """Solve one line at many fairlead positions; ``out`` (n, 11): as :func:`kernels.solve_single`, then q."""

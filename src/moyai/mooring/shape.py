@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.mooring import kernels
-from moyai.mooring.catenary import FloatArray
 from moyai.mooring.lines import Line, LineElement
 
 
@@ -28,14 +28,14 @@ class LineShape:
         Distance from the anchor and height above it in the line's own vertical plane [m].
     """
 
-    points: FloatArray
-    arc_length: FloatArray
-    tension: FloatArray
-    horizontal: FloatArray
-    height: FloatArray
+    points: Array
+    arc_length: Array
+    tension: Array
+    horizontal: Array
+    height: Array
 
 
-def _hanging(h: float, v: float, w: float, axial: float, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _hanging(h: float, v: float, w: float, axial: float, s: Array) -> tuple[Array, Array, Array]:
     """Return (dx, dz, tension) at unstretched lengths s above a point with vertical force v ``[eq:mooring-piece]``."""
     sign = 1.0 if w >= 0.0 else -1.0
     low = sign * v
@@ -55,7 +55,7 @@ def _hanging(h: float, v: float, w: float, axial: float, s: FloatArray) -> tuple
 
 
 def _on_bed(
-    h: float, v0: float, rows: FloatArray, ground: float, friction: float
+    h: float, v0: float, rows: Array, ground: float, friction: float
 ) -> list[tuple[float, float, float, float]]:
     """Split the bed part into (length, EA, tension at its lower end, rise of tension per length), from the anchor."""
     parts = []
@@ -161,7 +161,7 @@ def line_shape(line: Line, fairlead: ArrayLike, water_depth: float, points: int 
     return _place(line, span, reach, *columns)
 
 
-def _vertical_at_touchdown(solution: FloatArray, rows: FloatArray, ground: float) -> float:
+def _vertical_at_touchdown(solution: Array, rows: Array, ground: float) -> float:
     """Return the vertical force just above the touchdown: zero, or the lifted share of a clump standing on the bed."""
     ends = np.cumsum(rows[:, 0])
     at_clump = np.flatnonzero(np.isclose(ends[:-1], ground, rtol=1e-11, atol=0.0))
@@ -172,9 +172,7 @@ def _vertical_at_touchdown(solution: FloatArray, rows: FloatArray, ground: float
     return max(float(solution[1]) - above, 0.0)
 
 
-def _place(
-    line: Line, span: FloatArray, reach: float, s: FloatArray, x: FloatArray, z: FloatArray, tension: FloatArray
-) -> LineShape:
+def _place(line: Line, span: Array, reach: float, s: Array, x: Array, z: Array, tension: Array) -> LineShape:
     direction = span[:2] / reach if reach > 0.0 else np.array([1.0, 0.0])
     points = np.column_stack([x * direction[0], x * direction[1], z]) + np.asarray(line.anchor)
     return LineShape(points=points, arc_length=s, tension=tension, horizontal=x, height=z)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
-from moyai.mooring.catenary import FloatArray
 from moyai.mooring.lines import LineElement, LineState, Vector
 from moyai.mooring.rotations import cross_matrix, rotation_matrix, spin_of_angle_rates
 
@@ -44,11 +44,11 @@ class RestoringCurve:
         Tangent stiffness at every offset.
     """
 
-    offsets: FloatArray
-    direction: FloatArray
-    force: FloatArray
-    tension: FloatArray
-    stiffness: FloatArray
+    offsets: Array
+    direction: Array
+    force: Array
+    tension: Array
+    stiffness: Array
 
 
 @dataclass(frozen=True)
@@ -71,10 +71,10 @@ class Equilibrium:
         Newton steps.
     """
 
-    position: FloatArray
-    line_force: FloatArray
-    tension: FloatArray
-    stiffness: FloatArray
+    position: Array
+    line_force: Array
+    tension: Array
+    stiffness: Array
     residual: float
     iterations: int
 
@@ -122,7 +122,7 @@ class LineSystem:
         """Names of the lines, in the order of every ``tension`` array."""
         return tuple(line.name for line in self.lines)
 
-    def fairleads(self, position: ArrayLike) -> FloatArray:
+    def fairleads(self, position: ArrayLike) -> Array:
         """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6)."""
         position = _positions(position)
         rotation = rotation_matrix(position[..., 3:])
@@ -133,7 +133,7 @@ class LineSystem:
         points = self.fairleads(np.atleast_2d(_positions(position)))
         return {line.name: line.solve(points[:, i], self.water_depth) for i, line in enumerate(self.lines)}
 
-    def forces(self, position: ArrayLike, about: Vector = (0.0, 0.0, 0.0)) -> FloatArray:
+    def forces(self, position: ArrayLike, about: Vector = (0.0, 0.0, 0.0)) -> Array:
         """Return force and moment (..., 6) [N, N m] of all lines on the body.
 
         Parameters
@@ -146,7 +146,7 @@ class LineSystem:
         position = _positions(position)
         return self._assemble(position.reshape(-1, 6), about, False)[0].reshape(position.shape)
 
-    def tensions(self, position: ArrayLike) -> FloatArray:
+    def tensions(self, position: ArrayLike) -> Array:
         """Return fairlead tensions (..., lines) [N] of one copy of every line."""
         position = _positions(position)
         states = self.states(position.reshape(-1, 6)).values()
@@ -154,7 +154,7 @@ class LineSystem:
         shape = (*position.shape[:-1], len(self.lines))
         return np.stack(columns, axis=-1).reshape(shape) if columns else np.zeros(shape)
 
-    def stiffness(self, position: ArrayLike, about: Vector = (0.0, 0.0, 0.0)) -> FloatArray:
+    def stiffness(self, position: ArrayLike, about: Vector = (0.0, 0.0, 0.0)) -> Array:
         """Return the tangent stiffness (..., 6, 6) about any position ``[eq:mooring-stiffness]``.
 
         Minus the derivative of force and moment about ``about`` with respect to the displacement of that point and a
@@ -214,10 +214,10 @@ class LineSystem:
         evaluate = self.evaluator()
         rest = evaluate(np.zeros(6))[0] if subtract_rest_force else np.zeros(6)
 
-        def imbalance(position: FloatArray) -> FloatArray:
+        def imbalance(position: Array) -> Array:
             return evaluate(position)[0] - rest + load - hydrostatic @ position
 
-        def jacobian(position: FloatArray) -> FloatArray:
+        def jacobian(position: Array) -> Array:
             spin = np.eye(6)
             spin[3:, 3:] = spin_of_angle_rates(position[3:])
             return -evaluate(position)[1] @ spin - hydrostatic
@@ -229,11 +229,11 @@ class LineSystem:
         force, stiffness = evaluate(position)
         return Equilibrium(position, force, self.tensions(position), stiffness, residual, steps)
 
-    def evaluator(self) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
+    def evaluator(self) -> Callable[[Array], tuple[Array, Array]]:
         """Return a function of one position (6,) giving force (6,) and stiffness (6, 6) together; it keeps the last."""
-        last: dict[bytes, tuple[FloatArray, FloatArray]] = {}
+        last: dict[bytes, tuple[Array, Array]] = {}
 
-        def evaluate(position: FloatArray) -> tuple[FloatArray, FloatArray]:
+        def evaluate(position: Array) -> tuple[Array, Array]:
             key = position.tobytes()
             if key not in last:
                 # where an inextensible line cannot reach, its force is infinite: a search turns back there
@@ -252,11 +252,11 @@ class LineSystem:
         return PlanarLineSystem(self)
 
     @cached_property
-    def _arms(self) -> FloatArray:
+    def _arms(self) -> Array:
         """Fairleads in body axes (lines, 3)."""
         return np.array([line.fairlead for line in self.lines], dtype=float).reshape(-1, 3)
 
-    def _assemble(self, flat: FloatArray, about: Vector, tangent: bool) -> tuple[FloatArray, FloatArray]:
+    def _assemble(self, flat: Array, about: Vector, tangent: bool) -> tuple[Array, Array]:
         """Return force (n, 6) and, where asked for, tangent stiffness (n, 6, 6)."""
         rotation = rotation_matrix(flat[:, 3:])
         force, stiffness = np.zeros((len(flat), 6)), np.zeros((len(flat), 6, 6))
@@ -275,7 +275,7 @@ class LineSystem:
                 stiffness[:, 3:, 3:] -= cross_matrix(state.force) @ lever + shifted @ lever
         return force, stiffness
 
-    def _load_scale(self, start: FloatArray, load: FloatArray) -> FloatArray:
+    def _load_scale(self, start: Array, load: Array) -> Array:
         """Return the largest force and moment taking part, for judging an imbalance (6,)."""
         force = max(float(np.sum(self.tensions(start))), float(np.max(np.abs(load[:3]))), 1e-12)
         arm = max((float(np.linalg.norm(line.fairlead)) for line in self.lines), default=1.0) or 1.0
@@ -284,14 +284,14 @@ class LineSystem:
 
 
 def newton_with_line_search(
-    imbalance: Callable[[FloatArray], FloatArray],
-    jacobian: Callable[[FloatArray], FloatArray],
-    start: FloatArray,
-    scale: FloatArray,
+    imbalance: Callable[[Array], Array],
+    jacobian: Callable[[Array], Array],
+    start: Array,
+    scale: Array,
     free: list[int],
     tolerance: float,
     most: int = 100,
-) -> tuple[FloatArray, float, int]:
+) -> tuple[Array, float, int]:
     """Solve ``imbalance(position) = 0`` in the ``free`` components by damped Newton steps.
 
     Steps follow the Jacobian, are shortened until the scaled imbalance falls, and lean to steepest descent
@@ -349,12 +349,12 @@ def newton_with_line_search(
 
 
 def _push_until_held(
-    imbalance: Callable[[FloatArray], FloatArray],
-    position: FloatArray,
+    imbalance: Callable[[Array], Array],
+    position: Array,
     free: list[int],
-    weight: FloatArray,
+    weight: Array,
     norm: float,
-) -> tuple[FloatArray, FloatArray] | None:
+) -> tuple[Array, Array] | None:
     """Move the body with the imbalance, through slack lines that feel nothing, until something pulls back.
 
     Returns a position of smaller imbalance and that imbalance (scaled), or None when nothing ever holds the body.
@@ -362,7 +362,7 @@ def _push_until_held(
     scaled = imbalance(position)[free] * weight
     way = scaled * weight / float(np.max(weight))
 
-    def at(length: float) -> tuple[FloatArray, FloatArray]:
+    def at(length: float) -> tuple[Array, Array]:
         trial = position.copy()
         trial[free] += length * way
         return trial, imbalance(trial)[free] * weight
@@ -389,7 +389,7 @@ def _push_until_held(
     return None
 
 
-def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> FloatArray:
+def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> Array:
     """Return a direction given by name or by components."""
     if isinstance(direction, str):
         if direction not in names:
@@ -401,7 +401,7 @@ def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> FloatA
     return vector
 
 
-def _positions(position: ArrayLike) -> FloatArray:
+def _positions(position: ArrayLike) -> Array:
     array = np.asarray(position, dtype=float)
     if array.shape[-1:] != (6,):
         raise InputError(f"shape {array.shape}", path="position", allowed="last axis of 6: x, y, z, roll, pitch, yaw")

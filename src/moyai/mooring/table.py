@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.mooring import planar_kernel as pk
-from moyai.mooring.catenary import FloatArray, IntArray
 from moyai.mooring.lines import Line, SpringLine
 from moyai.mooring.system import LineSystem
 
@@ -51,7 +51,7 @@ class TabulatedForce:
     vertical_range: tuple[float, float]
     tolerance: float
     measured_error: float
-    nodes: FloatArray = field(repr=False)
+    nodes: Array = field(repr=False)
     lookup: IntArray = field(repr=False)
     index: IntArray = field(repr=False)
 
@@ -60,7 +60,7 @@ class TabulatedForce:
         """Number of nodes along xi and Z."""
         return int(self.index[1]), int(self.index[2])
 
-    def evaluate(self, horizontal: ArrayLike, vertical: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def evaluate(self, horizontal: ArrayLike, vertical: ArrayLike) -> tuple[Array, Array]:
         """Return H and V [N] at distances [m]; NaN outside the window."""
         x, z = np.broadcast_arrays(np.asarray(horizontal, dtype=float), np.asarray(vertical, dtype=float))
         out = np.empty((x.size, 2))
@@ -68,19 +68,19 @@ class TabulatedForce:
         return out[:, 0].reshape(x.shape), out[:, 1].reshape(x.shape)
 
 
-def _exact(line: Line, depth: float, x: FloatArray, z: FloatArray) -> FloatArray:
+def _exact(line: Line, depth: float, x: Array, z: Array) -> Array:
     """Return (..., 6): H, V, dH/dX, dH/dZ, dV/dX, dV/dZ."""
     out, _ = line.solve_plane(x.ravel(), z.ravel(), depth)
     return out[:, [0, 1, 5, 6, 7, 8]].reshape(*x.shape, 6)
 
 
-def _lift_off_distance(line: Line, depth: float, z: FloatArray) -> FloatArray | None:
+def _lift_off_distance(line: Line, depth: float, z: Array) -> Array | None:
     """Return the distance at which the line lifts off its anchor for every height, or None where it never does."""
     if line.bed_clearance(depth) != 0.0:
         return None
     low, high = np.zeros_like(z), np.full_like(z, 2.0 * line.length)
 
-    def lifted(x: FloatArray) -> NDArray[np.bool_]:
+    def lifted(x: Array) -> NDArray[np.bool_]:
         out, _ = line.solve_plane(x, z, depth)
         return out[:, 10] > 0.0
 
@@ -94,7 +94,7 @@ def _lift_off_distance(line: Line, depth: float, z: FloatArray) -> FloatArray | 
     return 0.5 * (low + high)
 
 
-def _bins(nodes: FloatArray) -> IntArray:
+def _bins(nodes: Array) -> IntArray:
     """Return the cell that holds the lower edge of every uniform bin."""
     edges = nodes[0] + (nodes[-1] - nodes[0]) * np.arange(_BINS) / _BINS
     return np.clip(np.searchsorted(nodes, edges, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
@@ -106,12 +106,12 @@ class _Grid:
 
     line: Line
     depth: float
-    xi: FloatArray
-    z: FloatArray
-    reference: FloatArray
-    slope: FloatArray
+    xi: Array
+    z: Array
+    reference: Array
+    slope: Array
 
-    def reference_at(self, z: FloatArray) -> FloatArray:
+    def reference_at(self, z: Array) -> Array:
         """Interpolate the reference distance as the compiled table does."""
         j = np.clip(np.searchsorted(self.z, z, side="right") - 1, 0, len(self.z) - 2)
         dz = self.z[j + 1] - self.z[j]
@@ -120,7 +120,7 @@ class _Grid:
         ends = u * u * (1 + 2 * t) * self.reference[j] + t * t * (3 - 2 * t) * self.reference[j + 1]
         return ends + t * u * u * dz * self.slope[j] - t * t * u * dz * self.slope[j + 1]
 
-    def node_values(self) -> FloatArray:
+    def node_values(self) -> Array:
         """Return (xi, z, 8): H and V with their slopes and mixed derivative over (xi, Z)."""
         x = self.xi[:, None] + self.reference
         z = np.broadcast_to(self.z, x.shape)
@@ -140,7 +140,7 @@ class _Grid:
             out[..., block + 3] = mixed[..., by_x]
         return out
 
-    def packed(self) -> tuple[FloatArray, IntArray, IntArray]:
+    def packed(self) -> tuple[Array, IntArray, IntArray]:
         """Return nodes, lookup and index for the compiled table."""
         nodes = np.concatenate([self.xi, self.z, self.reference, self.slope, self.node_values().ravel()])
         lookup = np.concatenate([_bins(self.xi), _bins(self.z)])
@@ -148,7 +148,7 @@ class _Grid:
         return nodes, lookup, index
 
 
-def _grid(line: Line, depth: float, xi: FloatArray, z: FloatArray, aligned: bool) -> _Grid:
+def _grid(line: Line, depth: float, xi: Array, z: Array, aligned: bool) -> _Grid:
     from scipy.interpolate import CubicSpline
 
     reference = _lift_off_distance(line, depth, z) if aligned else None
@@ -157,7 +157,7 @@ def _grid(line: Line, depth: float, xi: FloatArray, z: FloatArray, aligned: bool
     return _Grid(line, depth, xi, z, reference, CubicSpline(z, reference)(z, 1))
 
 
-def _errors(grid: _Grid, x: FloatArray, z: FloatArray) -> FloatArray:
+def _errors(grid: _Grid, x: Array, z: Array) -> Array:
     """Return the relative error of the table at points of any shape."""
     nodes, lookup, index = grid.packed()
     out = np.empty((x.size, 2))
@@ -266,14 +266,14 @@ class CompiledLines:
         The table of every line, None where the exact solver serves.
     """
 
-    parameters: FloatArray
+    parameters: Array
     index: IntArray
-    nodes: FloatArray
+    nodes: Array
     lookup: IntArray
     tables: tuple[TabulatedForce | None, ...]
 
     @property
-    def arguments(self) -> tuple[FloatArray, IntArray, FloatArray, IntArray]:
+    def arguments(self) -> tuple[Array, IntArray, Array, IntArray]:
         """``(parameters, index, nodes, lookup)``."""
         return self.parameters, self.index, self.nodes, self.lookup
 
@@ -282,7 +282,7 @@ class CompiledLines:
         """Largest measured error of the tables; 0 when all lines are exact."""
         return max((table.measured_error for table in self.tables if table is not None), default=0.0)
 
-    def forces(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def forces(self, position: ArrayLike) -> tuple[Array, Array]:
         """Return force (..., 3) on the body and tensions (..., lines) for planar positions (..., 3)."""
         array = np.asarray(position, dtype=float)
         flat = np.ascontiguousarray(array.reshape(-1, 3))
@@ -318,7 +318,7 @@ def compile_lines(
         raise InputError("tables need both a motion range and a tolerance", path="tolerance")
     parameters = np.zeros((len(system.lines), 16))
     index = np.full((len(system.lines), 8), -1, dtype=np.int64)
-    nodes: list[FloatArray] = [np.zeros(1)]
+    nodes: list[Array] = [np.zeros(1)]
     lookups: list[IntArray] = [np.zeros(1, dtype=np.int64)]
     tables: list[TabulatedForce | None] = []
     for i, line in enumerate(system.lines):

@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.morison.orbits import orbit_amplitudes, orbit_product
 
-Array = NDArray[np.float64]
 Purpose = Literal["extreme", "response"]
 Start = Literal["settled", "calm"]
 

@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.morison.planar import hall_limit, stokes_wang_drag, stokes_wang_inertia
 from moyai.morison.sections import MemberSection
 from moyai.tables.member_drag import DragEntry, api_circle, steady_circle, steady_rectangle
-
-Array = NDArray[np.float64]
 
 #: Laws of the drag coefficient by name: what they are for
 DRAG_LAWS: dict[str, str] = {

@@ -13,10 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Distances below this share of the size count as touching
 _TOUCH = 1e-9
@@ -41,8 +39,8 @@ class Contour:
         contour that meets itself.
     """
 
-    vertices: FloatArray
-    bulges: FloatArray | None = None
+    vertices: Array
+    bulges: Array | None = None
 
     def __post_init__(self) -> None:
         vertices = np.array(self.vertices, dtype=float)
@@ -95,25 +93,25 @@ class Contour:
         return np.asarray(self.vertices[:, 0] + 1j * self.vertices[:, 1])
 
     @property
-    def sweeps(self) -> FloatArray:
+    def sweeps(self) -> Array:
         """Angle by which each edge turns [rad]."""
         return np.asarray(4.0 * np.arctan(np.asarray(self.bulges)))
 
-    def positions(self, edge: NDArray[np.int64], t: FloatArray) -> ComplexArray:
+    def positions(self, edge: NDArray[np.int64], t: Array) -> ComplexArray:
         """Return points on edges at fractions of their length."""
         start, end = self.corners[edge], np.roll(self.corners, -1)[edge]
         half = 0.5 * self.sweeps[edge]
         ratio = t * np.sinc(half * t / np.pi) / np.sinc(half / np.pi)
         return np.asarray(start + (end - start) * ratio * np.exp(1j * half * (t - 1.0)))
 
-    def slopes(self, edge: NDArray[np.int64], t: FloatArray) -> ComplexArray:
+    def slopes(self, edge: NDArray[np.int64], t: Array) -> ComplexArray:
         """Return the derivative of :meth:`positions` with respect to ``t``."""
         start, end = self.corners[edge], np.roll(self.corners, -1)[edge]
         half = 0.5 * self.sweeps[edge]
         return np.asarray((end - start) / np.sinc(half / np.pi) * np.exp(1j * half * (2.0 * t - 1.0)))
 
     @cached_property
-    def lengths(self) -> FloatArray:
+    def lengths(self) -> Array:
         """Length of each edge [m]."""
         edge = np.arange(len(self.vertices))
         return np.asarray(np.abs(self.slopes(edge, np.zeros(edge.size))))
@@ -167,7 +165,7 @@ class Contour:
         return Contour(self.vertices @ np.array([[c, s], [-s, c]]), self.bulges)
 
 
-def _area(vertices: FloatArray, bulges: FloatArray) -> float:
+def _area(vertices: Array, bulges: Array) -> float:
     corners = vertices[:, 0] + 1j * vertices[:, 1]
     following = np.roll(corners, -1)
     triangles = 0.5 * np.sum((np.conj(corners - corners[0]) * (following - corners[0])).imag)
@@ -181,7 +179,7 @@ def _area(vertices: FloatArray, bulges: FloatArray) -> float:
 def _segments_meet(a: complex, b: complex, c: ComplexArray, d: ComplexArray, tolerance: float) -> NDArray[np.bool_]:
     """Whether the segment a-b meets each of the segments c-d, touching included."""
 
-    def side(p: complex | ComplexArray, q: complex | ComplexArray, r: complex | ComplexArray) -> FloatArray:
+    def side(p: complex | ComplexArray, q: complex | ComplexArray, r: complex | ComplexArray) -> Array:
         span = np.asarray(q) - np.asarray(p)
         return np.asarray((np.conj(span) * (np.asarray(r) - np.asarray(p))).imag / np.abs(span))
 

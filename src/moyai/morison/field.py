@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-Array = NDArray[np.float64]
 
 
 def circle_velocity(points: ArrayLike, radius: float, stream: ArrayLike, circulation: float) -> Array:

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.kinematics import Stretching, stretching_code, wheeler_elevation
 from moyai.sea.nonlinear import NonlinearWave
-
-Array = NDArray[np.float64]
 
 #: Nodes of the interpolation over the heights that Wheeler's stretching reaches at one point
 _WHEELER_NODES = 14

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.options import checks_words
 from moyai.morison.circulation import magnus_force
 
-Array = NDArray[np.float64]
 DragForm = Literal["component", "vector"]
 
 

@@ -14,9 +14,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError
 from moyai.core.validity import IdentityCheck
-from moyai.morison.contour import ComplexArray, Contour, FloatArray
+from moyai.morison.contour import Contour
 
 #: Unknowns that a matrix may have; beyond it panels are coarsened
 _MOST_UNKNOWNS = 3000
@@ -40,12 +41,12 @@ class InertiaCoefficients:
         Symmetry of the tensor, which the computation does not impose.
     """
 
-    tensor: FloatArray
+    tensor: Array
     error: float
     checks: tuple[IdentityCheck, ...]
 
     @property
-    def added_mass(self) -> FloatArray:
+    def added_mass(self) -> Array:
         """Added mass over displaced mass, C_M - I."""
         return np.asarray(self.tensor - np.eye(2))
 
@@ -147,7 +148,7 @@ def _resolution(contour: Contour, accuracy: float) -> tuple[NDArray[np.int64], i
         aim *= 4.0
 
 
-def _panels(contour: Contour, levels: NDArray[np.int64]) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
+def _panels(contour: Contour, levels: NDArray[np.int64]) -> tuple[NDArray[np.int64], Array, Array]:
     """Return edge, start and end fraction of every panel: halved towards corners, arcs further where needed."""
     count = len(contour.vertices)
     edges: list[int] = []
@@ -173,9 +174,7 @@ def _panels(contour: Contour, levels: NDArray[np.int64]) -> tuple[NDArray[np.int
     return edge_of, start, end
 
 
-def _arcs_too_long(
-    contour: Contour, edge_of: NDArray[np.int64], start: FloatArray, end: FloatArray
-) -> NDArray[np.bool_]:
+def _arcs_too_long(contour: Contour, edge_of: NDArray[np.int64], start: Array, end: Array) -> NDArray[np.bool_]:
     """Tell which panels of arcs turn too far or lie too close to another edge for Gauss's rule."""
     split = np.abs(contour.sweeps[edge_of]) * (end - start) > 1.6
     arcs = np.flatnonzero(np.abs(contour.sweeps[edge_of]) > 1e-12)
@@ -198,8 +197,8 @@ def _arcs_too_long(
 
 
 def _near_rows(
-    contour: Contour, edge: NDArray[np.int64], start: FloatArray, end: FloatArray, z: ComplexArray, order: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray]:
+    contour: Contour, edge: NDArray[np.int64], start: Array, end: Array, z: ComplexArray, order: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
     """Return target, panel and what to add to Gauss's weights for panels that lie close to points of other edges.
 
     The density is a Legendre series on the panel, and its Cauchy integral a sum of Legendre functions of the second
@@ -226,7 +225,7 @@ def _near_rows(
     return target, panel, total / (2.0 * math.pi)
 
 
-def _solve(contour: Contour, levels: NDArray[np.int64], order: int) -> FloatArray:
+def _solve(contour: Contour, levels: NDArray[np.int64], order: int) -> Array:
     """Solve the stream function of both streams [eq:morison-inertia-integral] and return the tensor."""
     edge, start, end = _panels(contour, levels)
     nodes, weights = np.polynomial.legendre.leggauss(order)

@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.morison.nets import Net
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

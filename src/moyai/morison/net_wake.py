@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
-
-Array = NDArray[np.float64]
 
 
 def loland_wake(law: NetLaw, net: Net, angle: ArrayLike, speed: ArrayLike, viscosity: float) -> Array:

@@ -7,9 +7,9 @@ known without averaging [eq:morison-orbit].
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 
 def orbit_product(velocity: ArrayLike, acceleration: ArrayLike, omega: ArrayLike) -> Array:

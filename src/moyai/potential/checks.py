@@ -9,9 +9,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.potential.edges import FloatArray, arc_slope, as_complex
+from moyai.potential.edges import arc_slope, as_complex
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Modes
 from moyai.potential.plates import WettedPlate
@@ -22,7 +23,7 @@ from moyai.sea.water import Water
 _LEAST_ANGLE = 0.5
 
 
-def check_frequencies(omega: ArrayLike) -> FloatArray:
+def check_frequencies(omega: ArrayLike) -> Array:
     """Return the frequencies as an array.
 
     Raises
@@ -44,7 +45,7 @@ def check_frequencies(omega: ArrayLike) -> FloatArray:
     return values
 
 
-def check_headings(heading: ArrayLike) -> FloatArray:
+def check_headings(heading: ArrayLike) -> Array:
     """Return the headings [rad] as an array.
 
     Raises
@@ -137,7 +138,7 @@ def _check_waterline(plate: WettedPlate, name: str) -> None:
             )
 
 
-def gap_notices(section: Section, water: Water, omega: FloatArray, lid: float) -> tuple[Notice, ...]:
+def gap_notices(section: Section, water: Water, omega: Array, lid: float) -> tuple[Notice, ...]:
     """Warn of the piston resonance in every gap between waterlines [eq:potential-gap-resonance].
 
     The water in a gap of width w between sides of draught d swings like a piston with
@@ -254,14 +255,14 @@ def identity_checks(
     )
 
 
-def _pair_scale(coefficient: FloatArray) -> FloatArray:
+def _pair_scale(coefficient: Array) -> Array:
     """Largest sqrt(C_ii C_jj) of the band; infinite where a mode moves no water."""
     diagonal = np.abs(np.einsum("wii->wi", coefficient)).max(axis=0)
     diagonal = np.where(diagonal > 0.0, diagonal, np.inf)
     return np.asarray(np.sqrt(np.outer(diagonal, diagonal)))
 
 
-def _force_scale(solution: HeadingSolution) -> FloatArray:
+def _force_scale(solution: HeadingSolution) -> Array:
     """Scale of the force on each mode from what its own motion costs, to tell a zero excitation from a small one."""
     states = solution.states
     inertia = states.omega[:, None] ** 2 * np.abs(np.einsum("wii->wi", solution.added_mass))

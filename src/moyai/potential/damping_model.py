@@ -7,17 +7,16 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline, PPoly, make_interp_spline
 from scipy.special import sici
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.damping_tail import Tail, TailTheory, choose_tail
 from moyai.potential.oscillatory import fourier_integral
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Start = Literal["even", "zero"]
 
 _FEWEST = 8
@@ -43,10 +42,10 @@ class DampingModel:
         Beyond the last frequency.
     """
 
-    knots: FloatArray
-    coefficients: FloatArray
-    over_frequency: FloatArray
-    steady: FloatArray
+    knots: Array
+    coefficients: Array
+    over_frequency: Array
+    steady: Array
     tails: tuple[tuple[Tail, ...], ...]
 
     @property
@@ -54,7 +53,7 @@ class DampingModel:
         """Number of modes."""
         return self.steady.shape[0]
 
-    def damping(self, omega: ArrayLike) -> FloatArray:
+    def damping(self, omega: ArrayLike) -> Array:
         """Return the damping (k, m, m) at any frequencies [rad/s]."""
         x = np.abs(np.atleast_1d(np.asarray(omega, dtype=float)))
         inside = np.minimum(x, self.knots[-1])
@@ -67,7 +66,7 @@ class DampingModel:
                     out[beyond, i, j] = tail.damping(x[beyond])
         return np.asarray(out)
 
-    def velocity_kernel(self, time: ArrayLike) -> FloatArray:
+    def velocity_kernel(self, time: ArrayLike) -> Array:
         """Return K(t) = (2/pi) integral of B cos(omega t), (t, m, m), [eq:memory-velocity-kernel]."""
         t = _times(time)
         out = fourier_integral(self.knots, self.coefficients, t).real
@@ -76,7 +75,7 @@ class DampingModel:
                 out[:, i, j] += tail.cosine(t)
         return 2.0 / np.pi * out
 
-    def acceleration_kernel(self, time: ArrayLike) -> FloatArray:
+    def acceleration_kernel(self, time: ArrayLike) -> Array:
         """Return lambda(t) = (2/pi) integral of B/omega sin(omega t), (t, m, m), [eq:memory-acceleration-kernel]."""
         t = _times(time)
         out = fourier_integral(self.knots, self.over_frequency, t).imag
@@ -86,7 +85,7 @@ class DampingModel:
                 out[:, i, j] += tail.sine_over_frequency(t)
         return 2.0 / np.pi * out
 
-    def added_mass_excess(self, omega: ArrayLike) -> FloatArray:
+    def added_mass_excess(self, omega: ArrayLike) -> Array:
         """Return A(omega) - A(infinity), (k, m, m), from the damping alone, [eq:memory-kramers-kronig].
 
         The principal value is taken by subtracting B(omega), whose own principal value is zero.
@@ -114,7 +113,7 @@ class DampingModel:
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         return np.asarray(self.damping(w) - 1j * w[:, None, None] * self.added_mass_excess(w), dtype=complex)
 
-    def second_derivative(self) -> FloatArray:
+    def second_derivative(self) -> Array:
         """Return -(2/pi) integral of B omega^2 up to the last frequency, (m, m): the curvature of K at its start."""
         half = 0.5 * np.diff(self.knots)
         x = (self.knots[:-1, None] + half[:, None] * (_POINTS + 1.0)).ravel()
@@ -122,7 +121,7 @@ class DampingModel:
         return -2.0 / np.pi * np.einsum("k,kij->ij", weight * x**2, self.damping(x))
 
 
-def _times(time: ArrayLike) -> FloatArray:
+def _times(time: ArrayLike) -> Array:
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if t.ndim != 1 or not np.isfinite(t).all() or (t < 0.0).any():
         raise InputError("time has entries that are negative or not finite", path="time", allowed="at least 0")
@@ -196,7 +195,7 @@ def fit_damping(
     return DampingModel(knots, _pieces(spline, knots), _pieces(quotient, knots), steady, tails)
 
 
-def _spline(w: FloatArray, values: FloatArray, at_zero: FloatArray | None, *, even: bool, sign: float) -> BSpline:
+def _spline(w: Array, values: Array, at_zero: Array | None, *, even: bool, sign: float) -> BSpline:
     """Interpolate; ``even`` mirrors the data with a sign about zero frequency, so that the start is exact."""
     if even:
         middle = [] if at_zero is None else [at_zero[None]]
@@ -209,7 +208,7 @@ def _spline(w: FloatArray, values: FloatArray, at_zero: FloatArray | None, *, ev
     return make_interp_spline(x, y, k=5)
 
 
-def _pieces(spline: BSpline, knots: FloatArray) -> FloatArray:
+def _pieces(spline: BSpline, knots: Array) -> Array:
     """Local powers of a spline on every interval; its own knots lie among them or where it is smooth."""
     out = np.empty((6, len(knots) - 1, *spline.c.shape[1:]))
     factor = 1.0

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.potential.oscillatory import power_tail
 from moyai.sea.water import Water
 
-FloatArray = NDArray[np.float64]
 TailKind = Literal["zero", "negligible", "theory", "series", "power"]
 
 #: Share of the largest damping below which a coefficient at the last frequency needs no tail
@@ -44,7 +44,7 @@ class Tail:
     coefficients: tuple[float, ...]
     reason: str
 
-    def damping(self, omega: ArrayLike) -> FloatArray:
+    def damping(self, omega: ArrayLike) -> Array:
         """Return the damping at frequencies beyond ``start``."""
         ratio = self.start / np.asarray(omega, dtype=float)
         out = np.zeros(ratio.shape)
@@ -52,14 +52,14 @@ class Tail:
             out += coefficient * ratio**exponent
         return out
 
-    def cosine(self, time: FloatArray) -> FloatArray:
+    def cosine(self, time: Array) -> Array:
         """Return the integral of damping times cos(omega t) beyond ``start``."""
         out = np.zeros(len(time))
         for exponent, coefficient in zip(self.exponents, self.coefficients, strict=True):
             out += coefficient * self.start * power_tail(exponent, self.start * time).real
         return out
 
-    def sine_over_frequency(self, time: FloatArray) -> FloatArray:
+    def sine_over_frequency(self, time: Array) -> Array:
         """Return the integral of damping times sin(omega t)/omega beyond ``start``."""
         out = np.zeros(len(time))
         for exponent, coefficient in zip(self.exponents, self.coefficients, strict=True):
@@ -103,9 +103,7 @@ def wall_sided_tails(water: Water, centre_height: float) -> tuple[TailTheory, ..
     return sway, TailTheory((0, 2), *cross), TailTheory((2, 0), *cross), TailTheory((2, 2), *roll)
 
 
-def choose_tail(
-    omega: FloatArray, damping: FloatArray, slope: float, largest: float, theory: TailTheory | None
-) -> Tail:
+def choose_tail(omega: Array, damping: Array, slope: float, largest: float, theory: TailTheory | None) -> Tail:
     """Decide the tail of one coefficient.
 
     Parameters

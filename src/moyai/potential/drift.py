@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Rigid
 from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule
@@ -36,11 +36,11 @@ class FarFieldDrift:
         1 - |R|^2 - |T|^2.
     """
 
-    horizontal: FloatArray
-    along_crest: FloatArray
+    horizontal: Array
+    along_crest: Array
     reflection: ComplexArray
     transmission: ComplexArray
-    loss: FloatArray
+    loss: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +55,9 @@ class NearFieldDrift:
         About the centre of roll, positive as roll [N m/m per m2].
     """
 
-    horizontal: FloatArray
-    vertical: FloatArray
-    moment: FloatArray
+    horizontal: Array
+    vertical: Array
+    moment: Array
 
 
 def _amplitudes(solution: RadiationDiffraction, motions: ComplexArray | None) -> ComplexArray:
@@ -186,7 +186,7 @@ def mean_drift_near_field(
     through = -1j * omega * shift_n
     crest = (part.states.wave_number * np.sin(heading))[:, None]
 
-    def mean(a: ComplexArray, b: ComplexArray) -> FloatArray:
+    def mean(a: ComplexArray, b: ComplexArray) -> Array:
         return np.asarray(0.5 * (a * np.conj(b)).real)
 
     square = 0.5 * (mean(along, along) + mean(through, through) + crest**2 * mean(potential, potential))
@@ -281,7 +281,7 @@ def _along(body: Panels, potential: ComplexArray) -> ComplexArray:
     return np.asarray((values @ rule.derivative.T).reshape(potential.shape) / np.abs(body.du))
 
 
-def _waterline(body: Panels) -> list[tuple[FloatArray, FloatArray, bool, FloatArray]]:
+def _waterline(body: Panels) -> list[tuple[Array, Array, bool, Array]]:
     """Return (point, unit normal, whether on a plate, weights that give the value there) of every waterline point."""
     rule = gauss_rule(body.order)
     found = []

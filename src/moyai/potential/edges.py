@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from moyai.core.arrays import Array, ComplexArray
 
 # Integrates the moments of an arc (trigonometric polynomials of degree 3 over at most one turn) to rounding
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
@@ -24,20 +23,20 @@ def as_complex(points: ArrayLike) -> ComplexArray:
     return values[..., 0] + 1j * values[..., 1]
 
 
-def as_points(position: ArrayLike) -> FloatArray:
+def as_points(position: ArrayLike) -> Array:
     """Return x + i z as points (..., 2)."""
     values = np.asarray(position, dtype=complex)
     return np.stack([values.real, values.imag], axis=-1)
 
 
-def arc_position(start: ComplexArray, end: ComplexArray, bulge: FloatArray, t: FloatArray | float) -> ComplexArray:
+def arc_position(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Position at the arc-length fraction ``t`` (0..1) of edges with bulge tan(sweep / 4); all broadcast."""
     half_sweep = 2.0 * np.arctan(bulge)
     ratio = t * np.sinc(half_sweep * t / np.pi) / np.sinc(half_sweep / np.pi)
     return start + (end - start) * ratio * np.exp(1j * half_sweep * (t - 1.0))
 
 
-def arc_slope(start: ComplexArray, end: ComplexArray, bulge: FloatArray, t: FloatArray | float) -> ComplexArray:
+def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Derivative of :func:`arc_position` with respect to ``t``; its modulus is the length of the edge."""
     half_sweep = 2.0 * np.arctan(bulge)
     return (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
@@ -55,9 +54,9 @@ class Edges:
         tan(sweep / 4) of each edge: 0 is straight, positive turns counter-clockwise, 1 is a half circle.
     """
 
-    start: FloatArray
-    end: FloatArray
-    bulge: FloatArray
+    start: Array
+    end: Array
+    bulge: Array
 
     def __post_init__(self) -> None:
         for name in ("start", "end", "bulge"):
@@ -69,17 +68,17 @@ class Edges:
         return len(self.bulge)
 
     @property
-    def lengths(self) -> FloatArray:
+    def lengths(self) -> Array:
         """Length of each edge [m]."""
         return np.asarray(np.abs(arc_slope(as_complex(self.start), as_complex(self.end), self.bulge, 0.0)))
 
-    def points(self, t: ArrayLike) -> FloatArray:
+    def points(self, t: ArrayLike) -> Array:
         """Return points (n, m, 2) at the arc-length fractions ``t`` (m,), 0 at the start, 1 at the end of each edge."""
         fractions = np.atleast_1d(np.asarray(t, dtype=float))
         start, end = as_complex(self.start)[:, None], as_complex(self.end)[:, None]
         return as_points(arc_position(start, end, self.bulge[:, None], fractions[None, :]))
 
-    def polyline(self, largest_turn: float = math.radians(2.5)) -> FloatArray:
+    def polyline(self, largest_turn: float = math.radians(2.5)) -> Array:
         """Return points (n, 2) along the run but the last; chords turn at most ``largest_turn`` [rad]."""
         pieces = []
         for start, end, bulge in zip(as_complex(self.start), as_complex(self.end), self.bulge):
@@ -178,7 +177,7 @@ def _level_crossings(start: complex, end: complex, bulge: float) -> list[float]:
     return fractions
 
 
-def polygon_clash(points: FloatArray, tolerance: float) -> tuple[float, float] | None:
+def polygon_clash(points: Array, tolerance: float) -> tuple[float, float] | None:
     """Return a point where a closed polygon crosses, touches or folds back on itself, or None."""
     a = as_complex(points)
     b = np.roll(a, -1)
@@ -203,12 +202,12 @@ def segments_meet(
 ) -> NDArray[np.bool_]:
     """Tell which segments a-b and c-d cross or come closer than ``tolerance`` (arrays broadcast)."""
 
-    def side(p: ComplexArray, q: ComplexArray, r: ComplexArray) -> FloatArray:
+    def side(p: ComplexArray, q: ComplexArray, r: ComplexArray) -> Array:
         return np.asarray(((q - p).conj() * (r - p)).imag)
 
     crossing = (side(a, b, c) * side(a, b, d) < 0.0) & (side(c, d, a) * side(c, d, b) < 0.0)
 
-    def distance(p: ComplexArray, q: ComplexArray, r: ComplexArray) -> FloatArray:
+    def distance(p: ComplexArray, q: ComplexArray, r: ComplexArray) -> Array:
         with np.errstate(invalid="ignore", divide="ignore"):
             t = np.clip(np.nan_to_num(((r - p) / (q - p)).real), 0.0, 1.0)
         return np.asarray(np.abs(p + t * (q - p) - r))
@@ -217,7 +216,7 @@ def segments_meet(
     return np.asarray(crossing | (nearest < tolerance))
 
 
-def inside_polygon(points: FloatArray, polygon: FloatArray) -> NDArray[np.bool_]:
+def inside_polygon(points: Array, polygon: Array) -> NDArray[np.bool_]:
     """Tell which points (n, 2) lie within the closed polygon (m, 2), by the winding of its sides."""
     p = as_complex(points)[:, None]
     a = as_complex(polygon)[None, :]

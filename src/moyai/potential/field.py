@@ -13,8 +13,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule, make_panels
 from moyai.potential.quadrature import add_helmholtz, add_rankine
 from moyai.potential.solution import RadiationDiffraction
@@ -108,7 +108,7 @@ def potential_at(
 
 def _lid_source(
     solution: RadiationDiffraction, index: int, on_surface: ComplexArray, unit: complex
-) -> tuple[FloatArray, ComplexArray]:
+) -> tuple[Array, ComplexArray]:
     """Points of the lid and what it gives there, i eps K phi times the weight."""
     part = solution.normal
     gap = part.surface.kind == GAP
@@ -123,7 +123,7 @@ def _lid_source(
 
 def _between(
     solution: RadiationDiffraction,
-    points: FloatArray,
+    points: Array,
     index: int,
     on_body: ComplexArray,
     flux: ComplexArray,
@@ -166,11 +166,11 @@ def _influence_at(
 
 def _outside(
     solution: RadiationDiffraction,
-    points: FloatArray,
+    points: Array,
     index: int,
     on_body: ComplexArray,
     flux: ComplexArray,
-    lid: tuple[FloatArray, ComplexArray],
+    lid: tuple[Array, ComplexArray],
     side: float,
     limit: float,
 ) -> ComplexArray:
@@ -186,9 +186,7 @@ def _outside(
     weight = fine.weight.real
     distance = side * (points[:, 0] - limit)
 
-    def coefficients(
-        rate_x: ComplexArray, profile: FloatArray, slope: FloatArray, lid_profile: FloatArray
-    ) -> ComplexArray:
+    def coefficients(rate_x: ComplexArray, profile: Array, slope: Array, lid_profile: Array) -> ComplexArray:
         """Integral of phi d(psi)/dn - psi dphi/dn for psi = exp(-rate_x away) profile; modes first."""
         decay = np.exp(-rate_x[:, None] * away[None, :])
         flow = decay * (-rate_x[:, None] * normal[:, 0] * profile + normal[:, 1] * slope)
@@ -214,7 +212,7 @@ def _outside(
         norms = 0.5 * depth * (1.0 + np.sin(2.0 * rates * depth) / (2.0 * rates * depth))
         scale = 1.0 / (2.0 * rates * norms)
 
-        def mode(at: FloatArray) -> tuple[FloatArray, FloatArray]:
+        def mode(at: Array) -> tuple[Array, Array]:
             phase = rates[:, None] * (at[None, :] + depth)
             return np.cos(phase), -rates[:, None] * np.sin(phase)
     else:
@@ -224,7 +222,7 @@ def _outside(
         rates = np.exp(0.5 * (low + high) + 0.5 * (high - low) * nodes)
         scale = 0.5 * (high - low) * weights / (math.pi * (rates**2 + deep**2))
 
-        def mode(at: FloatArray) -> tuple[FloatArray, FloatArray]:
+        def mode(at: Array) -> tuple[Array, Array]:
             m = rates[:, None]
             cosine, sine = np.cos(m * at[None, :]), np.sin(m * at[None, :])
             return m * cosine + deep * sine, m * (deep * cosine - m * sine)

@@ -7,15 +7,14 @@ function, so that it tells whether a memory is right at long times, [eq:memory-d
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline, make_interp_spline
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.potential.damping_model import DampingModel
 from moyai.potential.oscillatory import fourier_integral
 from moyai.potential.state_space import StateSpace
-
-FloatArray = NDArray[np.float64]
 
 _FIFTH = 5
 _ROUNDS = 14
@@ -31,7 +30,7 @@ def decay_by_frequency(
     *,
     points: int = 300,
     tolerance: float = 1e-8,
-) -> FloatArray:
+) -> Array:
     """Return the motion (t, m) by the inverse Fourier transform of the transfer function.
 
     Parameters
@@ -55,7 +54,7 @@ def decay_by_frequency(
     if m.shape != c.shape or m.shape != infinite.shape or x0.shape != m.shape[:1]:
         raise InputError("offset, mass, stiffness and added mass do not belong together", path="mass")
 
-    def density(frequency: FloatArray) -> FloatArray:
+    def density(frequency: Array) -> Array:
         w = frequency[:, None, None]
         impedance = c - w**2 * (m + infinite + model.added_mass_excess(frequency)) + 1j * w * model.damping(frequency)
         right = np.broadcast_to(-(c @ x0)[None, :, None], (len(frequency), len(x0), 1))
@@ -85,7 +84,7 @@ def decay_by_frequency(
     return np.asarray(2.0 / np.pi * fourier_integral(knots, pieces, time).real)
 
 
-def _even_spline(omega: FloatArray, values: FloatArray) -> BSpline:
+def _even_spline(omega: Array, values: Array) -> BSpline:
     """Spline of fifth degree; the data are even in frequency and mirrored, which fixes the start."""
     x = np.concatenate([-omega[::-1], omega])
     return make_interp_spline(x, np.concatenate([values[::-1], values]), k=_FIFTH)
@@ -98,7 +97,7 @@ def decay_by_states(
     stiffness: ArrayLike,
     states: StateSpace,
     infinite_frequency_added_mass: ArrayLike,
-) -> FloatArray:
+) -> Array:
     """Return the motion (t, m) of body and memory states, exact in time by the eigenvectors of the whole system."""
     x0, m, c = (np.asarray(item, dtype=float) for item in (offset, mass, stiffness))
     size, order = len(x0), states.order
@@ -123,10 +122,10 @@ def decay_by_convolution(
     offset: ArrayLike,
     mass: ArrayLike,
     stiffness: ArrayLike,
-    velocity_kernel: FloatArray,
+    velocity_kernel: Array,
     infinite_frequency_added_mass: ArrayLike,
     steady_rest: ArrayLike | None = None,
-) -> FloatArray:
+) -> Array:
     """Return the motion (steps + 1, m) by the trapezoidal rule for body and convolution (second order).
 
     Parameters

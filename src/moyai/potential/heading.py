@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.progress import Progress
-from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.mesh import Layout
 from moyai.potential.modes import Modes
 from moyai.potential.panels import GAP, PLATE, Panels
@@ -23,15 +23,15 @@ from moyai.sea.water import Water
 class WaveStates:
     """Frequencies at one heading: omega, K = omega^2/g, k, k cos(beta) [rad/s, 1/m] and the integral of Z^2 [m]."""
 
-    omega: FloatArray
-    deep_wave_number: FloatArray
-    wave_number: FloatArray
-    along: FloatArray
-    profile: FloatArray
-    group_velocity: FloatArray
+    omega: Array
+    deep_wave_number: Array
+    wave_number: Array
+    along: Array
+    profile: Array
+    group_velocity: Array
 
 
-def wave_states(omega: FloatArray, wave_number: FloatArray, heading: float, water: Water) -> WaveStates:
+def wave_states(omega: Array, wave_number: Array, heading: float, water: Water) -> WaveStates:
     """Collect what the frequencies need at a heading [rad]."""
     deep = omega**2 / water.gravity
     profile = depth_integral(wave_number, water.depth, deep)
@@ -86,16 +86,16 @@ class HeadingSolution:
     states: WaveStates
     body: Panels
     surface: Panels
-    added_mass: FloatArray
-    radiation_damping: FloatArray
-    pressure_damping: FloatArray
+    added_mass: Array
+    radiation_damping: Array
+    pressure_damping: Array
     froude_krylov_force: ComplexArray
     diffraction_force: ComplexArray
     radiated_wave: ComplexArray
     reflection: ComplexArray
     transmission: ComplexArray
-    lid_loss: FloatArray
-    lid_damping: FloatArray
+    lid_loss: Array
+    lid_damping: Array
     radiation: ComplexArray
     radiation_surface: ComplexArray
     scattered: ComplexArray
@@ -134,7 +134,7 @@ class Problem:
     lid: float
     body: Panels
     surface: Panels
-    displacement: FloatArray
+    displacement: Array
 
     @classmethod
     def of(cls, layout: Layout, water: Water, lid: float, modes: Modes) -> Problem:

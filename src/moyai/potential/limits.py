@@ -15,13 +15,13 @@ import math
 
 import numpy as np
 
-from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.core.arrays import Array, ComplexArray
 from moyai.potential.heading import Problem
 from moyai.potential.panels import PLATE, Panels, gauss_rule
 from moyai.potential.quadrature import add_rankine, add_rankine_slopes
 
 
-def limit_added_mass(problem: Problem, waterplane_breadth: float, *, infinite_frequency: bool) -> FloatArray:
+def limit_added_mass(problem: Problem, waterplane_breadth: float, *, infinite_frequency: bool) -> Array:
     """Return the added mass (radiating, influenced) at infinite or zero frequency.
 
     Parameters
@@ -53,7 +53,7 @@ def limit_added_mass(problem: Problem, waterplane_breadth: float, *, infinite_fr
     return np.asarray(mass.T)
 
 
-def _mirrored_influence(body: Panels, depth: float, surface_sign: float) -> tuple[FloatArray, FloatArray]:
+def _mirrored_influence(body: Panels, depth: float, surface_sign: float) -> tuple[Array, Array]:
     """S and D of the wetted boundary with its images in still water and bed."""
     rule = gauss_rule(body.order)
     tables = body.kernel_panels, body.kernel_nodes, (rule.nodes, rule.weights, rule.projection)
@@ -87,7 +87,7 @@ def _mirrored_influence(body: Panels, depth: float, surface_sign: float) -> tupl
     return single, double
 
 
-def _all_images(body: Panels, normal: ComplexArray, depth: float, surface_sign: float) -> tuple[FloatArray, FloatArray]:
+def _all_images(body: Panels, normal: ComplexArray, depth: float, surface_sign: float) -> tuple[Array, Array]:
     """What the endless images add to the three integrated exactly; smooth, so that the Gauss rule suffices."""
     source = body.u[None, :]
     plate = np.flatnonzero(body.kind == PLATE)
@@ -146,7 +146,7 @@ def _second(y: ComplexArray, rest: bool) -> ComplexArray:
     return np.asarray(np.where(near, series, -4.0 * small / (1.0 - small) ** 2 + 1.0 / safe**2))
 
 
-def _log_sinh(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:
+def _log_sinh(y: ComplexArray) -> tuple[Array, ComplexArray]:
     """ln |sinh y| and coth y, without overflow."""
     forward = np.where(y.real >= 0.0, y, -y)
     small = np.exp(-2.0 * forward)
@@ -154,7 +154,7 @@ def _log_sinh(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:
     return value, np.asarray(np.where(y.real >= 0.0, 1.0, -1.0) * (1.0 + small) / (1.0 - small), dtype=np.complex128)
 
 
-def _log_sinh_rest(y: ComplexArray) -> tuple[FloatArray, ComplexArray]:
+def _log_sinh_rest(y: ComplexArray) -> tuple[Array, ComplexArray]:
     """ln |sinh y / y| and coth y - 1/y; both smooth at y = 0."""
     near = np.abs(y) < 0.4
     safe = np.where(near, 1.0, y)

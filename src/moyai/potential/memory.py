@@ -12,8 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck
@@ -21,8 +22,6 @@ from moyai.potential.damping_model import DampingModel, Start, fit_damping
 from moyai.potential.damping_tail import TailTheory
 from moyai.potential.oscillatory import fourier_integral
 from moyai.sea.water import Water
-
-FloatArray = NDArray[np.float64]
 
 _KERNEL_TOLERANCE = 1e-3
 _RELATION_TOLERANCE = 5e-3
@@ -53,16 +52,16 @@ class MemoryFunctions:
         Integral of K against lambda, Kramers-Kronig and Ogilvie relations, resolution of the frequencies.
     """
 
-    time: FloatArray
-    velocity_kernel: FloatArray
-    acceleration_kernel: FloatArray
-    steady_dashpot: FloatArray
-    infinite_frequency_added_mass: FloatArray
+    time: Array
+    velocity_kernel: Array
+    acceleration_kernel: Array
+    steady_dashpot: Array
+    infinite_frequency_added_mass: Array
     model: DampingModel
     checks: tuple[IdentityCheck, ...]
 
     @property
-    def decaying_acceleration_kernel(self) -> FloatArray:
+    def decaying_acceleration_kernel(self) -> Array:
         """Return lambda - D(0): this may be cut off at the end of the memory, lambda itself never."""
         return self.acceleration_kernel - self.steady_dashpot
 
@@ -133,7 +132,7 @@ def memory_functions(
     return MemoryFunctions(t, kernel, integral, model.steady, infinite, model, tuple(checks))
 
 
-def steady_damping(volume_rate: ArrayLike, water: Water) -> FloatArray:
+def steady_damping(volume_rate: ArrayLike, water: Water) -> Array:
     """Return D(0) per metre in two dimensions, rho sqrt(g/h) q_i q_j / 2, [eq:memory-steady] [kg/(m s)].
 
     A slow motion that displaces volume pushes it out to both sides as long waves, whose power does not vanish.
@@ -151,7 +150,7 @@ def steady_damping(volume_rate: ArrayLike, water: Water) -> FloatArray:
     return 0.5 * water.density * math.sqrt(water.gravity / water.depth) * np.outer(q, q)
 
 
-def pair_measure(values: FloatArray) -> FloatArray:
+def pair_measure(values: Array) -> Array:
     """Return the largest magnitudes (m, m) that errors of the entries (n, m, m) are measured against.
 
     An entry (i, j) is measured against the geometric mean of (i, i) and (j, j) where that is larger: a coupling that
@@ -163,7 +162,7 @@ def pair_measure(values: FloatArray) -> FloatArray:
     return np.where(measure > 0.0, measure, 1.0)
 
 
-def _integral_check(model: DampingModel, t: FloatArray, kernel: FloatArray, integral: FloatArray) -> IdentityCheck:
+def _integral_check(model: DampingModel, t: Array, kernel: Array, integral: Array) -> IdentityCheck:
     """Lambda against the integral of K, both quadratures independent, on Gauss points of the time steps."""
     node, weight = np.polynomial.legendre.leggauss(6)
     chosen = np.unique(np.linspace(0, len(t) - 1, min(len(t), 40)).astype(int))
@@ -192,7 +191,7 @@ def _integral_check(model: DampingModel, t: FloatArray, kernel: FloatArray, inte
     )
 
 
-def _resolution_check(w: FloatArray, damping: FloatArray, start: Start) -> IdentityCheck:
+def _resolution_check(w: Array, damping: Array, start: Start) -> IdentityCheck:
     """Damping at every other frequency from the spline through the rest."""
     return IdentityCheck(
         "frequencies resolve the damping",
@@ -203,7 +202,7 @@ def _resolution_check(w: FloatArray, damping: FloatArray, start: Start) -> Ident
 
 
 @checks_words
-def local_errors(omega: FloatArray, damping: FloatArray, *, start: Start) -> FloatArray:
+def local_errors(omega: Array, damping: Array, *, start: Start) -> Array:
     """Return an estimate (n,) of the interpolation error around each frequency, over the largest damping.
 
     Each frequency is left out in turn with every second neighbour; the error of the full grid is some 2^5 smaller.
@@ -221,9 +220,7 @@ def local_errors(omega: FloatArray, damping: FloatArray, *, start: Start) -> Flo
     return out
 
 
-def kramers_kronig_check(
-    model: DampingModel, omega: FloatArray, added_mass: FloatArray, infinite: FloatArray
-) -> IdentityCheck:
+def kramers_kronig_check(model: DampingModel, omega: Array, added_mass: Array, infinite: Array) -> IdentityCheck:
     """Hold A(omega) against A_inf and the Hilbert transform of the damping, [eq:memory-kramers-kronig]."""
     error = np.abs(added_mass - infinite - model.added_mass_excess(omega)) / pair_measure(added_mass)
     return IdentityCheck(
@@ -233,11 +230,11 @@ def kramers_kronig_check(
 
 def _ogilvie_check(
     model: DampingModel,
-    omega: FloatArray,
-    added_mass: FloatArray,
-    infinite: FloatArray,
-    t: FloatArray,
-    kernel: FloatArray,
+    omega: Array,
+    added_mass: Array,
+    infinite: Array,
+    t: Array,
+    kernel: Array,
 ) -> IdentityCheck:
     """Hold A_inf against A + (1/omega) int K sin, [eq:memory-ogilvie], from K on a grid of time.
 

@@ -6,15 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.potential.damping_model import DampingModel, Start
 from moyai.potential.memory import local_errors, pair_measure
 from moyai.sea.water import Water
-
-FloatArray = NDArray[np.float64]
 
 #: Measured on random rectangles (docs/validation/memory.md): spacing and end that leave 1e-3 of the largest K, and less
 _STEP_AT_REFERENCE = 0.1
@@ -35,7 +34,7 @@ class FrequencyPlan:
         One or two sentences for the report.
     """
 
-    omega: FloatArray
+    omega: Array
     reason: str
 
 
@@ -95,7 +94,7 @@ def recommend_frequencies(
 @checks_words
 def refine_frequencies(
     omega: ArrayLike, radiation_damping: ArrayLike, *, start: Start, tolerance: float = _REFERENCE
-) -> FloatArray:
+) -> Array:
     """Return frequencies that should be solved in addition, none when the damping is resolved.
 
     Parameters

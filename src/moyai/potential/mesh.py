@@ -15,8 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.potential.edges import ComplexArray, Edges, FloatArray, arc_position, arc_slope, as_complex
+from moyai.potential.edges import Edges, arc_position, arc_slope, as_complex
 from moyai.potential.panels import BODY, GAP, OPEN, PLATE, RAY, RAY_DIRECTION, Panels, Piece, make_panels
 from moyai.potential.sections import Chain, Section
 
@@ -165,7 +166,7 @@ def _half_runs(half: Edges, axis: float, chain: Chain, tolerance: float) -> list
     return runs
 
 
-def _slopes(edges: Edges, t: FloatArray) -> ComplexArray:
+def _slopes(edges: Edges, t: Array) -> ComplexArray:
     start, end = as_complex(edges.start)[:, None], as_complex(edges.end)[:, None]
     return arc_slope(start, end, edges.bulge[:, None], t[None, :])
 
@@ -208,7 +209,7 @@ class Surroundings:
         self._axis = axis
         self._joined = _joined_edges(runs, 1e-9 * self.size)
 
-    def clearance(self, points: ComplexArray, run: int = -1, edge: int = -1) -> FloatArray:
+    def clearance(self, points: ComplexArray, run: int = -1, edge: int = -1) -> Array:
         """Distance of points from all edges but their own and its neighbours; the bed counts with its mirror image."""
         others = np.ones(len(self._first), dtype=bool)
         if run >= 0:
@@ -354,7 +355,7 @@ def _body_pieces(runs: Sequence[Run], around: Surroundings, resolution: Resoluti
     return pieces
 
 
-def _wide_enough(size: float, gap: FloatArray) -> bool:
+def _wide_enough(size: float, gap: Array) -> bool:
     """Whether a panel suits the gap along it: short against it, or the gap hardly varies."""
     return size <= 3.0 * float(gap.min()) or float(gap.max()) < 1.3 * float(gap.min())
 

@@ -8,12 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 
-FloatArray = NDArray[np.float64]
-
 #: Displacement (n, 2) of the boundary points (n, 2) for unit amplitude of a mode
-DisplacementField = Callable[[FloatArray], FloatArray]
+DisplacementField = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ class Modes:
     def __add__(self, other: Modes) -> Modes:
         return Modes(self.names + other.names, self.functions + other.functions, self.bodies + other.bodies)
 
-    def normal_displacement(self, points: FloatArray, normals: FloatArray, body: NDArray[np.intp]) -> FloatArray:
+    def normal_displacement(self, points: Array, normals: Array, body: NDArray[np.intp]) -> Array:
         """Return the normal displacement (modes, n) at boundary points with unit normals (n, 2), for unit amplitude.
 
         Raises
@@ -96,7 +95,7 @@ class Rigid:
     x: float = 0.0
     z: float = 0.0
 
-    def __call__(self, points: FloatArray) -> FloatArray:
+    def __call__(self, points: Array) -> Array:
         if self.kind == "sway":
             return np.broadcast_to(np.array([1.0, 0.0]), points.shape).copy()
         if self.kind == "heave":

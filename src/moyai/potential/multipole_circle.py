@@ -19,11 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import exp1
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.potential.extrapolation import extrapolated_limit
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Numbers of multipoles; the error falls like their cube because of the logarithm in the field at the waterline
 _FINEST = 256
@@ -109,7 +107,7 @@ def _half_circle(ka: float, heave: bool, count: int) -> tuple[float, float, floa
     return float(moment.real), float(moment.imag), float(abs(strength * solution[0]) * ka)
 
 
-def _multipoles(theta: FloatArray, ka: float, order: NDArray[np.int_], heave: bool) -> tuple[FloatArray, FloatArray]:
+def _multipoles(theta: Array, ka: float, order: NDArray[np.int_], heave: bool) -> tuple[Array, Array]:
     """Wave-free potentials on the circle of radius 1 and their radial derivatives."""
     t, m = theta[:, None], order[None, :]
     if heave:
@@ -121,7 +119,7 @@ def _multipoles(theta: FloatArray, ka: float, order: NDArray[np.int_], heave: bo
     return value, slope
 
 
-def _wave_source(theta: FloatArray, ka: float, heave: bool) -> tuple[ComplexArray, ComplexArray, complex]:
+def _wave_source(theta: Array, ka: float, heave: bool) -> tuple[ComplexArray, ComplexArray, complex]:
     """Source (heave) or horizontal dipole (sway) at the surface, radial derivative, amplitude of its far field.
 
     With zeta = depth - i x the source is the mean of :func:`_pole_integral` at zeta and at its conjugate; the dipole is
@@ -219,7 +217,7 @@ def submerged_circle(relative_wave_number: float, submergence: float) -> Submerg
     )
 
 
-def _image_integrals(highest: int, ka: float, depth: float, log_factorial: FloatArray) -> ComplexArray:
+def _image_integrals(highest: int, ka: float, depth: float, log_factorial: Array) -> ComplexArray:
     """Integrals of k^p (k + K)/(k - K) exp(-2 k depth) over k, passing below the pole, divided by p factorial."""
     double = 2.0 * depth
     pole = np.empty(highest, dtype=complex)

@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from moyai.core.arrays import Array, ComplexArray
 
 _SMALL_PHASE = 4.0
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -48,7 +47,7 @@ def _fourier_kernel(knots: Any, coefficients: Any, time: Any, nodes: Any, weight
                 out[i, column] += total
 
 
-def fourier_integral(knots: FloatArray, coefficients: FloatArray, time: ArrayLike) -> ComplexArray:
+def fourier_integral(knots: Array, coefficients: Array, time: ArrayLike) -> ComplexArray:
     """Return integrals of a piecewise polynomial times exp(i x t) over all its intervals, [eq:memory-filon].
 
     Parameters

@@ -12,9 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from moyai.potential.edges import ComplexArray, FloatArray
-
-IntArray = NDArray[np.int64]
+from moyai.core.arrays import Array, ComplexArray, IntArray
 
 # Wetted boundary; free surface enclosed between bodies; other real free surface; free surface on a ray; thin plate,
 # whose potential is the jump over it: the value where its normal points minus that behind
@@ -40,12 +38,12 @@ class Rule:
         Values at t = -1 and t = 1 from node values.
     """
 
-    nodes: FloatArray
-    weights: FloatArray
-    projection: FloatArray
-    derivative: FloatArray
-    first: FloatArray
-    last: FloatArray
+    nodes: Array
+    weights: Array
+    projection: Array
+    derivative: Array
+    first: Array
+    last: Array
 
 
 @lru_cache(maxsize=16)
@@ -123,13 +121,13 @@ class Panels:
         return self.u, self.v, self.du, self.dv, self.element
 
     @property
-    def normal(self) -> FloatArray:
+    def normal(self) -> Array:
         """Unit normals (nodes, 2) into the fluid; only for bodies."""
         out = -1j * self.du / np.abs(self.du)
         return np.stack([out.real, out.imag], axis=1)
 
     @property
-    def points(self) -> FloatArray:
+    def points(self) -> Array:
         """Real parts x, z (nodes, 2)."""
         return np.stack([self.u.real, self.u.imag], axis=1)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.core.arrays import Array, ComplexArray
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.panels import GAP, PLATE, RAY, Panels, gauss_rule
 from moyai.potential.quadrature import add_rankine
@@ -31,9 +31,9 @@ class PlateTip:
         Number of the body that carries the plate.
     """
 
-    place: FloatArray
-    outward: FloatArray
-    strength: FloatArray
+    place: Array
+    outward: Array
+    strength: Array
     body: int
 
 
@@ -105,7 +105,7 @@ def mean_of_faces(
     return np.asarray(total / (2.0 * math.pi))
 
 
-def surface_ends(surface: Panels, x: float) -> tuple[FloatArray, FloatArray]:
+def surface_ends(surface: Panels, x: float) -> tuple[Array, Array]:
     """Return weights that give the potential of the free surface just left and just right of a plate at ``x``."""
     rule = gauss_rule(surface.order)
     scale = max(abs(x), float(np.abs([piece.step for piece in surface.pieces if piece.kind != RAY] or [0.0]).max()))

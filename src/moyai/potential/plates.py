@@ -13,17 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.potential.edges import (
-    ComplexArray,
-    Edges,
-    FloatArray,
-    arc_position,
-    as_complex,
-    as_points,
-    inside_polygon,
-    segments_meet,
-)
+from moyai.potential.edges import Edges, arc_position, as_complex, as_points, inside_polygon, segments_meet
 
 if TYPE_CHECKING:
     from moyai.potential.thin_plate import Plate
@@ -51,8 +43,8 @@ class PlateLine:
         For fewer than two points, points that are not finite or coincide, or a line that meets itself.
     """
 
-    points: FloatArray
-    bulges: FloatArray | None = None
+    points: Array
+    bulges: Array | None = None
 
     def __post_init__(self) -> None:
         points = np.array(self.points, dtype=float)
@@ -94,7 +86,7 @@ class PlateLine:
         return float(self.edges.lengths.sum())
 
     @property
-    def outline(self) -> FloatArray:
+    def outline(self) -> Array:
         """Points (n, 2) along the plate for drawings, arcs as chords."""
         return as_points(_chords(self.edges))
 
@@ -175,7 +167,7 @@ def _cut(edges: Edges, number: int, fraction: float) -> Edges:
     )
 
 
-def _with_end(edges: Edges, last: bool, point: FloatArray) -> Edges:
+def _with_end(edges: Edges, last: bool, point: Array) -> Edges:
     start, end = edges.start.copy(), edges.end.copy()
     if last:
         end[-1] = point
@@ -274,7 +266,7 @@ def _touched(lines: Sequence[Edges], own: int, point: complex, tolerance: float)
     return None
 
 
-def check_plates(outlines: Sequence[FloatArray], plates: Sequence[PlateLine]) -> None:
+def check_plates(outlines: Sequence[Array], plates: Sequence[PlateLine]) -> None:
     """Refuse plates that cross a hull or each other, lie on one another or run inside a hull.
 
     Parameters

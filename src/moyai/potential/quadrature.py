@@ -21,11 +21,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-IntArray = NDArray[np.int64]
+from moyai.core.arrays import Array, ComplexArray, IntArray
 
 # Sum of the distances of t0 from both ends of [-1, 1] below which a target counts as near: Bernstein ellipse rho ~ 3.2
 _NEAR_ELLIPSE = 3.5
@@ -114,9 +111,9 @@ def _leg(
     sweep: float,
     grade: int,
     own: int,
-    t: FloatArray,
-    weights: FloatArray,
-    projection: FloatArray,
+    t: Array,
+    weights: Array,
+    projection: Array,
     log_out: ComplexArray,
     pole_out: ComplexArray,
 ) -> None:
@@ -188,9 +185,9 @@ def _near(
     own: int,
     j: int,
     panels: tuple,
-    t: FloatArray,
-    weights: FloatArray,
-    projection: FloatArray,
+    t: Array,
+    weights: Array,
+    projection: Array,
     log_weights: ComplexArray,
     pole_weights: ComplexArray,
     work: ComplexArray,
@@ -320,9 +317,9 @@ def _slope_leg(
     sweep: float,
     grade: int,
     own: int,
-    t: FloatArray,
-    weights: FloatArray,
-    projection: FloatArray,
+    t: Array,
+    weights: Array,
+    projection: Array,
     pole_out: ComplexArray,
     square_out: ComplexArray,
 ) -> None:

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
-from moyai.potential.rectangle_basis import ComplexArray, FloatArray, GapBasis
+from moyai.potential.rectangle_basis import GapBasis
 from moyai.potential.rectangle_fields import Fields, inner_region, solve_fields
 from moyai.potential.rectangle_outer import outer_kernel
 from moyai.sea.dispersion import group_velocity, wave_number
@@ -71,12 +72,12 @@ class RectangleSolution:
     draught: float
     centre: tuple[float, float]
     water: Water
-    omega: FloatArray
-    heading: FloatArray
-    added_mass: FloatArray
-    radiation_damping: FloatArray
-    infinite_frequency_added_mass: FloatArray
-    zero_frequency_added_mass: FloatArray
+    omega: Array
+    heading: Array
+    added_mass: Array
+    radiation_damping: Array
+    infinite_frequency_added_mass: Array
+    zero_frequency_added_mass: Array
     radiated_wave: ComplexArray
     excitation_force: ComplexArray
     froude_krylov_force: ComplexArray
@@ -272,7 +273,7 @@ class _Shape:
 
 def _checked(
     beam: float, draught: float, water: Water, omega: ArrayLike, centre: tuple[float, float], heading: ArrayLike
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[Array, Array]:
     for name, value in (("beam", beam), ("draught", draught)):
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name} is {value:g}", path=name, allowed="greater than 0")
@@ -309,8 +310,8 @@ def _pairs(beam: float, draught: float, gap: float, wave_number: float) -> int:
 
 
 def _along_x(
-    shape: _Shape, surface: FloatArray, k: FloatArray, progress: Progress, total: float
-) -> tuple[list[Fields], tuple[FloatArray, FloatArray]]:
+    shape: _Shape, surface: Array, k: Array, progress: Progress, total: float
+) -> tuple[list[Fields], tuple[Array, Array]]:
     """Solve all frequencies for waves and motions that are equal along the structure, and the two limits."""
     inner = inner_region(shape.basis, shape.half_beam, 0.0)
     kernel = outer_kernel(shape.basis, shape.depth, shape.draught, 0.0, surface, k)
@@ -326,7 +327,7 @@ def _along_x(
     return fields, (infinite.potential_moment.real, zero.potential_moment.real)
 
 
-def _oblique(shape: _Shape, surface: FloatArray, k: FloatArray, angle: float) -> list[Fields]:
+def _oblique(shape: _Shape, surface: Array, k: Array, angle: float) -> list[Fields]:
     """Solve all frequencies for waves at an angle; the wave number along the crest differs from one to the next."""
     out = []
     for number, wave in zip(surface, k, strict=True):

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gamma, gammaln, ive, jv, roots_gegenbauer
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from moyai.core.arrays import Array, ComplexArray
 
 #: Exponents of the velocity at a corner of 270 degrees are -1/3 and +1/3 plus whole numbers: Gegenbauer index minus 1/2
 CORNER_INDICES = (1.0 / 6.0, 5.0 / 6.0)
@@ -35,19 +34,19 @@ class GapBasis:
     pairs: int
 
     @property
-    def index(self) -> FloatArray:
+    def index(self) -> Array:
         """Gegenbauer index of every function; 1/2 is the constant."""
         families = [np.full(self.pairs, index) for index in CORNER_INDICES]
         return np.concatenate([*families, [0.5]])
 
     @property
-    def degree(self) -> FloatArray:
+    def degree(self) -> Array:
         """Even polynomial degree of every function."""
         orders = 2.0 * np.arange(self.pairs)
         return np.concatenate([orders, orders, [0.0]])
 
     @property
-    def scale(self) -> FloatArray:
+    def scale(self) -> Array:
         """Scale of every function that keeps the matrix of the log kernel near unit diagonal."""
         return np.maximum(self.degree / 2.0, 1.0) ** (self.index + 0.5)
 
@@ -56,12 +55,12 @@ class GapBasis:
         """Number of functions."""
         return 2 * self.pairs + 1
 
-    def at_zero(self) -> FloatArray:
+    def at_zero(self) -> Array:
         """Return the integral of every function over 0 < y < 1."""
         index = self.index
         return np.where(self.degree == 0.0, self.scale * 0.5**index / gamma(index + 1.0), 0.0)
 
-    def cosine_transform(self, argument: FloatArray) -> FloatArray:
+    def cosine_transform(self, argument: Array) -> Array:
         """Return the integrals of every function times cos(argument y) over 0 < y < 1, [eq:reference-gap-transform].
 
         Parameters
@@ -100,10 +99,10 @@ class GapBasis:
             out[row] += np.where(far, scale * sign * leading / np.sqrt(2.0 * np.pi * x) / x**index, 0.0)
         return out
 
-    def moment_rules(self) -> tuple[FloatArray, FloatArray]:
+    def moment_rules(self) -> tuple[Array, Array]:
         """Return points (3, q) of y and weights (size, q) that integrate basis functions times smooth even ones."""
-        points: list[FloatArray] = []
-        rows: list[FloatArray] = []
+        points: list[Array] = []
+        rows: list[Array] = []
         count = 2 * self.pairs + 48
         for row, (index, degree, scale) in enumerate(zip(self.index, self.degree, self.scale, strict=True)):
             y, w, polynomials = _gegenbauer_rule(float(index), count, int(self.degree.max()))
@@ -123,7 +122,7 @@ class GapBasis:
 
 
 @lru_cache(maxsize=32)
-def _gegenbauer_rule(index: float, count: int, highest: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _gegenbauer_rule(index: float, count: int, highest: int) -> tuple[Array, Array, Array]:
     """Gauss rule of the weight (1 - y^2)^(index - 1/2) on (-1, 1) and the Gegenbauer polynomials at its points."""
     y, w = roots_gegenbauer(count, index)
     polynomials = np.empty((highest + 2, count))
@@ -137,13 +136,13 @@ def _gegenbauer_rule(index: float, count: int, highest: int) -> tuple[FloatArray
 
 
 @lru_cache(maxsize=8)
-def _table_at_multiples(pairs: int, count: int) -> FloatArray:
+def _table_at_multiples(pairs: int, count: int) -> Array:
     """Cosine transforms at pi, 2 pi, ..., count pi."""
     return GapBasis(pairs).cosine_transform(np.asarray(np.pi * np.arange(1, count + 1), dtype=float))
 
 
 @lru_cache(maxsize=8)
-def _tail_rule(pairs: int, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _tail_rule(pairs: int, count: int) -> tuple[Array, Array, Array]:
     """Points, weights and envelopes that sum over all m > count, [eq:reference-tail-sum]."""
     node, weight = np.polynomial.legendre.leggauss(12)
     # The midpoint rule backwards: the sum is the integral from count + 1/2 and a 24th of the slope there
@@ -155,7 +154,7 @@ def _tail_rule(pairs: int, count: int) -> tuple[FloatArray, FloatArray, FloatArr
     return points, weights, _envelope(GapBasis(pairs), points)
 
 
-def _envelope(basis: GapBasis, m: FloatArray) -> FloatArray:
+def _envelope(basis: GapBasis, m: Array) -> Array:
     """Cosine transforms at m pi less the factor (-1)^m, by Hankel's expansion: smooth functions of m."""
     x = np.pi * m
     out = np.empty((basis.size, m.size))
@@ -182,8 +181,8 @@ class InnerSums:
     ``matrix`` = 2 sum U U / (kappa T), ``vector`` = 2 sum U w / (kappa T), ``scalar`` = 2 sum w w / (kappa T).
     """
 
-    matrix: FloatArray
-    vector: FloatArray
+    matrix: Array
+    vector: Array
     scalar: float
 
 
@@ -221,7 +220,7 @@ def inner_sums(basis: GapBasis, half_beam: float, along: float, symmetric: bool)
     )
 
 
-def _mode_weights(m: FloatArray, half_beam: float, along: float, symmetric: bool) -> tuple[FloatArray, FloatArray]:
+def _mode_weights(m: Array, half_beam: float, along: float, symmetric: bool) -> tuple[Array, Array]:
     """2/(kappa T) and the transform of the roll velocity at the edge without its factor (-1)^m."""
     kappa = np.hypot(np.pi * m, along)
     reach = np.tanh(kappa * half_beam)

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import spherical_jn
 
-from moyai.potential.rectangle_basis import ComplexArray, FloatArray, GapBasis, InnerSums, inner_sums
+from moyai.core.arrays import Array, ComplexArray
+from moyai.potential.rectangle_basis import GapBasis, InnerSums, inner_sums
 from moyai.potential.rectangle_outer import OuterKernel, OuterMatrices
 
 _POINTS = 64
@@ -32,8 +33,8 @@ class InnerRegion:
     heave: InnerSums
     roll: InnerSums
     edge_constant: tuple[float, float]
-    right_side: FloatArray
-    constant: FloatArray
+    right_side: Array
+    constant: Array
 
 
 def inner_region(basis: GapBasis, half_beam: float, along: float) -> InnerRegion:
@@ -68,7 +69,7 @@ def _plain(along: float) -> bool:
     return along > 1.0
 
 
-def _heave(x: FloatArray, y: FloatArray, along: float) -> FloatArray:
+def _heave(x: Array, y: Array, along: float) -> Array:
     """Solution with unit upward velocity at y = 1 and none at y = 0."""
     if along == 0.0:
         return 0.5 * (y**2 - x**2)
@@ -77,14 +78,14 @@ def _heave(x: FloatArray, y: FloatArray, along: float) -> FloatArray:
     return 2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
 
 
-def _heave_slope(x: FloatArray, along: float) -> FloatArray:
+def _heave_slope(x: Array, along: float) -> Array:
     """Horizontal velocity of :func:`_heave`; it does not depend on y."""
     if along == 0.0:
         return -x
     return np.zeros_like(x) if _plain(along) else -np.sinh(along * x) / np.sinh(along)
 
 
-def _roll(x: FloatArray, y: FloatArray, along: float) -> FloatArray:
+def _roll(x: Array, y: Array, along: float) -> Array:
     """Solution with upward velocity -x at y = 1 and none at y = 0."""
     if along == 0.0:
         return -0.5 * x * y**2 + x**3 / 6.0
@@ -94,7 +95,7 @@ def _roll(x: FloatArray, y: FloatArray, along: float) -> FloatArray:
     return -excess / (along * np.sinh(along))
 
 
-def _roll_slope(x: FloatArray, y: FloatArray, along: float) -> FloatArray:
+def _roll_slope(x: Array, y: Array, along: float) -> Array:
     """Horizontal velocity of :func:`_roll`."""
     if along == 0.0:
         return 0.5 * (x**2 - y**2)
@@ -103,7 +104,7 @@ def _roll_slope(x: FloatArray, y: FloatArray, along: float) -> FloatArray:
     return -2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
 
 
-def _sinh_excess(u: FloatArray) -> FloatArray:
+def _sinh_excess(u: Array) -> Array:
     """sinh u - u without cancellation."""
     series = u**3 / 6.0 * (1.0 + u**2 / 20.0 * (1.0 + u**2 / 42.0 * (1.0 + u**2 / 72.0 * (1.0 + u**2 / 110.0))))
     return np.where(np.abs(u) < 0.5, series, np.sinh(u) - u)

@@ -12,7 +12,8 @@ from functools import lru_cache
 import numpy as np
 from scipy.special import digamma, gamma, gammaln, gammasgn
 
-from moyai.potential.rectangle_basis import ComplexArray, FloatArray, GapBasis
+from moyai.core.arrays import Array, ComplexArray
+from moyai.potential.rectangle_basis import GapBasis
 
 _ROTATION = np.exp(-0.25j * np.pi)
 _TRIANGLE_POINTS = 14
@@ -30,13 +31,13 @@ class OuterMatrices:
     gap_gap: ComplexArray
     gap_side: ComplexArray
     side_side: ComplexArray
-    wave_gap: FloatArray
-    wave_side: FloatArray
+    wave_gap: Array
+    wave_side: Array
     wave_surface: float
     wave_corner: float
 
 
-def _panels(smallest: float, largest: float, order: int = 14) -> tuple[FloatArray, FloatArray]:
+def _panels(smallest: float, largest: float, order: int = 14) -> tuple[Array, Array]:
     """Gauss points and weights on 0 .. smallest and on doubling panels up to largest."""
     x, w = np.polynomial.legendre.leggauss(order)
     edges = np.concatenate([[0.0], smallest * 2.0 ** np.arange(0, int(np.ceil(np.log2(largest / smallest))) + 1)])
@@ -45,7 +46,7 @@ def _panels(smallest: float, largest: float, order: int = 14) -> tuple[FloatArra
     return (middle[:, None] + half[:, None] * x).ravel(), (half[:, None] * w).ravel()
 
 
-def log_matrix(basis: GapBasis, reference: float) -> FloatArray:
+def log_matrix(basis: GapBasis, reference: float) -> Array:
     """Return the moments (q, q) of -(ln|y - y'| + ln|y + y'|)/pi + 2 ln(reference)/pi, [eq:reference-log-kernel].
 
     The integrals of products of Bessel functions are those of Weber and Schafheitlin.
@@ -70,7 +71,7 @@ def log_matrix(basis: GapBasis, reference: float) -> FloatArray:
 
 
 @lru_cache(maxsize=8)
-def _real_axis_table(pairs: int) -> tuple[FloatArray, FloatArray, FloatArray, float]:
+def _real_axis_table(pairs: int) -> tuple[Array, Array, Array, float]:
     """Points, weights and transforms on the real axis for the correction of oblique waves."""
     last = 2400.0
     near, near_weight = _panels(1e-12, 2.0, 10)
@@ -82,7 +83,7 @@ def _real_axis_table(pairs: int) -> tuple[FloatArray, FloatArray, FloatArray, fl
     return points, weights, GapBasis(pairs).cosine_transform(points), float(edges[-1])
 
 
-def oblique_correction(basis: GapBasis, along: float, reference: float) -> FloatArray:
+def oblique_correction(basis: GapBasis, along: float, reference: float) -> Array:
     """Return the moments of (K0(along |y - y'|) + K0(along (y + y'))) / pi less :func:`log_matrix`.
 
     See [eq:reference-oblique].
@@ -117,7 +118,7 @@ class OuterKernel:
     depth: float
     draught: float
     along: float
-    free: FloatArray
+    free: Array
     gamma: ComplexArray
     weight: ComplexArray
     gap: ComplexArray
@@ -158,7 +159,7 @@ class OuterKernel:
         parts = [np.asarray(part.real, dtype=complex) for part in (gap_gap, gap_side, side_side)]
         return OuterMatrices(parts[0], parts[1], parts[2], np.zeros(self.basis.size), np.zeros(2), 0.0, 0.0)
 
-    def _wave(self, k: float) -> tuple[FloatArray, FloatArray, float, float]:
+    def _wave(self, k: float) -> tuple[Array, Array, float, float]:
         """Moments of the progressive mode cosh k(z + h), scaled to unit norm over the depth."""
         depth, draught = self.depth, self.draught
         norm = np.sqrt(0.125 * ((1.0 - np.exp(-4.0 * k * depth)) / k + 4.0 * depth * np.exp(-2.0 * k * depth)))
@@ -178,7 +179,7 @@ class OuterKernel:
 
 
 def outer_kernel(
-    basis: GapBasis, depth: float, draught: float, along: float, surface_numbers: FloatArray, wave_numbers: FloatArray
+    basis: GapBasis, depth: float, draught: float, along: float, surface_numbers: Array, wave_numbers: Array
 ) -> OuterKernel:
     """Prepare the ray for all the given frequencies, [eq:reference-ray]."""
     free = log_matrix(basis, depth)

@@ -14,8 +14,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.potential.edges import Edges, FloatArray, inside_polygon, polygon_clash, segments_meet
+from moyai.potential.edges import Edges, inside_polygon, polygon_clash, segments_meet
 from moyai.potential.edges import as_complex as _as_complex
 from moyai.potential.plates import PlateLine, WettedPlate, check_plates, join_plates, wet_plates
 
@@ -40,8 +41,8 @@ class Outline:
         For NaN, fewer than three corners (two with arcs), repeated corners, no area, or an outline that meets itself.
     """
 
-    vertices: FloatArray
-    bulges: FloatArray | None = None
+    vertices: Array
+    bulges: Array | None = None
 
     def __post_init__(self) -> None:
         vertices = np.array(self.vertices, dtype=float)
@@ -109,7 +110,7 @@ class Outline:
         return Outline(_turned(self.edges.start, heel) + np.asarray(shift, dtype=float), self.bulges)
 
 
-def _turned(points: FloatArray, heel: float) -> FloatArray:
+def _turned(points: Array, heel: float) -> Array:
     cosine, sine = math.cos(heel), math.sin(heel)
     return points @ np.array([[cosine, -sine], [sine, cosine]])
 
@@ -209,7 +210,7 @@ class Hull:
         return Section(outlines, draught=draught, heel=heel, offset=offset, name=self.name, plates=plates)
 
 
-def _overlap(first: FloatArray, second: FloatArray) -> bool:
+def _overlap(first: Array, second: Array) -> bool:
     size = max(float(np.ptp(first)), float(np.ptp(second)))
     a, c = _as_complex(first), _as_complex(second)
     b, d = np.roll(a, -1), np.roll(c, -1)
@@ -302,7 +303,7 @@ class Section:
         return chains
 
     @cached_property
-    def _moments(self) -> FloatArray:
+    def _moments(self) -> Array:
         return np.sum([chain.edges.moments() for chain in self.chains] + [(0.0, 0.0, 0.0)], axis=0)
 
     @property
@@ -370,7 +371,7 @@ class Section:
         """Whether any outline is cut by the still water."""
         return bool(self.waterlines)
 
-    def to_site(self, points: ArrayLike) -> FloatArray:
+    def to_site(self, points: ArrayLike) -> Array:
         """Return points (n, 2) of the body frame in the frame of the site, for instance a fairlead [m]."""
         return _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
             [self.offset, -self.draught]

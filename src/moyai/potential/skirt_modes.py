@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.potential.edges import FloatArray
 from moyai.potential.modes import Modes, Rigid
 from moyai.potential.thin_plate import Plate
 
@@ -25,7 +25,7 @@ class Stretch:
     centre_z: float
     radius: float
 
-    def __call__(self, points: FloatArray) -> FloatArray:
+    def __call__(self, points: Array) -> Array:
         """Return the displacement (n, 2) at points (n, 2)."""
         arm = points - np.array([self.centre_x, self.centre_z])
         share = np.abs(points[:, 0] - self.chord_x) / self.radius
@@ -39,7 +39,7 @@ class EdgeShape:
     level: float
     other: float
 
-    def __call__(self, points: FloatArray) -> FloatArray:
+    def __call__(self, points: Array) -> Array:
         """Return the displacement (n, 2) at points (n, 2)."""
         along = (points[:, 1] - self.other) / (self.level - self.other)
         return np.stack([along, np.zeros(len(points))], axis=1)

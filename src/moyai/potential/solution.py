@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.results import DIRECTION_CONVENTION, TIME_CONVENTION, Status
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.heading import HeadingSolution
 from moyai.potential.modes import Modes
 from moyai.potential.sections import Section
@@ -43,12 +43,12 @@ class RadiationDiffraction:
     section: Section
     water: Water
     modes: Modes
-    heading: FloatArray
+    heading: Array
     lid: float
     normal: HeadingSolution
     oblique: tuple[HeadingSolution, ...]
-    infinite_frequency_added_mass: FloatArray
-    zero_frequency_added_mass: FloatArray
+    infinite_frequency_added_mass: Array
+    zero_frequency_added_mass: Array
     unknowns: int
     status: Status
     message: str
@@ -56,17 +56,17 @@ class RadiationDiffraction:
     notices: tuple[Notice, ...] = ()
 
     @property
-    def omega(self) -> FloatArray:
+    def omega(self) -> Array:
         """Frequencies that were solved [rad/s]."""
         return self.normal.states.omega
 
     @property
-    def added_mass(self) -> FloatArray:
+    def added_mass(self) -> Array:
         """Added mass (omega, radiating, influenced) of motion uniform along the structure."""
         return self.normal.added_mass
 
     @property
-    def radiation_damping(self) -> FloatArray:
+    def radiation_damping(self) -> Array:
         """Radiation damping (omega, radiating, influenced) of motion uniform along the structure."""
         return self.normal.radiation_damping
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Status
@@ -21,7 +22,7 @@ from moyai.potential.checks import (
     gap_notices,
     identity_checks,
 )
-from moyai.potential.edges import Edges, FloatArray
+from moyai.potential.edges import Edges
 from moyai.potential.heading import HeadingSolution, Problem, solve_in_chunks, wave_states
 from moyai.potential.limits import limit_added_mass
 from moyai.potential.mesh import Resolution, lay_out
@@ -121,10 +122,10 @@ def solve(
 def _solve_once(
     section: Section,
     water: Water,
-    omega: FloatArray,
-    wave_number: FloatArray,
+    omega: Array,
+    wave_number: Array,
     modes: Modes,
-    headings: FloatArray,
+    headings: Array,
     lid: float,
     accuracy: float,
     resolution: Resolution,
@@ -185,8 +186,8 @@ def _blocks_the_water(plate: Edges, depth: float) -> bool:
 def _solve_oblique(
     section: Section,
     water: Water,
-    omega: FloatArray,
-    wave_number: FloatArray,
+    omega: Array,
+    wave_number: Array,
     angle: float,
     modes: Modes,
     lid: float,

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck
 from moyai.potential.damping_model import DampingModel
@@ -22,9 +23,6 @@ from moyai.potential.vector_fitting import (
     partial_fractions,
     starting_poles,
 )
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 _COUPLED = 1e-6
 _NOTHING = 1e-5  # of the largest response: D(0) below it is taken for zero
@@ -76,26 +74,26 @@ class StateSpace:
         return int(np.sum(np.where(self.poles.imag > 0.0, 2, 1)))
 
     @property
-    def feedthrough(self) -> FloatArray:
+    def feedthrough(self) -> Array:
         """Nothing passes directly: K has no delta function (m, m)."""
         return np.zeros((self.size, self.size))
 
     @property
-    def a(self) -> FloatArray:
+    def a(self) -> Array:
         """Real block-diagonal system matrix (order, order)."""
         return self._real()[0]
 
     @property
-    def b(self) -> FloatArray:
+    def b(self) -> Array:
         """Real input matrix (order, m)."""
         return self._real()[1]
 
     @property
-    def c(self) -> FloatArray:
+    def c(self) -> Array:
         """Real output matrix (m, order); the force is ``-c z``."""
         return self._real()[2]
 
-    def _real(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _real(self) -> tuple[Array, Array, Array]:
         n, m = self.order, self.size
         a, b, c = np.zeros((n, n)), np.zeros((n, m)), np.zeros((m, n))
         row = 0
@@ -109,7 +107,7 @@ class StateSpace:
             row += 1
         return a, b, c
 
-    def velocity_kernel(self, time: ArrayLike) -> FloatArray:
+    def velocity_kernel(self, time: ArrayLike) -> Array:
         """Return K(t) (t, m, m)."""
         t = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles * t[:, None])
@@ -120,7 +118,7 @@ class StateSpace:
         return _response(self.poles, self.inputs, self.outputs, np.atleast_1d(np.asarray(omega, dtype=float)))
 
 
-def _response(poles: ComplexArray, inputs: ComplexArray, outputs: ComplexArray, omega: FloatArray) -> ComplexArray:
+def _response(poles: ComplexArray, inputs: ComplexArray, outputs: ComplexArray, omega: Array) -> ComplexArray:
     first = np.einsum("ik,tk,kj->tij", outputs, 1.0 / (-1j * omega[:, None] - poles), inputs)
     second = np.einsum("ik,tk,kj->tij", outputs.conj(), 1.0 / (-1j * omega[:, None] - poles.conj()), inputs.conj())
     return np.asarray(0.5 * (first + second), dtype=complex)
@@ -217,7 +215,7 @@ def fit_state_space(
 
 def _checked(
     omega: ArrayLike, response: ArrayLike, steady_dashpot: ArrayLike, tolerance: float
-) -> tuple[FloatArray, ComplexArray, FloatArray]:
+) -> tuple[Array, ComplexArray, Array]:
     w, h = np.asarray(omega, dtype=float), np.asarray(response, dtype=complex)
     steady = np.asarray(steady_dashpot, dtype=float)
     if w.ndim != 1 or len(w) < 8 or (w <= 0.0).any() or (np.diff(w) <= 0.0).any() or not np.isfinite(w).all():
@@ -231,7 +229,7 @@ def _checked(
     return w, 0.5 * (h + np.swapaxes(h, 1, 2)), 0.5 * (steady + steady.T)
 
 
-def _physical(steady: FloatArray) -> FloatArray:
+def _physical(steady: Array) -> Array:
     """Take rounding and interpolation noise out of D(0): entries that are nothing, eigenvalues below zero."""
     values, vectors = np.linalg.eigh(np.where(np.abs(steady) < _NOTHING, 0.0, steady))
     return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
@@ -250,7 +248,7 @@ def _groups(scaled: ComplexArray) -> list[NDArray[np.intp]]:
 
 
 def _fit_group(
-    w: FloatArray, h: ComplexArray, steady: FloatArray, tolerance: float, highest_order: int
+    w: Array, h: ComplexArray, steady: Array, tolerance: float, highest_order: int
 ) -> tuple[ComplexArray, ComplexArray]:
     """Raise the number of poles until the passive fit is good enough; in scaled units of the response."""
     unit = math.sqrt(w[0] * w[-1])
@@ -282,7 +280,7 @@ def _fit_group(
     return kept[0] * unit, _complex_residues(*kept, rows, columns) * unit
 
 
-def _columns_to_matrix(residues: FloatArray, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> FloatArray:
+def _columns_to_matrix(residues: Array, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> Array:
     """(n, e) of the upper triangle to (n, m, m)."""
     size = int(rows.max()) + 1
     out = np.empty((len(residues), size, size))
@@ -292,21 +290,21 @@ def _columns_to_matrix(residues: FloatArray, rows: NDArray[np.intp], columns: ND
 
 
 def _residues(
-    x: FloatArray,
+    x: Array,
     poles: ComplexArray,
     entries: ComplexArray,
-    weight: FloatArray,
-    steady: FloatArray,
+    weight: Array,
+    steady: Array,
     triangle: tuple[NDArray[np.intp], NDArray[np.intp]],
     margin: float,
-) -> FloatArray:
+) -> Array:
     """Least squares for all entries with the exact value at zero frequency, then cuts until the fit is passive."""
     rows, columns = triangle
     basis = partial_fractions(np.asarray(1j * x, dtype=complex), poles)
     stacked = np.tile(weight, 2)[:, None] * np.concatenate([basis.real, basis.imag])
     both = np.tile(weight, 2)[:, None]
     right = both * np.concatenate([entries.real, entries.imag])
-    at_zero: FloatArray = partial_fractions(np.zeros(1, dtype=complex), poles).real
+    at_zero: Array = partial_fractions(np.zeros(1, dtype=complex), poles).real
     count = len(rows)
     # dips sit beside lightly damped poles and may be narrower than the steps of an even grid
     beside = np.abs(poles.imag)[:, None] + np.abs(poles.real)[:, None] * np.linspace(-4.0, 4.0, 17)
@@ -321,12 +319,12 @@ def _residues(
         floor = np.full(len(dense), margin)
     else:
         floor = margin * dense**2 / (dense**2 + 1.0)
-    cuts: list[FloatArray] = []
+    cuts: list[Array] = []
     bounds: list[float] = []
     # block system: unknowns ordered entry by entry
     matrix = np.kron(np.eye(count), stacked)
     goal = right.T.ravel()
-    equal: tuple[FloatArray, FloatArray] = (np.asarray(np.kron(np.eye(count), at_zero), dtype=float), steady)
+    equal: tuple[Array, Array] = (np.asarray(np.kron(np.eye(count), at_zero), dtype=float), steady)
     double = np.where(rows == columns, 1.0, 2.0)
     solution = constrained_least_squares(matrix, goal, equal, None).reshape(count, -1).T
     for _ in range(_ROUNDS):
@@ -352,7 +350,7 @@ def _residues(
 
 
 def _complex_residues(
-    poles: ComplexArray, residues: FloatArray, rows: NDArray[np.intp], columns: NDArray[np.intp]
+    poles: ComplexArray, residues: Array, rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> ComplexArray:
     """Residue matrices (n, m, m), one for each pole of the list."""
     out, row = [], 0
@@ -384,10 +382,10 @@ def _rank_terms(residue: ComplexArray, pole: complex, cut: float) -> list[tuple[
 
 def _judged(
     parts: tuple[ComplexArray, ComplexArray, ComplexArray],
-    w: FloatArray,
+    w: Array,
     h: ComplexArray,
-    steady: FloatArray,
-    unit: FloatArray,
+    steady: Array,
+    unit: Array,
     tolerance: float,
 ) -> StateSpace:
     """Measure accuracy, passivity and the damping of slow motion of the finished model."""

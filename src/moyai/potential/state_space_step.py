@@ -8,13 +8,10 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from moyai.core.arrays import ComplexArray
 from moyai.core.errors import InputError
 from moyai.potential.state_space import StateSpace
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

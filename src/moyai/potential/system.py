@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.core.arrays import Array, ComplexArray
 from moyai.potential.mesh import Layout
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
 from moyai.potential.quadrature import add_helmholtz, add_helmholtz_slopes, add_rankine, add_rankine_slopes
@@ -38,13 +38,13 @@ class Block:
     sign: int
     body: ComplexArray
     body_rate: ComplexArray
-    body_flux: FloatArray
+    body_flux: Array
     surface: ComplexArray
     surface_rate: ComplexArray
     flux: ComplexArray
 
     def solve(
-        self, deep_wave_number: FloatArray, flux: ComplexArray, source: ComplexArray | None = None
+        self, deep_wave_number: Array, flux: ComplexArray, source: ComplexArray | None = None
     ) -> tuple[ComplexArray, ComplexArray]:
         """Return phi on the body (waves, n, problems) and on the free surface.
 

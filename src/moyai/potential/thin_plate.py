@@ -14,15 +14,16 @@ from typing import Literal
 
 import numpy as np
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.potential.edges import ComplexArray, FloatArray, arc_position, arc_slope, as_points
+from moyai.potential.edges import arc_position, arc_slope, as_points
 from moyai.potential.modes import DisplacementField, Modes
 from moyai.potential.thin_plate_grid import PlateGrid, plate_grid, with_tails
 from moyai.sea.water import Water
 
 #: Normal velocity (n,) at points (n, 2) with unit normals (n, 2), for unit amplitude of a mode
-NormalVelocity = Callable[[FloatArray, FloatArray], FloatArray]
+NormalVelocity = Callable[[Array, Array], Array]
 
 # Share of the length that holds no unknowns at the waterline, at a free edge, and at the bed
 _CUT_SURFACE, _CUT_EDGE, _CUT_BED = 1e-8, 1e-13, 1e-9
@@ -90,16 +91,16 @@ class Plate:
         slope = self.slope(np.array([0.0]))[0]
         return max(0.0, -float(slope.imag) / self.length)
 
-    def position(self, fraction: FloatArray) -> ComplexArray:
+    def position(self, fraction: Array) -> ComplexArray:
         """Return x + i z at arc-length fractions."""
         return np.asarray(arc_position(*self._ends, np.asarray(self.bulge), fraction))
 
-    def offset(self, fraction: FloatArray) -> ComplexArray:
+    def offset(self, fraction: Array) -> ComplexArray:
         """Return the position from the start of the plate, with all digits near it."""
         start, end = self._ends
         return np.asarray(arc_position(0.0 * start, end - start, np.asarray(self.bulge), fraction))
 
-    def slope(self, fraction: FloatArray) -> ComplexArray:
+    def slope(self, fraction: Array) -> ComplexArray:
         """Return the derivative of the position with respect to the arc-length fraction."""
         return np.asarray(arc_slope(*self._ends, np.asarray(self.bulge), fraction))
 
@@ -133,7 +134,7 @@ def hanging_arc(chord: float, centre_distance: float, *, x: float = 0.0) -> Plat
     return Plate((x, 0.0), (x, -chord), -math.tan(0.5 * half_angle))
 
 
-def horizontal_motion(_points: FloatArray, normals: FloatArray) -> FloatArray:
+def horizontal_motion(_points: Array, normals: Array) -> Array:
     """Normal velocity of a plate that moves along x with unit speed."""
     return normals[:, 0]
 
@@ -160,11 +161,11 @@ class PlateLimit:
     """
 
     plate: Plate
-    added_mass: FloatArray
-    points: FloatArray
-    arc: FloatArray
-    jump: FloatArray
-    centre_of_pressure: FloatArray
+    added_mass: Array
+    points: Array
+    arc: Array
+    jump: Array
+    centre_of_pressure: Array
 
 
 @checks_words
@@ -316,7 +317,7 @@ def _solve(
 
 def stream_influence(
     nodes: ComplexArray, element: ComplexArray, target: ComplexArray, level: float, depth: float, mirrored: int
-) -> FloatArray:
+) -> Array:
     """Return the stream function at targets for unit jumps at nodes, with the mirror images [eq:plate-images].
 
     Parameters
@@ -346,7 +347,7 @@ def stream_influence(
     return np.asarray(-(own + mirrored * image).real / (2.0 * math.pi))
 
 
-def _velocities(plate: Plate, fraction: FloatArray, modes: Sequence[NormalVelocity]) -> FloatArray:
+def _velocities(plate: Plate, fraction: Array, modes: Sequence[NormalVelocity]) -> Array:
     """Normal velocities (n, modes) at arc-length fractions."""
     slope = plate.slope(fraction)
     normal = as_points(1j * slope / np.abs(slope))
@@ -364,7 +365,7 @@ def _velocities(plate: Plate, fraction: FloatArray, modes: Sequence[NormalVeloci
     return out
 
 
-def _flux_along(plate: Plate, grid: PlateGrid, modes: Sequence[NormalVelocity]) -> FloatArray:
+def _flux_along(plate: Plate, grid: PlateGrid, modes: Sequence[NormalVelocity]) -> Array:
     """Integral of the normal velocity from the start of the plate to every target, by Gauss's rule between them."""
     limits = np.concatenate([[0.0], grid.target])
     nodes, weights = np.polynomial.legendre.leggauss(8)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from moyai.potential.edges import FloatArray
+from moyai.core.arrays import Array
 
 # Below this value of the corner parameter the cusp form of the map is used
 _CUSP = 1e-9
@@ -33,9 +33,9 @@ class PlateGrid:
         Range of the nodes that carry unknowns; those before and behind follow from them.
     """
 
-    fraction: FloatArray
-    weight: FloatArray
-    target: FloatArray
+    fraction: Array
+    weight: Array
+    target: Array
     first: int
     last: int
 
@@ -74,7 +74,7 @@ def plate_grid(corner: float, step: float, cut: tuple[float, float], tail: tuple
     return PlateGrid(nodes, weight[1::2], fraction[0::2][first : last + 1], first, last)
 
 
-def _stretched(y: FloatArray, corner: float) -> FloatArray:
+def _stretched(y: Array, corner: float) -> Array:
     """Parameter of the rule at y = ln(s / (1 - s)): d(tau)/dy = (1 + e^y) / (corner + e^y) [eq:plate-grid]."""
     inverse = np.exp(-y)
     if corner < _CUSP:
@@ -83,7 +83,7 @@ def _stretched(y: FloatArray, corner: float) -> FloatArray:
     return np.asarray(y + bend - bend / corner)
 
 
-def with_tails(matrix: FloatArray, grid: PlateGrid, *, joined: bool) -> FloatArray:
+def with_tails(matrix: Array, grid: PlateGrid, *, joined: bool) -> Array:
     """Fold the columns of the tails into the unknowns.
 
     At the first end the jump goes on as s (a + b ln s) [eq:plate-tail]; where the plate ends on the bed (``joined``)

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck
 from moyai.potential.damping_tail import TailTheory
 from moyai.potential.drift import FarFieldDrift, NearFieldDrift, mean_drift_far_field, mean_drift_near_field
-from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.potential.memory import MemoryFunctions, memory_functions
 from moyai.potential.memory_plan import recommend_frequencies
 from moyai.potential.modes import Modes, Rigid, rigid_modes
@@ -76,13 +76,13 @@ class PlateJump:
         The same for unit wave amplitude.
     """
 
-    points: FloatArray
-    normals: FloatArray
-    arc: FloatArray
-    weight: FloatArray
+    points: Array
+    normals: Array
+    arc: Array
+    weight: Array
     radiation: ComplexArray
     diffraction: ComplexArray
-    tip_places: FloatArray
+    tip_places: Array
     tip_radiation: ComplexArray
     tip_diffraction: ComplexArray
 
@@ -133,7 +133,7 @@ def plate_jumps(solution: RadiationDiffraction, heading: float = 0.0) -> tuple[P
     return tuple(found)
 
 
-def _distance(points: FloatArray, start: complex) -> FloatArray:
+def _distance(points: Array, start: complex) -> Array:
     """Distance along a line of points from its start; chords between neighbours, close enough for drawings."""
     steps = np.diff(np.concatenate([[[start.real, start.imag]], points]), axis=0)
     return np.asarray(np.cumsum(np.hypot(steps[:, 0], steps[:, 1])))
@@ -155,17 +155,17 @@ class PlateWaves:
     backward: RadiationDiffraction
 
     @property
-    def omega(self) -> FloatArray:
+    def omega(self) -> Array:
         """Frequencies [rad/s]."""
         return self.solution.omega
 
     @property
-    def added_mass(self) -> FloatArray:
+    def added_mass(self) -> Array:
         """Added mass (omega, radiating, influenced)."""
         return self.solution.added_mass
 
     @property
-    def radiation_damping(self) -> FloatArray:
+    def radiation_damping(self) -> Array:
         """Radiation damping (omega, radiating, influenced)."""
         return self.solution.radiation_damping
 
@@ -307,7 +307,7 @@ def plate_memory_functions(draught: float, water: Water, time: ArrayLike, *, acc
     )
 
 
-def plate_memory(draught: float, water: Water, time: ArrayLike) -> tuple[FloatArray, float]:
+def plate_memory(draught: float, water: Water, time: ArrayLike) -> tuple[Array, float]:
     """Return the velocity kernel K(t) of a hanging vertical plate and its added mass at infinite frequency.
 
     The water resists a motion y(t) of the plate along x with m_inf y'' + integral of K(t - s) y'(s) ds.

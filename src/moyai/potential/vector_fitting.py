@@ -7,11 +7,9 @@ Transactions on Power Delivery 21 (2006) 1587-1592. Everything here is scaled: u
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from moyai.core.arrays import Array, ComplexArray
 
 _ITERATIONS = 24
 _LEAST_DAMPING = 1e-4
@@ -40,11 +38,11 @@ def partial_fractions(s: ComplexArray, poles: ComplexArray) -> ComplexArray:
     return np.array(columns).T
 
 
-def _stacked(matrix: ComplexArray) -> FloatArray:
+def _stacked(matrix: ComplexArray) -> Array:
     return np.concatenate([matrix.real, matrix.imag], axis=0)
 
 
-def fit_poles(s: ComplexArray, entries: ComplexArray, weight: FloatArray, poles: ComplexArray) -> ComplexArray:
+def fit_poles(s: ComplexArray, entries: ComplexArray, weight: Array, poles: ComplexArray) -> ComplexArray:
     """Relocate poles until they settle, [eq:memory-vector-fitting].
 
     Parameters
@@ -65,7 +63,7 @@ def fit_poles(s: ComplexArray, entries: ComplexArray, weight: FloatArray, poles:
         for entry in entries.T:
             # unknowns: residues of the entry, then those of sigma with its constant
             left = weight[:, None] * np.column_stack([basis, -entry[:, None] * basis, -entry])
-            triangle: FloatArray = np.asarray(np.linalg.qr(_stacked(left), mode="r"))
+            triangle: Array = np.asarray(np.linalg.qr(_stacked(left), mode="r"))
             blocks.append(triangle[size:, size:])
         # Relaxation: the mean of the real part of sigma is 1, which rules out the trivial solution
         scale = float(np.linalg.norm(weight[:, None] * entries)) / len(s)
@@ -86,7 +84,7 @@ def fit_poles(s: ComplexArray, entries: ComplexArray, weight: FloatArray, poles:
     return poles
 
 
-def _zeros(poles: ComplexArray, residues: FloatArray) -> ComplexArray:
+def _zeros(poles: ComplexArray, residues: Array) -> ComplexArray:
     """Zeros of 1 + sum of residues over (s - pole), mirrored into the stable half plane: the next poles."""
     size = len(residues)
     matrix, inputs = np.zeros((size, size)), np.zeros(size)
@@ -108,11 +106,11 @@ def _zeros(poles: ComplexArray, residues: FloatArray) -> ComplexArray:
 
 
 def constrained_least_squares(
-    matrix: FloatArray,
-    right: FloatArray,
-    equal: tuple[FloatArray, FloatArray],
-    at_least: tuple[FloatArray, FloatArray] | None,
-) -> FloatArray:
+    matrix: Array,
+    right: Array,
+    equal: tuple[Array, Array],
+    at_least: tuple[Array, Array] | None,
+) -> Array:
     """Minimise ``|matrix x - right|`` with ``E x = f`` and ``G x >= h`` (least distance, Lawson and Hanson).
 
     Parameters
@@ -124,8 +122,8 @@ def constrained_least_squares(
     """
     e, f = equal
     size = matrix.shape[1]
-    particular: FloatArray = np.zeros(size)
-    null: FloatArray = np.eye(size)
+    particular: Array = np.zeros(size)
+    null: Array = np.eye(size)
     if len(e):
         particular = np.asarray(np.linalg.lstsq(e, f, rcond=None)[0], dtype=float)
         null = np.linalg.svd(e)[2][np.linalg.matrix_rank(e) :].T

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import ive, jv
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
-from moyai.potential.edges import ComplexArray, FloatArray
 from moyai.sea.dispersion import evanescent_wave_numbers
 from moyai.sea.dispersion import wave_number as linear_wave_number
 from moyai.sea.water import Water
@@ -35,9 +35,9 @@ class VerticalBarrier:
         Of the barrier held fixed, phase at the barrier.
     """
 
-    omega: FloatArray
-    added_mass: FloatArray
-    radiation_damping: FloatArray
+    omega: Array
+    added_mass: Array
+    radiation_damping: Array
     reflection: ComplexArray
     transmission: ComplexArray
 

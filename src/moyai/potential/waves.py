@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
-from moyai.potential.edges import ComplexArray, FloatArray
+from moyai.core.arrays import Array, ComplexArray
 
 
-def depth_profile(z: FloatArray, wave_number: FloatArray, depth: float) -> tuple[FloatArray, FloatArray]:
+def depth_profile(z: Array, wave_number: Array, depth: float) -> tuple[Array, Array]:
     """Return Z and dZ/dz; exponentials have negative arguments only, so that no kh is too large."""
     rise = np.exp(wave_number * z)
     if math.isinf(depth):
@@ -23,9 +23,7 @@ def depth_profile(z: FloatArray, wave_number: FloatArray, depth: float) -> tuple
     return scale * (1.0 + below), wave_number * scale * (1.0 - below)
 
 
-def incident_wave(
-    points: FloatArray, wave_number: FloatArray, along: FloatArray, depth: float
-) -> tuple[ComplexArray, ComplexArray]:
+def incident_wave(points: Array, wave_number: Array, along: Array, depth: float) -> tuple[ComplexArray, ComplexArray]:
     """Return phi_0 (waves, n) and its gradient (waves, n, 2) in the plane of the section.
 
     Parameters
@@ -44,7 +42,7 @@ def incident_wave(
     return potential, gradient
 
 
-def depth_integral(wave_number: FloatArray, depth: float, deep_wave_number: FloatArray) -> FloatArray:
+def depth_integral(wave_number: Array, depth: float, deep_wave_number: Array) -> Array:
     """Return the integral of Z^2 over the depth, tanh(kh) (1 + 2kh / sinh 2kh) / 2k [m]."""
     if math.isinf(depth):
         return np.asarray(0.5 / wave_number)
@@ -59,7 +57,7 @@ def far_field(
     flux: ComplexArray,
     wave: ComplexArray,
     wave_flux: ComplexArray,
-    weight: FloatArray,
+    weight: Array,
 ) -> ComplexArray:
     """Return the integral of phi d(psi)/dn - psi dphi/dn over the body [eq:potential-kochin].
 

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 from moyai.series.intervals import student_quantile
 
-Model = Callable[[FloatArray], ArrayLike]
+Model = Callable[[Array], ArrayLike]
 """From parameters to predictions, one for each observation."""
 
 LARGEST_CONDITION = 1e3
@@ -68,7 +68,7 @@ class LeftOut:
     """
 
     group: str
-    values: FloatArray
+    values: Array
     bias: float
     rms: float
     count: int
@@ -101,22 +101,22 @@ class Calibration:
     """
 
     parameters: tuple[Parameter, ...]
-    values: FloatArray
-    errors: FloatArray
-    covariance: FloatArray
-    prediction: FloatArray
-    residual: FloatArray
+    values: Array
+    errors: Array
+    covariance: Array
+    prediction: Array
+    residual: Array
     bias: float
     rms: float
     condition: float
-    interval: FloatArray
-    samples: FloatArray
+    interval: Array
+    samples: Array
     left_out: tuple[LeftOut, ...]
     evaluations: int
     notices: tuple[Notice, ...]
 
     @property
-    def correlation(self) -> FloatArray:
+    def correlation(self) -> Array:
         """Correlation of the estimates."""
         scale = np.sqrt(np.diag(self.covariance))
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -131,8 +131,8 @@ class _Fitter:
     def __init__(
         self,
         model: Model,
-        observed: FloatArray,
-        weight: FloatArray,
+        observed: Array,
+        weight: Array,
         parameters: Sequence[Parameter],
         step: float = 1e-6,
     ) -> None:
@@ -143,7 +143,7 @@ class _Fitter:
         self.scale = np.array([_scale_of(parameter) for parameter in parameters])
         self.calls = 0
 
-    def predict(self, values: FloatArray) -> FloatArray:
+    def predict(self, values: Array) -> Array:
         self.calls += 1
         prediction = np.asarray(self.model(np.array(values)), dtype=float).reshape(-1)
         if prediction.size != self.observed.size:
@@ -159,12 +159,12 @@ class _Fitter:
             )
         return prediction
 
-    def solve(self, start: FloatArray, chosen: FloatArray | None = None) -> FloatArray:
+    def solve(self, start: Array, chosen: Array | None = None) -> Array:
         from scipy.optimize import least_squares
 
         weight = self.weight if chosen is None else self.weight * chosen
 
-        def residual(scaled: FloatArray) -> FloatArray:
+        def residual(scaled: Array) -> Array:
             return np.asarray((self.predict(scaled * self.scale) - self.observed) * weight)
 
         low, high = self.lower / self.scale, self.upper / self.scale
@@ -190,7 +190,7 @@ class _Fitter:
             )
         return np.asarray(found.x * self.scale)
 
-    def sensitivity(self, values: FloatArray) -> FloatArray:
+    def sensitivity(self, values: Array) -> Array:
         """Return the weighted derivatives by the parameters, central where the bounds allow it."""
         columns = []
         for place in range(values.size):
@@ -313,9 +313,7 @@ def _independent(count: int, groups: Sequence[str] | None) -> int:
     return names if names >= _WHOLE_GROUPS else count
 
 
-def _interval(
-    values: FloatArray, errors: FloatArray, samples: FloatArray, freedom: int, known_error: bool
-) -> FloatArray:
+def _interval(values: Array, errors: Array, samples: Array, freedom: int, known_error: bool) -> Array:
     """Return 95 % intervals: of the draws where there are enough, else of the covariance.
 
     A scatter found from few observations is uncertain itself, for which Student's distribution allows; draws from few
@@ -332,8 +330,8 @@ def _interval(
 
 
 def _covariance(
-    sensitivity: FloatArray, residual: FloatArray, values: FloatArray, scale: FloatArray, known_error: bool
-) -> tuple[FloatArray, float]:
+    sensitivity: Array, residual: Array, values: Array, scale: Array, known_error: bool
+) -> tuple[Array, float]:
     """Return the covariance, and the condition number of sensitivities to relative changes of the parameters."""
     relative = sensitivity * np.maximum(np.abs(values), 1e-3 * scale)
     norms = np.linalg.norm(relative, axis=0)
@@ -352,8 +350,8 @@ def _covariance(
 
 
 def _draws(
-    fitter: _Fitter, values: FloatArray, groups: Sequence[str] | None, draws: int, seed: int, progress: Progress
-) -> FloatArray:
+    fitter: _Fitter, values: Array, groups: Sequence[str] | None, draws: int, seed: int, progress: Progress
+) -> Array:
     """Return estimates with observations (or whole groups of them) drawn with replacement."""
     random = np.random.default_rng(seed)
     count = fitter.observed.size
@@ -377,9 +375,7 @@ def _draws(
     return np.array(out).reshape(len(out), values.size)
 
 
-def _leave_out(
-    fitter: _Fitter, values: FloatArray, groups: Sequence[str] | None, progress: Progress
-) -> tuple[LeftOut, ...]:
+def _leave_out(fitter: _Fitter, values: Array, groups: Sequence[str] | None, progress: Progress) -> tuple[LeftOut, ...]:
     if groups is None or len(set(groups)) < 2:
         return ()
     labels = np.asarray(groups, dtype=object)
@@ -397,7 +393,7 @@ def _leave_out(
     return tuple(out)
 
 
-def _misfit(weighted: FloatArray, freedom: int) -> tuple[Notice, ...]:
+def _misfit(weighted: Array, freedom: int) -> tuple[Notice, ...]:
     """Return a notice where the model misses the observations by more than their stated errors explain."""
     from scipy.special import chdtrc
 
@@ -414,9 +410,9 @@ def _misfit(weighted: FloatArray, freedom: int) -> tuple[Notice, ...]:
 
 def _notices(
     parameters: Sequence[Parameter],
-    values: FloatArray,
-    errors: FloatArray,
-    covariance: FloatArray,
+    values: Array,
+    errors: Array,
+    covariance: Array,
     condition: float,
     left_out: Sequence[LeftOut],
 ) -> tuple[Notice, ...]:
@@ -443,7 +439,7 @@ def _notices(
     return tuple(notices)
 
 
-def _worst_pair(parameters: Sequence[Parameter], covariance: FloatArray) -> str:
+def _worst_pair(parameters: Sequence[Parameter], covariance: Array) -> str:
     if len(parameters) < 2 or not np.isfinite(covariance).all():
         return ""
     scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
@@ -466,8 +462,8 @@ class ProfileOfFit:
     """
 
     name: str
-    values: FloatArray
-    squares: FloatArray
+    values: Array
+    squares: Array
     interval: tuple[float, float]
 
 
@@ -504,7 +500,7 @@ def profile(
     squares = np.empty(trail.size)
     for i, value in enumerate(trail):
 
-        def held(rest: FloatArray, value: float = value) -> ArrayLike:
+        def held(rest: Array, value: float = value) -> ArrayLike:
             return model(np.insert(rest, place, value))
 
         fitter = _Fitter(held, data, weight, others)

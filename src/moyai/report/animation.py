@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.encoding import QUANTA, encode_array, encode_quantised
 from moyai.report.formatting import display_unit
-
-Array = NDArray[np.float64]
 
 FRAMES_PER_PERIOD_FINE = 40
 FRAMES_PER_PERIOD_COARSE = 8

@@ -11,12 +11,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
+from moyai.core.arrays import Array
 from moyai.core.validity import IdentityCheck, Notice
 
-Array = NDArray[np.float64]
 Style = Literal["line", "points", "line+points", "bar"]
 Tone = Literal["good", "caution", "bad", "neutral"]
 Cell = str | float | int | bool | None

@@ -12,11 +12,9 @@ from dataclasses import dataclass
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.formatting import format_number, trimmed
-
-Array = NDArray[np.float64]
 
 _PAPER = """
 .water{fill:#cfe4f1;stroke:none}.surface{stroke:#1f7ab0;fill:none;stroke-width:1.4}

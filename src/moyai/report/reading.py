@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
@@ -18,8 +19,6 @@ from moyai.report.formatting import display_unit, largest_magnitude
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Array = NDArray[np.float64]
 
 
 class AbsentError(InputError):

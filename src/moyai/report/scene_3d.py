@@ -15,14 +15,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Animation
 from moyai.report.encoding import encode_array, encode_quantised
 from moyai.report.formatting import display_unit
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Size of the motion in the page [bytes before base64], fewest and most frames, points of a trace of tension.
 BYTES_OF_MOTION, FEWEST_FRAMES, MOST_FRAMES, POINTS_OF_A_TRACE = 4_000_000, 40, 1500, 1600

@@ -8,14 +8,13 @@ from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.formatting import display_unit, format_number
 
 if TYPE_CHECKING:
     from moyai.report.scene_3d import Scene3D
 
-Array = NDArray[np.float64]
 
 WIDTH, HEIGHT, TOP, BOTTOM = 960.0, 520.0, 34.0, 34.0
 _STOPS = np.array([[134, 170, 200], [84, 120, 180], [110, 76, 160], [176, 48, 116], [214, 48, 31]], dtype=float)

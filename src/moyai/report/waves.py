@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 SAMPLES_PER_SHORTEST_PERIOD = 8
 ENERGY_KEPT = 0.995  # the shortest ripples are below a pixel

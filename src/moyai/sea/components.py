@@ -8,16 +8,14 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.sea import kinematics
 from moyai.sea.kinematics import Stretching
 from moyai.sea.time_sum import sum_over_time
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

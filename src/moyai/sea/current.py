@@ -12,13 +12,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.single import plain
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 
 class CurrentProfile(ABC):

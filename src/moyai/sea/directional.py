@@ -11,12 +11,11 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import betainc, betaincinv, gammaln, ndtr
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-Array = NDArray[np.float64]
 
 #: s_max of Goda and Suzuki (1975) for design in deep water where no measurement tells better.
 GODA_MAXIMUM_EXPONENTS: dict[str, float] = {"wind sea": 10.0, "young swell": 25.0, "old swell": 75.0}

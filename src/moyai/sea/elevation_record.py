@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-Array = NDArray[np.float64]
 
 #: Part of the variance that the smallest components together may hold and be left out.
 LEFT_OUT = 1e-8

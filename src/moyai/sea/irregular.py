@@ -10,8 +10,8 @@ import math
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea import dispersion
@@ -20,8 +20,6 @@ from moyai.sea.directional import Spreading, wrapped
 from moyai.sea.spectrum import Spectrum
 from moyai.sea.synthesis import choose_band, equal_energy_bins, fourier_bins, uniform_numbers
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 __all__ = ["WaveComponents", "synthesise"]
 

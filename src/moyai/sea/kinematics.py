@@ -14,9 +14,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 
-Array = NDArray[np.float64]
 Stretching = Literal["constant", "linear", "wheeler"]
 
 #: Codes of the treatment above still water, as the kernels take them.

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.sea import dispersion
@@ -25,7 +25,6 @@ from moyai.sea.water import Water
 
 __all__ = ["NonlinearWave", "Theory", "nonlinear_wave", "stokes_coefficients"]
 
-Array = NDArray[np.float64]
 
 #: At three wavelengths of depth tanh kh is 1 to rounding: deeper water is passed to raschii as this.
 _DEEP_IN_WAVELENGTHS = 3.0

@@ -11,12 +11,12 @@ from typing import Literal
 
 import numpy as np
 from numba import njit
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 
-Array = NDArray[np.float64]
 Theory = Literal["airy", "stokes", "stream_function"]
 
 RESIDUAL = 1e-5

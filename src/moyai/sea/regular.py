@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea import dispersion
 from moyai.sea.components import WaveComponents
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

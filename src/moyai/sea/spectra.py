@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
@@ -32,7 +32,6 @@ __all__ = [
     "tma",
 ]
 
-Array = NDArray[np.float64]
 
 #: Table of a spectrum made from a formula when the caller names no frequencies, as multiples of the peak frequency.
 DEFAULT_RELATIVE_FREQUENCIES = (0.3, 8.0, 771)

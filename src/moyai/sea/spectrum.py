@@ -13,14 +13,13 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea import dispersion
 from moyai.sea import spectral_integrals as integrals
 from moyai.sea.spectrum_file import spectrum_table
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -17,12 +17,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea.spectra import from_table
 from moyai.sea.spectrum import Spectrum
 from moyai.sea.spectrum_wavespectra import kind_of, read_with_wavespectra
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -12,14 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
     from moyai.sea.spectrum_archives import SpectrumArchive
 
-Array = NDArray[np.float64]
 
 _TEXT = ("octopus", "awac", "funwave", "obscape", "xwaves", "datawell", "triaxys", "spotter", "json")
 _NETCDF = ("ww3", "era5", "ncswan", "wwm", "wavespectra", "netcdf")

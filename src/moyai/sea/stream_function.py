@@ -15,13 +15,11 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.sea import dispersion
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 #: Smallest part of the height by which the continuation advances before it gives up.
 _SMALLEST_ADVANCE = 1.0 / 400.0

@@ -6,13 +6,12 @@ import math
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.spectrum import Spectrum
 
-Array = NDArray[np.float64]
 Stream = Literal["phase", "amplitude", "heading", "frequency"]
 
 _STREAMS: dict[str, int] = {"phase": 1, "amplitude": 2, "heading": 3, "frequency": 4}

@@ -7,10 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.sea.kinematics import sum_over_any_time, sum_over_uniform_time
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Shortest time axis for which looking for a uniform step pays.
 _SHORTEST = 8

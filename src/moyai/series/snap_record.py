@@ -14,10 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-
-Array = NDArray[np.float64]
 
 _FEWEST_IN_RISE = 5
 # Peak above the noise below which no snap is told from it

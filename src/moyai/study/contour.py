@@ -5,12 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.study import schema
-
-Array = NDArray[np.float64]
 
 
 def contour_seas(given: schema.Contour, folder: Path) -> tuple[Array, Array]:

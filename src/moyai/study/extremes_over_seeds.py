@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.results import Result
 from moyai.core.validity import Notice
@@ -22,7 +22,6 @@ from moyai.study.tensions import response as response_of
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 _LEAST = 5
 _PARETO_SHARE = 0.1

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.case.reader import case_of, read_block
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.quantities import parse_quantity
@@ -27,8 +27,6 @@ from moyai.study.plan import RunCase
 from moyai.study.responses import read_response
 from moyai.study.variations import common_unit
 from moyai.study.variations_of_files import read_rows
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

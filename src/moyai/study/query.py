@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.case.faults import did_you_mean
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
 from moyai.study.responses import picked, split_response
@@ -22,7 +23,6 @@ from moyai.study.responses import picked, split_response
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 _COMPARE: dict[str, Callable[[Any, Any], Any]] = {
     "<=": operator.le,

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.validation import ValidationCase
-from moyai.interop.coefficients import DOFS, FloatArray, assemble
+from moyai.interop.coefficients import DOFS, assemble
 from moyai.interop.planar import move_reference_point, to_planar
 
 _DENSITY, _GRAVITY = 1025.0, 9.81
@@ -57,7 +58,7 @@ def _box_in_beam_seas(degree: str) -> complex:
     return complex(planar["excitation_force"].sel(influenced_dof=degree).values[0, 0])
 
 
-def _sphere_about(height: float) -> FloatArray:
+def _sphere_about(height: float) -> Array:
     """Return the added-mass matrix of a deep sphere (radius 1 m) about a point ``height`` above its centre [kg]."""
     mass = 0.5 * _DENSITY * 4.0 / 3.0 * math.pi
     dataset = assemble(

@@ -9,8 +9,9 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.options import checks_words
-from moyai.morison.net_law_base import Array, NetLaw
+from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
 
 #: Polynomial of the drag of a smooth circular cylinder in log10 Re, constant first

@@ -8,7 +8,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from moyai.morison.net_law_base import Array, NetLaw
+from moyai.core.arrays import Array
+from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
 
 

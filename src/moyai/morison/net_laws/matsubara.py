@@ -9,9 +9,10 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.morison.net_law_base import Array, NetLaw
+from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
 
 #: C_D = FACTOR Re^-EXPONENT

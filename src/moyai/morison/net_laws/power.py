@@ -10,9 +10,10 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-from moyai.morison.net_law_base import Array, NetLaw
+from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
 
 _NUMBER = r"(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)"

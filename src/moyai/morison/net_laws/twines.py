@@ -10,8 +10,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.morison.net_law_base import Array, NetLaw
+from moyai.morison.net_law_base import NetLaw
 from moyai.morison.nets import Net
 
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from moyai.morison.net_law_base import Array
+from moyai.core.arrays import Array
 from moyai.morison.net_laws.twines import TwineLaw
 from moyai.morison.nets import Net
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.records.reading.record import FloatArray
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def agreement(model: ArrayLike, observed: ArrayLike) -> Agreement:
     )
 
 
-def _slope(m: FloatArray, o: FloatArray) -> float:
+def _slope(m: Array, o: Array) -> float:
     mm, oo, mo = float(m @ m), float(o @ o), float(m @ o)
     if mo == 0.0:
         return math.nan
@@ -151,9 +151,9 @@ class Overlay:
     agreement : Agreement
     """
 
-    time: FloatArray
-    model: FloatArray
-    observed: FloatArray
+    time: Array
+    model: Array
+    observed: Array
     lag: float
     agreement: Agreement
 
@@ -190,7 +190,7 @@ def overlay(
         raise InputError(f"{mt.size} and {ot.size} instants", path="time", allowed="two or more each")
     gap = 2.5 * float(np.median(np.diff(mt)))
 
-    def moved(lag: float) -> FloatArray:
+    def moved(lag: float) -> Array:
         return interpolate(mt + lag, mv, ot, largest_gap=max(gap, 0.0))
 
     lag = 0.0
@@ -218,7 +218,7 @@ def overlay(
     return Overlay(ot[part], values[part], ov[part], lag, agreement(values[part], ov[part]))
 
 
-def _cost(model: FloatArray, observed: FloatArray) -> float:
+def _cost(model: Array, observed: Array) -> float:
     known = np.isfinite(model) & np.isfinite(observed)
     if np.count_nonzero(known) < 0.5 * observed.size:
         return math.inf

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.results import Result, make_provenance
 from moyai.core.units import parse_unit
@@ -18,7 +19,7 @@ from moyai.core.validity import Notice
 from moyai.core.vocabulary import NO_UNIT, Vocabulary
 from moyai.records.comparison.model import Agreement, agreement_by_state, overlay
 from moyai.records.reading.reader import read_record
-from moyai.records.reading.record import FloatArray, Record
+from moyai.records.reading.record import Record
 from moyai.records.reading.sources import ColumnSource, LoggerSource, TimeSource
 from moyai.records.reading.text import find_layout, split_heading
 
@@ -234,7 +235,7 @@ def _find(wanted: str, variables: Mapping[str, Any]) -> str:
 
 def _values(
     found: Any, name: str, along: str, select: Mapping[str, str], result: Result
-) -> tuple[FloatArray, FloatArray, str, str]:
+) -> tuple[Array, Array, str, str]:
     """Return values, coordinate, unit of the values and a label of the coordinate."""
     variable, node = found
     array = variable
@@ -275,7 +276,7 @@ def _values(
     return values, coordinate, str(variable.attrs.get("units", "")), label
 
 
-def _column(record: Record, name: str, unit: str, path: Path, notices: list[Notice]) -> FloatArray:
+def _column(record: Record, name: str, unit: str, path: Path, notices: list[Notice]) -> Array:
     values = record[name]
     own = record.units[record.index(name)]
     plain = unit if unit not in ("1", "-") else ""
@@ -296,7 +297,7 @@ def _column(record: Record, name: str, unit: str, path: Path, notices: list[Noti
     return values
 
 
-def _edges(state: FloatArray) -> tuple[float, ...]:
+def _edges(state: Array) -> tuple[float, ...]:
     """Return four classes with equal numbers."""
     known = state[np.isfinite(state)]
     if known.size < 8:
@@ -343,7 +344,7 @@ def _group(
     unit: str,
     axis: str,
     label: str,
-    classes: tuple[FloatArray, tuple[float, ...]] | None,
+    classes: tuple[Array, tuple[float, ...]] | None,
     record: Record,
     state: str,
 ) -> xr.Dataset:

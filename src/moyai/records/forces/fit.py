@@ -12,14 +12,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.records.forces.record import ForceRecord
 from moyai.series.intervals import student_quantile
 
-Array = NDArray[np.float64]
 Method = Literal["fourier", "least_squares", "force_weighted", "robust"]
 Form = Literal["component", "vector"]
 METHODS: tuple[Method, ...] = ("fourier", "least_squares", "force_weighted", "robust")

@@ -7,8 +7,8 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.fit import (
@@ -28,8 +28,6 @@ from moyai.records.forces.notices import (
     unknown_notices,
 )
 from moyai.records.forces.record import ForceRecord, acceleration_of, period_of
-
-Array = NDArray[np.float64]
 
 _SPEED_FACTOR = 8.0 / (3.0 * math.pi)
 

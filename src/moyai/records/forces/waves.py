@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.kinematics import depth_functions
-
-Array = NDArray[np.float64]
 
 #: Harmonics of a regular elevation that are carried along as bound to the first
 _BOUND = 3

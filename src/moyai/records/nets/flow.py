@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.record import acceleration_of, period_of
@@ -16,8 +17,6 @@ from moyai.records.forces.waves import orbital_motion
 from moyai.records.nets.runs import NetRun, Tank
 from moyai.records.nets.steady import steady_window
 from moyai.sea.dispersion import wave_number
-
-Array = NDArray[np.float64]
 
 #: Gap between the encounter period seen and that of the dispersion relation that is told, relative
 _PERIOD_GAP = 0.03

@@ -15,10 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.series.intervals import student_quantile
-
-Array = NDArray[np.float64]
 
 #: Names of the coefficients in their order
 TERMS = ("a0", "a1", "a2", "a3", "a4")

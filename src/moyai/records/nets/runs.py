@@ -9,11 +9,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.morison.nets import Net
 
-Array = NDArray[np.float64]
 RunKind = Literal["still_water", "towing_waves", "waves"]
 KINDS: tuple[RunKind, ...] = ("still_water", "towing_waves", "waves")
 

@@ -6,12 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.series.intervals import student_quantile
-
-Array = NDArray[np.float64]
 
 #: Share of the plateau within which a speed counts as steady, and a force
 _SPEED_BAND, _FORCE_BAND = 0.03, 0.15

@@ -7,11 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.records.nets.runs import NetRun, RunKind, Specimen, Tank
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

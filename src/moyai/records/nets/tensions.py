@@ -7,14 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.record import period_of
 from moyai.series.harmonics import fit_harmonics
-
-Array = NDArray[np.float64]
 
 #: Share of the peak below which a line counts as slack
 SLACK_SHARE = 0.02

@@ -7,16 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.nets.runs import NetRun, Specimen, Tank
 from moyai.records.nets.steady import Mean, correlated_mean, steady_window, zero_error
 from moyai.records.nets.vibration import Vibration, low_pass, remove_band, shaken_mass
 from moyai.series.intervals import student_quantile
-
-Array = NDArray[np.float64]
 
 #: Frequency of the low-pass filter of steady tows [Hz]
 LOW_PASS = 1.0

@@ -12,12 +12,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.series.spectra import WelchOptions, spectrum_of
-
-Array = NDArray[np.float64]
 
 #: A line stands out of the spectrum about it by this factor at least
 _LEAST_PROMINENCE = 6.0

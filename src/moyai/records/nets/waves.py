@@ -7,8 +7,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.forces.identification import Fit, ForceRecord, Identification, Setup, identify
@@ -17,8 +17,6 @@ from moyai.records.nets.runs import NetRun, Specimen, Tank
 from moyai.records.nets.steady import correlated_covariance, zero_error
 from moyai.records.nets.vibration import Vibration, remove_band, shaken_mass
 from moyai.series.intervals import student_quantile
-
-Array = NDArray[np.float64]
 
 #: Half width over coefficient above which a coefficient is not given
 UNKNOWN_SHARE = 0.5

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray, Record
+from moyai.records.reading.record import Record
 from moyai.records.reading.sources import ClockCorrection
 
 
@@ -32,9 +33,9 @@ class ClockFit:
     correction: ClockCorrection
     offset_error: float
     drift_error: float
-    times: FloatArray
-    offsets: FloatArray
-    correlation: FloatArray
+    times: Array
+    offsets: Array
+    correlation: Array
 
 
 def fit_clock(
@@ -116,11 +117,11 @@ def fit_clock(
     return ClockFit(correction, float(errors[0]), float(errors[1]), times, offsets, correlation)
 
 
-def _on(record: Record, channel: str, grid: FloatArray) -> FloatArray:
+def _on(record: Record, channel: str, grid: Array) -> Array:
     return interpolate(record.time, record.sound(channel), grid, largest_gap=2.5 * record.step)
 
 
-def _peak(fixed: FloatArray, moved: FloatArray) -> tuple[float, float] | None:
+def _peak(fixed: Array, moved: Array) -> tuple[float, float] | None:
     """Return place (in steps, refined) and height of the peak of the normalised correlation."""
     size = fixed.size
     a = moved - moved.mean()
@@ -143,7 +144,7 @@ def _peak(fixed: FloatArray, moved: FloatArray) -> tuple[float, float] | None:
     return place + shift, float(correlation[place])
 
 
-def interpolate(time: ArrayLike, values: ArrayLike, grid: ArrayLike, *, largest_gap: float) -> FloatArray:
+def interpolate(time: ArrayLike, values: ArrayLike, grid: ArrayLike, *, largest_gap: float) -> Array:
     """Return values on another clock by straight lines between neighbours; NaN across gaps and beyond the ends.
 
     Parameters

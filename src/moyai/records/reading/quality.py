@@ -15,10 +15,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading import record as bits
-from moyai.records.reading.record import FloatArray, Record, instant_text
+from moyai.records.reading.record import Record, instant_text
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ class Quality:
 
 
 @njit(cache=True, error_model="numpy")
-def _median_distance(values: FloatArray, half: int, out: FloatArray) -> None:
+def _median_distance(values: Array, half: int, out: Array) -> None:
     """Fill ``out`` with each sample's distance from the median of its neighbourhood; NaN neighbours do not count."""
     size = values.size
     window = np.empty(2 * half + 1)
@@ -152,7 +153,7 @@ def _median_distance(values: FloatArray, half: int, out: FloatArray) -> None:
         out[i] = values[i] - median
 
 
-def find_spikes(values: FloatArray, options: QualityOptions) -> NDArray[np.bool_]:
+def find_spikes(values: Array, options: QualityOptions) -> NDArray[np.bool_]:
     """Return where a sample stands out of its neighbourhood [eq:records-spike]."""
     spikes = np.zeros(values.size, dtype=bool)
     if not math.isfinite(options.spike_scale) or values.size < 5:
@@ -188,7 +189,7 @@ def _runs(same: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]
     return edges[0::2], edges[1::2]
 
 
-def find_flat(values: FloatArray, step: float, options: QualityOptions) -> NDArray[np.bool_]:
+def find_flat(values: Array, step: float, options: QualityOptions) -> NDArray[np.bool_]:
     """Return where identical values last longer than ``flat_seconds``."""
     flat = np.zeros(values.size, dtype=bool)
     if not math.isfinite(options.flat_seconds) or values.size < 2:
@@ -201,7 +202,7 @@ def find_flat(values: FloatArray, step: float, options: QualityOptions) -> NDArr
     return flat
 
 
-def find_clipped(values: FloatArray, options: QualityOptions) -> NDArray[np.bool_]:
+def find_clipped(values: Array, options: QualityOptions) -> NDArray[np.bool_]:
     """Return where the record stands at its limit: plateaus at its highest or lowest value, twice or more."""
     clipped = np.zeros(values.size, dtype=bool)
     if options.clip_samples < 1 or not np.isfinite(values).any():
@@ -266,7 +267,7 @@ def _option(options: QualityOptions | Mapping[str, QualityOptions], name: str) -
 
 
 def _stretches(
-    name: str, kind: str, time: FloatArray, values: FloatArray, where: NDArray[np.bool_], most: int = 50
+    name: str, kind: str, time: Array, values: Array, where: NDArray[np.bool_], most: int = 50
 ) -> list[Finding]:
     first, last = _runs(where)
     out = []
@@ -282,7 +283,7 @@ def _stretches(
     return out
 
 
-def find_gaps(time: FloatArray, step: float, gap_steps: float) -> tuple[tuple[tuple[float, float], ...], int]:
+def find_gaps(time: Array, step: float, gap_steps: float) -> tuple[tuple[tuple[float, float], ...], int]:
     """Return the gaps of a clock (first missing instant, duration) [s] and how many samples they lack."""
     if time.size < 2 or not step > 0.0:
         return (), 0

@@ -16,11 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.units import Unit, parse_unit
 from moyai.core.validity import Notice
 from moyai.records.reading import arrays as read_arrays
-from moyai.records.reading.record import FloatArray, Record, concatenate, instant_text
+from moyai.records.reading.record import Record, concatenate, instant_text
 from moyai.records.reading.sources import SECONDS_PER, ColumnSource, LoggerSource
 from moyai.records.reading.text import RawChunk, line_of_row, read_text, stated_unit
 
@@ -203,7 +204,7 @@ def _parsed(unit: str) -> Unit | None:
         return None
 
 
-def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit) -> FloatArray:
+def _values(raw: NDArray[Any], column: ColumnSource, unit: Unit) -> Array:
     values = np.asarray(raw, dtype=np.float64)
     for sign in (sign for sign in column.missing if not isinstance(sign, str)):
         values = np.where(np.isclose(values, sign, rtol=1e-6, atol=1e-9), np.nan, values)
@@ -248,7 +249,7 @@ class _Clock:
                 )
         self.dated = self.dated or self.file_has_epoch
 
-    def instants(self, raw: RawChunk) -> tuple[FloatArray, NDArray[np.bool_] | None, tuple[Notice, ...]]:
+    def instants(self, raw: RawChunk) -> tuple[Array, NDArray[np.bool_] | None, tuple[Notice, ...]]:
         """Return the instants of a chunk, the rows that are kept (None: all) and notices."""
         source, rows = self.time, len(raw)
         if source.columns:
@@ -265,7 +266,7 @@ class _Clock:
         time, kept, notices = self._in_order(time, raw)
         return self._corrected(time), kept, notices
 
-    def _stamps(self, raw: RawChunk) -> FloatArray:
+    def _stamps(self, raw: RawChunk) -> Array:
         source = self.time
         columns = [raw.columns[column] for column in source.columns]
         if source.form == "number":
@@ -278,7 +279,7 @@ class _Clock:
             return start + seconds * SECONDS_PER[source.unit]
         return self._dates(columns, raw) - source.utc_offset
 
-    def _dates(self, columns: list[NDArray[Any]], raw: RawChunk) -> FloatArray:
+    def _dates(self, columns: list[NDArray[Any]], raw: RawChunk) -> Array:
         import pandas as pd
 
         text = pd.Series(columns[0], dtype="object").astype(str)
@@ -305,7 +306,7 @@ class _Clock:
             ) from None
         return np.asarray(found.dt.tz_localize(None).to_numpy("datetime64[ns]").astype(np.int64) * 1e-9)
 
-    def _spread(self, stamps: FloatArray) -> FloatArray:
+    def _spread(self, stamps: Array) -> Array:
         """Count samples at the rate from the first stamp on, anew after every gap; equation [eq:records-spread]."""
         rate = self.time.rate
         steps = np.diff(stamps)
@@ -331,9 +332,7 @@ class _Clock:
             begin = stop
         return time
 
-    def _in_order(
-        self, time: FloatArray, raw: RawChunk
-    ) -> tuple[FloatArray, NDArray[np.bool_] | None, tuple[Notice, ...]]:
+    def _in_order(self, time: Array, raw: RawChunk) -> tuple[Array, NDArray[np.bool_] | None, tuple[Notice, ...]]:
         before = np.concatenate([[self.last], time[:-1]])
         if not (time <= before).any():
             self.last = float(time[-1])
@@ -357,7 +356,7 @@ class _Clock:
         notice = Notice("time-order", f"{count} rows left out: {told}", float(count), 0.0, remedy="check the logger")
         return time[kept], kept, (notice,)
 
-    def _corrected(self, time: FloatArray) -> FloatArray:
+    def _corrected(self, time: Array) -> Array:
         """Return the instants of a true clock [eq:records-clock]."""
         clock = self.source.clock
         if (clock.offset == 0.0 and clock.drift == 0.0) or not time.size:

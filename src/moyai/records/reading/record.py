@@ -14,10 +14,10 @@ from datetime import UTC, datetime
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 
-FloatArray = NDArray[np.float64]
 FlagArray = NDArray[np.uint8]
 
 MISSING = np.uint8(1)
@@ -59,8 +59,8 @@ class Record:
     notices : tuple of Notice
     """
 
-    time: FloatArray
-    values: FloatArray
+    time: Array
+    values: Array
     names: tuple[str, ...]
     units: tuple[str, ...]
     dated: bool = False
@@ -79,7 +79,7 @@ class Record:
     def __len__(self) -> int:
         return int(self.time.size)
 
-    def __getitem__(self, name: str) -> FloatArray:
+    def __getitem__(self, name: str) -> Array:
         """Return one channel."""
         return self.values[:, self.index(name)]
 
@@ -125,7 +125,7 @@ class Record:
             flags=flags,
         )
 
-    def sound(self, name: str, *, refused: int = int(MISSING | SPIKE | UNIT | RANGE)) -> FloatArray:
+    def sound(self, name: str, *, refused: int = int(MISSING | SPIKE | UNIT | RANGE)) -> Array:
         """Return a channel with NaN where one of the ``refused`` flags is set."""
         place = self.index(name)
         values = self.values[:, place].copy()
@@ -177,7 +177,7 @@ def instant_text(seconds: float, dated: bool) -> str:
     return datetime.fromtimestamp(float(seconds), UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-3] + "Z"
 
 
-def nominal_step(time: FloatArray) -> float:
+def nominal_step(time: Array) -> float:
     """Return the usual step of a clock [s]: the mean of the steps that are no gap; equation [eq:records-step].
 
     The median alone is itself rounded where stamps are: 0.078 s at 12.8 Hz, which is one sample too many in 12 s.

@@ -7,16 +7,15 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 
-ComplexArray = NDArray[np.complex128]
 Quantity = Literal[
     "elevation",
     "pressure",
@@ -58,7 +57,7 @@ class Sensor:
         """Powers of the cosine and the sine of the heading."""
         return _DIRECTION.get(self.quantity[-1], (0, 0)) if "_" in self.quantity else (0, 0)
 
-    def magnitude(self, omega: FloatArray, k: FloatArray, water: Water) -> ComplexArray:
+    def magnitude(self, omega: Array, k: Array, water: Water) -> ComplexArray:
         """Return the transfer function from the surface without the heading; equation [eq:records-transfer].
 
         Parameters
@@ -103,7 +102,7 @@ class Sensor:
             raise InputError(f"unknown quantity '{self.quantity}'", path="quantity", allowed=", ".join(QUANTITIES))
         return np.asarray(out, dtype=np.complex128)
 
-    def response(self, omega: FloatArray, k: FloatArray, heading: FloatArray, water: Water) -> ComplexArray:
+    def response(self, omega: Array, k: Array, heading: Array, water: Water) -> ComplexArray:
         """Return the transfer function at every frequency and heading [rad], shape (frequencies, headings)."""
         cosine, sine = np.cos(heading), np.sin(heading)
         power_x, power_y = self.powers
@@ -138,7 +137,7 @@ class SurfaceFromRecord:
     notices : tuple of Notice
     """
 
-    elevation: FloatArray
+    elevation: Array
     lowest: float
     highest: float
     notices: tuple[Notice, ...]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 
 LARGEST_SHARE = 0.02
 """Share of a channel that may be filled in a block: the height then changes by less than 5 % (see ``FilledGaps``)."""
@@ -30,7 +30,7 @@ class FilledGaps:
         Bound on the relative change of 4 sqrt(m0) by the filling [-]; equation [eq:records-short-gaps].
     """
 
-    values: FloatArray
+    values: Array
     share: float
     effect: float
 
@@ -43,7 +43,7 @@ class FilledGaps:
         return Notice("short-gaps-filled", message, self.share, LARGEST_SHARE, "information")
 
 
-def fill_short_gaps(step: float, values: FloatArray, highest: float) -> FilledGaps:
+def fill_short_gaps(step: float, values: Array, highest: float) -> FilledGaps:
     """Fill gaps over which a wave of the highest frequency passes less than a quarter of its period.
 
     Parameters

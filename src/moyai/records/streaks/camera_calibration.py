@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-FloatArray = NDArray[np.float64]
 
 
 class Calibration(Protocol):
@@ -25,10 +24,10 @@ class Calibration(Protocol):
     def residual(self) -> float:
         """Root mean square distance of the targets in pixels."""
 
-    def to_world(self, pixels: ArrayLike) -> FloatArray:
+    def to_world(self, pixels: ArrayLike) -> Array:
         """Return x, z [m] of pixels, shape (n, 2)."""
 
-    def to_pixels(self, world: ArrayLike) -> FloatArray:
+    def to_pixels(self, world: ArrayLike) -> Array:
         """Return column and row of points x, z [m], shape (n, 2)."""
 
 
@@ -75,7 +74,7 @@ class Refraction:
         apparent = self.camera_to_wall + self.wall_thickness / self.wall_index + self.sheet_distance / self.water_index
         return self.distance / apparent
 
-    def reach(self, tangent: ArrayLike) -> FloatArray:
+    def reach(self, tangent: ArrayLike) -> Array:
         """Return how far from the axis a ray meets the sheet [m], by Snell's law [eq:streaks-snell].
 
         Parameters
@@ -91,7 +90,7 @@ class Refraction:
             total = total + thickness * inner / np.sqrt(1.0 - inner**2)
         return np.asarray(total)
 
-    def tangent(self, reach: ArrayLike) -> FloatArray:
+    def tangent(self, reach: ArrayLike) -> Array:
         """Return the tangent in air of the ray that meets the sheet at ``reach`` [m]: Newton's method."""
         wanted = np.asarray(reach, dtype=float)
         apparent = self.distance / self.magnification
@@ -120,22 +119,22 @@ class Homography:
         How much an error of the targets grows: ratio of the largest to the second smallest singular value.
     """
 
-    matrix: FloatArray
+    matrix: Array
     residual: float = 0.0
     condition: float = 1.0
 
-    def to_pixels(self, world: ArrayLike) -> FloatArray:
+    def to_pixels(self, world: ArrayLike) -> Array:
         """Return column and row of points x, z [m], shape (n, 2)."""
         return _project(self.matrix, np.atleast_2d(np.asarray(world, dtype=float)))
 
-    def to_world(self, pixels: ArrayLike) -> FloatArray:
+    def to_world(self, pixels: ArrayLike) -> Array:
         """Return x, z [m] of pixels, shape (n, 2)."""
         return _project(
             np.asarray(np.linalg.inv(self.matrix), dtype=float), np.atleast_2d(np.asarray(pixels, dtype=float))
         )
 
 
-def _project(matrix: FloatArray, points: FloatArray) -> FloatArray:
+def _project(matrix: Array, points: Array) -> Array:
     lifted = np.column_stack([points, np.ones(len(points))]) @ matrix.T
     return np.asarray(lifted[:, :2] / lifted[:, 2:])
 
@@ -171,7 +170,7 @@ def fit_homography(pixels: ArrayLike, world: ArrayLike) -> Homography:
         )
     start = right[-1].reshape(3, 3)
 
-    def misses(values: FloatArray) -> FloatArray:
+    def misses(values: Array) -> Array:
         return np.asarray((_project(values.reshape(3, 3), w) - p).ravel())
 
     solved = least_squares(misses, start.ravel(), xtol=1e-15, ftol=1e-15)
@@ -181,7 +180,7 @@ def fit_homography(pixels: ArrayLike, world: ArrayLike) -> Homography:
     return Homography(matrix, math.sqrt(float((misfit**2).sum()) / len(picture)), condition)
 
 
-def _check_targets(pixels: ArrayLike, world: ArrayLike) -> tuple[FloatArray, FloatArray]:
+def _check_targets(pixels: ArrayLike, world: ArrayLike) -> tuple[Array, Array]:
     picture, sheet = np.asarray(pixels, dtype=float), np.asarray(world, dtype=float)
     if picture.ndim != 2 or picture.shape[1:] != (2,) or sheet.shape != picture.shape:
         raise InputError("every target needs column, row, x and z", path="targets")
@@ -205,7 +204,7 @@ def _check_targets(pixels: ArrayLike, world: ArrayLike) -> tuple[FloatArray, Flo
     return picture, sheet
 
 
-def _normalising(points: FloatArray) -> FloatArray:
+def _normalising(points: Array) -> Array:
     centre = points.mean(axis=0)
     scale = math.sqrt(2.0) / float(np.hypot(*(points - centre).T).mean())
     return np.array([[scale, 0.0, -scale * centre[0]], [0.0, scale, -scale * centre[1]], [0.0, 0.0, 1.0]])
@@ -230,14 +229,14 @@ class RayCamera:
         Root mean square distance of the targets in pixels.
     """
 
-    foot: FloatArray
-    rotation: FloatArray
+    foot: Array
+    rotation: Array
     focal_length: float
-    centre: FloatArray
+    centre: Array
     refraction: Refraction
     residual: float = 0.0
 
-    def to_pixels(self, world: ArrayLike) -> FloatArray:
+    def to_pixels(self, world: ArrayLike) -> Array:
         """Return column and row of points x, z [m], shape (n, 2)."""
         offset = np.atleast_2d(np.asarray(world, dtype=float)) - self.foot
         reach = np.hypot(offset[:, 0], offset[:, 1])
@@ -248,7 +247,7 @@ class RayCamera:
         seen = rays @ _rotation_matrix(self.rotation)
         return np.asarray(self.centre + self.focal_length * seen[:, :2] / seen[:, 2:])
 
-    def to_world(self, pixels: ArrayLike) -> FloatArray:
+    def to_world(self, pixels: ArrayLike) -> Array:
         """Return x, z [m] of pixels, shape (n, 2)."""
         offset = (np.atleast_2d(np.asarray(pixels, dtype=float)) - self.centre) / self.focal_length
         rays = np.column_stack([offset, np.ones(len(offset))]) @ _rotation_matrix(self.rotation).T
@@ -258,7 +257,7 @@ class RayCamera:
         return np.asarray(self.foot + slope * np.array([1.0, -1.0]) * share[:, None])
 
 
-def _rotation_matrix(vector: FloatArray) -> FloatArray:
+def _rotation_matrix(vector: Array) -> Array:
     from scipy.spatial.transform import Rotation
 
     return np.asarray(Rotation.from_rotvec(vector).as_matrix())
@@ -307,10 +306,10 @@ def fit_ray_camera(
     focal = float(pixels_per_metre) * medium.distance / medium.magnification
     spread = float(np.ptp(sheet, axis=0).max())
 
-    def camera(x: FloatArray) -> RayCamera:
+    def camera(x: Array) -> RayCamera:
         return RayCamera(middle + spread * x[:2], x[2:5], focal * math.exp(x[5]), centre, medium)
 
-    def misses(x: FloatArray) -> FloatArray:
+    def misses(x: Array) -> Array:
         return np.asarray((camera(x).to_pixels(sheet) - picture).ravel())
 
     solved = least_squares(misses, np.zeros(6), xtol=1e-14, ftol=1e-14, gtol=1e-14)

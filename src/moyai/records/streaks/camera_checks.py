@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.streaks.camera_calibration import Calibration, fit_homography
-
-FloatArray = NDArray[np.float64]
 
 #: Misfit of the targets over their extent in the picture above which no lens explains it
 _LARGEST_MISFIT = 0.02
@@ -46,7 +45,7 @@ def require_fitting_targets(calibration: Calibration, pixels: ArrayLike, world: 
     )
 
 
-def _culprit(picture: FloatArray, sheet: FloatArray) -> str:
+def _culprit(picture: Array, sheet: Array) -> str:
     """Return which single target spoils the fit, empty where none does."""
     count = len(picture)
     if not 6 <= count <= 200:
@@ -56,7 +55,7 @@ def _culprit(picture: FloatArray, sheet: FloatArray) -> str:
     return f"; without target {worst + 1} by {left[worst]:.2g}" if left[worst] < 0.2 * np.median(left) else ""
 
 
-def _misfit_without(picture: FloatArray, sheet: FloatArray, index: int) -> float:
+def _misfit_without(picture: Array, sheet: Array, index: int) -> float:
     keep = np.arange(len(picture)) != index
     try:
         return fit_homography(picture[keep], sheet[keep]).residual

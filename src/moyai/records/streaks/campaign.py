@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
@@ -34,8 +34,6 @@ from moyai.records.streaks.variables import VOCABULARY
 
 if TYPE_CHECKING:
     import xarray as xr
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +100,9 @@ class Campaign:
 
     title: str
     section: str
-    outline: FloatArray
+    outline: Array
     area: float
-    centre: FloatArray
+    centre: Array
     sense: int
     calibration: Calibration
     runs: tuple[StreakRun, ...]
@@ -130,7 +128,7 @@ class Campaign:
 class _Measured:
     run: StreakRun
     cloud: DriftCloud
-    drift: FloatArray
+    drift: Array
     circulation: Circulation
     background: BackgroundDrift | None
     overlay: dict[str, Any] = field(default_factory=dict)

@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-
-FloatArray = NDArray[np.float64]
 
 PUBLISHED = {"Arai": 0.9357, "Otsuka and Ikeda": 1.0, "Chaplin": 0.21 * math.pi**2 / 2.0}
 """Published values of G / (f B^2 KC^2); the last two follow from 2 - C_M of a circle."""
@@ -36,8 +35,8 @@ class CirculationLaw:
 
     coefficient: float
     deviation: float
-    dimensional: FloatArray
-    weight: FloatArray
+    dimensional: Array
+    weight: Array
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 
 
@@ -100,7 +99,7 @@ def fit_circulation_law(
     return CirculationLaw(math.exp(centre), deviation, math.exp(centre) * f * b**2, weight, tuple(notices))
 
 
-def inertia_reduction(circulation: ArrayLike, period: ArrayLike, area: ArrayLike) -> FloatArray:
+def inertia_reduction(circulation: ArrayLike, period: ArrayLike, area: ArrayLike) -> Array:
     """Return what a circulation takes from the inertia coefficient [eq:streaks-reduction].
 
     Parameters

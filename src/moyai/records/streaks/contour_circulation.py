@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
@@ -20,8 +21,6 @@ from moyai.records.streaks.drift_interpolation import (
     remainder_smoothing,
     trend,
 )
-
-FloatArray = NDArray[np.float64]
 
 Extrapolation = Literal["stokes", "linear"]
 
@@ -52,21 +51,21 @@ class Circulation:
     notices : tuple of Notice
     """
 
-    size_ratio: FloatArray
-    value: FloatArray
-    deviation: FloatArray
+    size_ratio: Array
+    value: Array
+    deviation: Array
     limit: float
     limit_interval: tuple[float, float]
     stokes_term: float
     linear: float
     linear_interval: tuple[float, float]
     confidence: float
-    samples: FloatArray
+    samples: Array
     outlier: NDArray[np.bool_]
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 
 
-def contour_points(outline: FloatArray, size_ratio: float, count: int = 96) -> FloatArray:
+def contour_points(outline: Array, size_ratio: float, count: int = 96) -> Array:
     """Return points along a contour similar to the section, evenly spaced, the first one repeated at the end.
 
     Parameters
@@ -87,7 +86,7 @@ def contour_points(outline: FloatArray, size_ratio: float, count: int = 96) -> F
     return size_ratio * np.column_stack([np.interp(along, length, closed[:, axis]) for axis in (0, 1)])
 
 
-def line_integral(points: FloatArray, velocity: FloatArray) -> float:
+def line_integral(points: Array, velocity: Array) -> float:
     """Return the circulation about +y by the trapezoidal rule [eq:streaks-circulation].
 
     Parameters
@@ -160,7 +159,7 @@ def extrapolate_linear(size_ratio: ArrayLike, circulation: ArrayLike, *, weights
 
 def _usable(
     size_ratio: ArrayLike, circulation: ArrayLike, weights: ArrayLike | None, least: float
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Array, Array, Array]:
     ratio, value = np.asarray(size_ratio, dtype=float), np.asarray(circulation, dtype=float)
     weight = np.ones_like(ratio) if weights is None else np.asarray(weights, dtype=float)
     kept = np.isfinite(value) & np.isfinite(weight) & (ratio >= least - 1e-12)
@@ -234,7 +233,7 @@ def measure_circulation(
     targets = np.vstack(contours)
     limits = np.cumsum([0, *(len(item) for item in contours)])
 
-    def evaluate(weight: FloatArray, smoothing: float | None) -> FloatArray:
+    def evaluate(weight: Array, smoothing: float | None) -> Array:
         chosen = weight > 0.0
         place, value = points[chosen], vectors[chosen]
         spread = error[chosen] / np.sqrt(weight[chosen])
@@ -268,9 +267,9 @@ def measure_circulation(
 
 
 def _summary(
-    ratio: FloatArray,
-    value: FloatArray,
-    samples: FloatArray,
+    ratio: Array,
+    value: Array,
+    samples: Array,
     least: float,
     confidence: float,
     inside: NDArray[np.bool_],
@@ -316,7 +315,7 @@ def _summary(
     )
 
 
-def _covered(points: FloatArray, contours: list[FloatArray]) -> NDArray[np.bool_]:
+def _covered(points: Array, contours: list[Array]) -> NDArray[np.bool_]:
     """Whether each contour lies within the hull of the particles."""
     from scipy.spatial import Delaunay, QhullError
 

@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.records.streaks.fit import PARAMETERS, fit_streaks, gather_pixels, streak_grey
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -79,10 +77,10 @@ class Streaks:
         Rows and columns of the picture.
     """
 
-    ends: FloatArray
-    bow: FloatArray
-    light: FloatArray
-    blur: FloatArray
+    ends: Array
+    bow: Array
+    light: Array
+    blur: Array
     overlapping: NDArray[np.bool_]
     noise: float
     background: float
@@ -95,12 +93,12 @@ class Streaks:
         return len(self.light)
 
     @property
-    def length(self) -> FloatArray:
+    def length(self) -> Array:
         """Distance between the ends [pixels]."""
         return np.asarray(np.hypot(*(self.ends[:, 1] - self.ends[:, 0]).T))
 
 
-def read_picture(path: Any) -> FloatArray:
+def read_picture(path: Any) -> Array:
     """Read a picture as grey levels.
 
     Parameters
@@ -177,7 +175,7 @@ def detect_streaks(
     smooth = gaussian_filter(rest, chosen.smoothing)
     smooth_noise = _noise(smooth[~hidden])
     labels, boxes = _regions(smooth, hidden, chosen, smooth_noise)
-    found: list[FloatArray] = []
+    found: list[Array] = []
     shared: list[bool] = []
     rejected = 0
     for number, box in enumerate(boxes, start=1):
@@ -207,7 +205,7 @@ def detect_streaks(
     )
 
 
-def background_level(grey: FloatArray, block: int, hidden: NDArray[np.bool_]) -> FloatArray:
+def background_level(grey: Array, block: int, hidden: NDArray[np.bool_]) -> Array:
     """Return the slowly varying background: medians of blocks, joined smoothly, model left out."""
     from scipy.ndimage import gaussian_filter, map_coordinates
 
@@ -243,7 +241,7 @@ def background_level(grey: FloatArray, block: int, hidden: NDArray[np.bool_]) ->
     return np.asarray(map_coordinates(filled, np.meshgrid(i, j, indexing="ij"), order=1, mode="nearest"))
 
 
-def _noise(values: FloatArray) -> float:
+def _noise(values: Array) -> float:
     if values.size == 0:
         return 0.5
     # Streaks brighten few pixels: the lower half of the distribution is noise alone
@@ -252,7 +250,7 @@ def _noise(values: FloatArray) -> float:
 
 
 def _regions(
-    smooth: FloatArray, hidden: NDArray[np.bool_], chosen: DetectionSettings, noise: float
+    smooth: Array, hidden: NDArray[np.bool_], chosen: DetectionSettings, noise: float
 ) -> tuple[IntArray, list[tuple[slice, slice]]]:
     """Return labelled regions that hold a bright pixel, and their boxes; regions at the mask or edge are left out."""
     try:
@@ -279,15 +277,15 @@ def _regions(
 
 
 def _fit_region(
-    rest: FloatArray,
-    grey: FloatArray,
+    rest: Array,
+    grey: Array,
     labels: IntArray,
     number: int,
     box: tuple[slice, slice],
     chosen: DetectionSettings,
     noise: float,
     saturation: float,
-) -> list[FloatArray] | None:
+) -> list[Array] | None:
     """Return the streaks of one region, taken apart into as few as explain its light, or ``None``."""
     from scipy.ndimage import binary_dilation
 
@@ -313,7 +311,7 @@ def _fit_region(
     total = float(np.abs(values).sum())
     floor = noise * math.sqrt(2.0 / math.pi) * used.sum()
     offset = np.array([patch[1].start, patch[0].start], dtype=float)
-    best: tuple[float, FloatArray] | None = None
+    best: tuple[float, Array] | None = None
     for count in range(1, chosen.most_overlap + 1):
         if count > 1 and len(place) < count * 3 * chosen.least_length:
             break
@@ -342,7 +340,7 @@ def _fit_region(
     return list(streaks)
 
 
-def _unexplained(misfit: FloatArray, used: NDArray[np.bool_]) -> float:
+def _unexplained(misfit: Array, used: NDArray[np.bool_]) -> float:
     """Return the root mean square of what neighbouring pixels miss together: noise, shot noise too, drops out."""
     total, count = 0.0, 0
     for first, second in (((slice(1, None), slice(None)), (slice(None, -1), slice(None))),
@@ -353,7 +351,7 @@ def _unexplained(misfit: FloatArray, used: NDArray[np.bool_]) -> float:
     return math.sqrt(max(total / max(count, 1), 0.0))
 
 
-def _first_guess(place: FloatArray, weight: FloatArray, count: int) -> FloatArray | None:
+def _first_guess(place: Array, weight: Array, count: int) -> Array | None:
     """Return first parameters of ``count`` streaks: pixels gathered around as many lines."""
     groups = np.zeros(len(place), dtype=np.int64) if count == 1 else _gather(place, weight, count)
     parts = []
@@ -377,13 +375,13 @@ def _first_guess(place: FloatArray, weight: FloatArray, count: int) -> FloatArra
     return np.array([value for part in parts for value in part] + [0.0])
 
 
-def _principal(points: FloatArray, light: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _principal(points: Array, light: Array) -> tuple[Array, Array]:
     centre = np.average(points, axis=0, weights=light)
     moments = np.cov((points - centre).T, aweights=light)
     return centre, np.linalg.eigh(moments)[1][:, 1]
 
 
-def _gather(place: FloatArray, weight: FloatArray, count: int) -> IntArray:
+def _gather(place: Array, weight: Array, count: int) -> IntArray:
     """Return for every pixel which of ``count`` line segments it belongs to."""
     random = np.random.default_rng(len(place))
     light = weight + 1e-9

@@ -7,16 +7,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 Interpolation = Literal["spline", "triangles"]
 
 _SMOOTHING = np.concatenate([[0.0], 10.0 ** np.arange(-4.0, 3.1, 0.5)])
 
 
-def trend(
-    points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float, targets: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def trend(points: Array, vectors: Array, deviation: Array, length: float, targets: Array) -> tuple[Array, Array]:
     """Return the mean flow plus vortex plus Stokes drift that fits best, at the particles and at the targets.
 
     Only what is left over is interpolated, so that the steep rise towards the section is not rounded off. The fit is
@@ -55,7 +53,7 @@ def trend(
     return at_points, at_targets
 
 
-def _trend_basis(points: FloatArray, length: float) -> FloatArray:
+def _trend_basis(points: Array, length: float) -> Array:
     square = (points**2).sum(axis=1)
     around = np.column_stack([points[:, 1], -points[:, 0]]) / square[:, None]
     steep = around * (0.25 * length**2 / square[:, None]) ** 2
@@ -71,7 +69,7 @@ def _trend_basis(points: FloatArray, length: float) -> FloatArray:
 
 
 def outliers(
-    points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float, *, limit: float = 5.0
+    points: Array, vectors: Array, deviation: Array, length: float, *, limit: float = 5.0
 ) -> NDArray[np.bool_]:
     """Return which vectors lie off their neighbours: the normalised median test [eq:streaks-outlier].
 
@@ -96,7 +94,7 @@ def outliers(
     return np.asarray(away > limit * (spread + float(np.median(spread))))
 
 
-def remainder_smoothing(points: FloatArray, vectors: FloatArray, deviation: FloatArray, length: float) -> float:
+def remainder_smoothing(points: Array, vectors: Array, deviation: Array, length: float) -> float:
     """Return the smoothing of the spline that predicts left-out particles best (by their median).
 
     Parameters
@@ -117,9 +115,7 @@ def remainder_smoothing(points: FloatArray, vectors: FloatArray, deviation: Floa
     return best
 
 
-def interpolation_matrix(
-    points: FloatArray, targets: FloatArray, deviation: FloatArray, smoothing: float | None
-) -> FloatArray:
+def interpolation_matrix(points: Array, targets: Array, deviation: Array, smoothing: float | None) -> Array:
     """Return the matrix that takes values at the points to values at the targets.
 
     Parameters
@@ -147,7 +143,7 @@ def interpolation_matrix(
     return np.asarray(rows @ inverse)
 
 
-def _system(points: FloatArray, deviation: FloatArray, smoothing: float) -> FloatArray:
+def _system(points: Array, deviation: Array, smoothing: float) -> Array:
     """Return the matrix of the spline's coefficients [eq:streaks-spline]."""
     count = len(points)
     centre, scale = _normal(points)
@@ -161,10 +157,10 @@ def _system(points: FloatArray, deviation: FloatArray, smoothing: float) -> Floa
     return system
 
 
-def _normal(points: FloatArray) -> tuple[FloatArray, float]:
+def _normal(points: Array) -> tuple[Array, float]:
     return points.mean(axis=0), float(np.ptp(points, axis=0).max())
 
 
-def _kernel(first: FloatArray, second: FloatArray) -> FloatArray:
+def _kernel(first: Array, second: Array) -> Array:
     square = ((first[:, None, :] - second[None, :, :]) ** 2).sum(axis=-1)
     return np.asarray(0.5 * square * np.log(np.maximum(square, 1e-300)))

@@ -12,11 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,10 +29,10 @@ class StreakChain:
         Positions x, z at these instants [m].
     """
 
-    start_time: FloatArray
-    end_time: FloatArray
-    start: FloatArray
-    end: FloatArray
+    start_time: Array
+    end_time: Array
+    start: Array
+    end: Array
 
     def __post_init__(self) -> None:
         count = len(self.start_time)
@@ -44,17 +42,17 @@ class StreakChain:
             raise InputError("the streaks of a chain are not in the order of time", path="chain")
 
     @property
-    def time(self) -> FloatArray:
+    def time(self) -> Array:
         """Middle of every streak's on-time [s]."""
         return 0.5 * (self.start_time + self.end_time)
 
     @property
-    def position(self) -> FloatArray:
+    def position(self) -> Array:
         """Midpoint of every streak [m]."""
         return 0.5 * (self.start + self.end)
 
     @property
-    def velocity(self) -> FloatArray:
+    def velocity(self) -> Array:
         """Length over on-time, in the direction of time [m/s]."""
         return (self.end - self.start) / (self.end_time - self.start_time)[:, None]
 
@@ -82,9 +80,9 @@ class Drift:
         Root mean square distance of the ends from the fit [m]; NaN where nothing is left over.
     """
 
-    position: FloatArray
-    velocity: FloatArray
-    closure: FloatArray
+    position: Array
+    velocity: Array
+    closure: Array
     deviation: float = math.nan
     residual: float = math.nan
 
@@ -149,7 +147,7 @@ def fit_drift_harmonics(chain: StreakChain, period: float, *, harmonics: Sequenc
     middle = 0.5 * (chain.start_time[0] + chain.end_time[-1])
     phase = (time - middle) / period
     count = time.size
-    best: tuple[float, FloatArray, FloatArray, float, int] | None = None
+    best: tuple[float, Array, Array, float, int] | None = None
     for number in harmonics:
         unknowns = 2 + 2 * number
         if count < unknowns + 3:
@@ -175,14 +173,14 @@ def fit_drift_harmonics(chain: StreakChain, period: float, *, harmonics: Sequenc
     return Drift(coefficients[0], coefficients[1] / period, first[0], deviation, residual)
 
 
-def _basis(phase: FloatArray, number: int) -> FloatArray:
+def _basis(phase: Array, number: int) -> Array:
     columns = [np.ones_like(phase), phase]
     for n in range(1, number + 1):
         columns += [np.cos(2.0 * math.pi * n * phase), np.sin(2.0 * math.pi * n * phase)]
     return np.column_stack(columns)
 
 
-def _least_squares(basis: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _least_squares(basis: Array, values: Array) -> tuple[Array, Array, Array]:
     inverse = np.asarray(np.linalg.pinv(basis.T @ basis), dtype=float)
     coefficients = inverse @ (basis.T @ values)
     return inverse, coefficients, values - basis @ coefficients

@@ -16,11 +16,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 _TERMS = 400
 _SHORT = 12
@@ -49,7 +47,7 @@ class SectionMap:
     height: float
     scale: float
     corner: float = 0.0
-    series: FloatArray = field(default_factory=lambda: np.zeros(0))
+    series: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def area(self) -> float:
@@ -57,7 +55,7 @@ class SectionMap:
         return 0.25 * math.pi * self.breadth**2 if self.kind == "circle" else self.breadth * self.height
 
     @property
-    def outline(self) -> FloatArray:
+    def outline(self) -> Array:
         """Outline as a closed polygon, shape (n, 2) [m]."""
         if self.kind == "circle":
             angle = np.linspace(0.0, 2.0 * math.pi, 181)
@@ -214,9 +212,7 @@ class OrbitalFlow:
         return 2.0 * math.pi / self.period
 
 
-def track_particles(
-    flow: OrbitalFlow, start: ArrayLike, times: ArrayLike, *, steps_per_period: int = 400
-) -> FloatArray:
+def track_particles(flow: OrbitalFlow, start: ArrayLike, times: ArrayLike, *, steps_per_period: int = 400) -> Array:
     """Follow particles by the classical Runge-Kutta scheme.
 
     Parameters
@@ -328,7 +324,7 @@ def _rate(z, t, omega, ax, az, gamma, transport, decay, settling, kind, scale, t
     return velocity / stretch
 
 
-def stokes_drift_circulation(amplitude: float, period: float, radius_ratio: ArrayLike) -> FloatArray:
+def stokes_drift_circulation(amplitude: float, period: float, radius_ratio: ArrayLike) -> Array:
     """Return the circulation of the irrotational Stokes drift around a circle to leading order [eq:streaks-stokes].
 
     Parameters

@@ -9,13 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.records.streaks.drift_velocity import StreakChain
 from moyai.records.streaks.timing import LEAST_EVIDENCE, PulseTrain, direction_evidence
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,9 +29,9 @@ class WorldStreaks:
         Logarithm of the light.
     """
 
-    ends: FloatArray
-    tangents: FloatArray
-    light: FloatArray
+    ends: Array
+    tangents: Array
+    light: Array
 
     @property
     def count(self) -> int:
@@ -42,12 +39,12 @@ class WorldStreaks:
         return len(self.light)
 
     @property
-    def middle(self) -> FloatArray:
+    def middle(self) -> Array:
         """Midpoints [m]."""
         return np.asarray(self.ends.mean(axis=1))
 
     @property
-    def vector(self) -> FloatArray:
+    def vector(self) -> Array:
         """From the first to the second end [m]."""
         return np.asarray(self.ends[:, 1] - self.ends[:, 0])
 
@@ -148,7 +145,7 @@ def _frame_costs(
     known_one: IntArray,
     known_two: IntArray,
     settings: LinkingSettings,
-) -> tuple[FloatArray, IntArray]:
+) -> tuple[Array, IntArray]:
     """Return cost (infinite: impossible) and signs of every pair of streaks of two frames."""
     step = two.middle[second][None] - one.middle[first][:, None]
     way = np.hypot(step[..., 0], step[..., 1])
@@ -171,7 +168,7 @@ def _frame_costs(
     return np.where(best < 1.0, total, np.inf), signs
 
 
-def _assign(cost: FloatArray) -> list[tuple[int, int]]:
+def _assign(cost: Array) -> list[tuple[int, int]]:
     """Return pairs of least total cost (the Hungarian method); impossible ones are left out."""
     from scipy.optimize import linear_sum_assignment
 
@@ -261,7 +258,7 @@ def _gap_rules(train: PulseTrain, reach: int) -> set[tuple[float, float, float]]
     return rules
 
 
-def _match(i: IntArray, j: IntArray, cost: FloatArray, reach: int) -> dict[int, tuple[int, int, float]]:
+def _match(i: IntArray, j: IntArray, cost: Array, reach: int) -> dict[int, tuple[int, int, float]]:
     """Return partners: the assignment of least cost in every group of ends, kept where it is mutual."""
     from scipy.optimize import linear_sum_assignment
     from scipy.sparse import coo_matrix

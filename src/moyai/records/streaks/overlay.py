@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.records.streaks.detection import background_level, read_picture
 
 if TYPE_CHECKING:
     import xarray as xr
 
-FloatArray = NDArray[np.float64]
 
 MOST_COLUMNS = 1000
 
@@ -29,7 +28,7 @@ def overlay_picture(files: Sequence[Path], dataset: xr.Dataset) -> dict[str, Any
     dataset : xarray.Dataset
         What :func:`moyai.records.streaks.run.analyse_recording` made of them.
     """
-    whole: FloatArray | None = None
+    whole: Array | None = None
     for file in files:
         picture = read_picture(file)
         level = background_level(picture, 64, np.zeros(picture.shape, dtype=bool))

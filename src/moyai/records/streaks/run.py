@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
@@ -24,7 +25,6 @@ from moyai.records.streaks.timing import PulseTrain
 if TYPE_CHECKING:
     import xarray as xr
 
-FloatArray = NDArray[np.float64]
 Closing = Literal["harmonics", "cubic"]
 
 _VERSION = 2
@@ -71,10 +71,10 @@ class DriftCloud:
         that are no streaks.
     """
 
-    position: FloatArray
-    velocity: FloatArray
-    deviation: FloatArray
-    residual: FloatArray
+    position: Array
+    velocity: Array
+    deviation: Array
+    residual: Array
     streaks: int = 0
     chains: int = 0
     refused: int = 0
@@ -111,7 +111,7 @@ class RunSettings:
     most_residual: float = 8e-4
 
 
-def read_pictures(files: Sequence[Path]) -> list[FloatArray]:
+def read_pictures(files: Sequence[Path]) -> list[Array]:
     """Read the pictures of a recording; all must be of one size.
 
     Raises
@@ -131,7 +131,7 @@ def read_pictures(files: Sequence[Path]) -> list[FloatArray]:
     return pictures
 
 
-def saturation_level(picture: FloatArray) -> float:
+def saturation_level(picture: Array) -> float:
     """Return the grey level from which a pixel counts as clipped (of 8 or 16 bits)."""
     top = float(picture.max())
     return 254.5 if top <= 255.0 else (65534.5 if top <= 65535.0 else math.inf)
@@ -180,7 +180,7 @@ def analyse_recording(
     calibration: Calibration,
     settings: RunSettings,
     *,
-    mask_outline: FloatArray | None = None,
+    mask_outline: Array | None = None,
     mask_margin: float = 0.0,
     store: DatasetStore | None = None,
     progress: Progress = silent,
@@ -253,7 +253,7 @@ def _require_streaks(recording: Recording, found: list[Streaks], settings: Detec
 
 
 def _mask(
-    shape: tuple[int, ...], calibration: Calibration, outline: FloatArray | None, margin: float
+    shape: tuple[int, ...], calibration: Calibration, outline: Array | None, margin: float
 ) -> NDArray[np.bool_] | None:
     if outline is None:
         return None
@@ -274,7 +274,7 @@ def _key(
     recording: Recording,
     calibration: Calibration,
     settings: RunSettings,
-    outline: FloatArray | None,
+    outline: Array | None,
     margin: float,
 ) -> str:
     import hashlib
@@ -382,11 +382,11 @@ class BackgroundDrift:
         Particles that it was measured from; 0 when it was given.
     """
 
-    mean: FloatArray
-    gradient: FloatArray
+    mean: Array
+    gradient: Array
     particles: int = 0
 
-    def at(self, position: FloatArray) -> FloatArray:
+    def at(self, position: Array) -> Array:
         """Return the drift at positions [m/s]."""
         return np.asarray(self.mean + np.asarray(position)[:, 1:] * self.gradient)
 

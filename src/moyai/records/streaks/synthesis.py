@@ -9,12 +9,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.records.streaks.camera_calibration import Calibration
 from moyai.records.streaks.flow import OrbitalFlow, track_particles
 from moyai.records.streaks.timing import PulseTrain
 
-FloatArray = NDArray[np.float64]
 Picture = NDArray[np.uint8] | NDArray[np.uint16]
 
 
@@ -85,8 +85,8 @@ class Exposure:
     """
 
     pictures: tuple[Picture, ...]
-    position: FloatArray = field(repr=False)
-    lit: FloatArray = field(repr=False)
+    position: Array = field(repr=False)
+    lit: Array = field(repr=False)
 
 
 def synthesise(
@@ -162,18 +162,18 @@ def synthesise(
     return Exposure(tuple(pictures), ends, lit)
 
 
-def _speed(path: FloatArray, instants: FloatArray) -> FloatArray:
+def _speed(path: Array, instants: Array) -> Array:
     return np.asarray(np.hypot(*(path[:, -1] - path[:, 0]).T) / (instants[-1] - instants[0]))
 
 
 def _deposit(
-    canvas: FloatArray,
+    canvas: Array,
     calibration: Calibration,
-    path: FloatArray,
-    weight: FloatArray,
-    size: FloatArray,
+    path: Array,
+    weight: Array,
+    size: Array,
     blur: float,
-    speed: FloatArray,
+    speed: Array,
 ) -> None:
     """Add the light of particles, size by size: points spread over four pixels, then a Gaussian for disc and lens."""
     from scipy.ndimage import gaussian_filter
@@ -205,7 +205,7 @@ def _deposit(
         canvas += gaussian_filter(layer, sigma, truncate=4.0) * math.sqrt(2.0 * math.pi) * sigma
 
 
-def _light_sheet(shape: tuple[int, int], unevenness: float) -> FloatArray:
+def _light_sheet(shape: tuple[int, int], unevenness: float) -> Array:
     rows, columns = shape
     row, column = np.mgrid[0:rows, 0:columns]
     x, z = 2.0 * column / columns - 1.0, 2.0 * row / rows - 1.0
@@ -214,9 +214,9 @@ def _light_sheet(shape: tuple[int, int], unevenness: float) -> FloatArray:
 
 
 def _sensor(
-    light: FloatArray,
+    light: Array,
     optics: Optics,
-    sheet: FloatArray,
+    sheet: Array,
     flow: OrbitalFlow,
     calibration: Calibration,
     random: np.random.Generator,

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-
-FloatArray = NDArray[np.float64]
 
 LIGHT_SCATTER = 0.15
 """Standard deviation of the logarithm of a streak's light about its particle's own (measured on rendered pictures)."""
@@ -32,9 +31,9 @@ class PulseTrain:
         Relative brightness of the light.
     """
 
-    start: FloatArray
-    duration: FloatArray
-    power: FloatArray
+    start: Array
+    duration: Array
+    power: Array
 
     def __post_init__(self) -> None:
         if len(self.start) < 2 or len(self.duration) != len(self.start) or len(self.power) != len(self.start):
@@ -54,12 +53,12 @@ class PulseTrain:
         return len(self.start)
 
     @property
-    def end(self) -> FloatArray:
+    def end(self) -> Array:
         """Instants at which the light goes off [s]."""
         return self.start + self.duration
 
     @property
-    def light(self) -> FloatArray:
+    def light(self) -> Array:
         """Logarithm of power times on-time: the light of a streak whatever the speed [eq:streaks-light]."""
         return np.log(self.power * self.duration)
 
@@ -81,7 +80,7 @@ def regular_pulses(interval: float, on_times: ArrayLike, powers: ArrayLike, coun
     return PulseTrain(np.asarray(interval * index, dtype=float), duration, power)
 
 
-def direction_evidence(light: FloatArray, steps: NDArray[np.int64], train: PulseTrain) -> tuple[float, int, bool]:
+def direction_evidence(light: Array, steps: NDArray[np.int64], train: PulseTrain) -> tuple[float, int, bool]:
     """Tell the direction of a chain from the light of its streaks [eq:streaks-order].
 
     Parameters
@@ -118,7 +117,7 @@ def direction_evidence(light: FloatArray, steps: NDArray[np.int64], train: Pulse
     return abs(with_time[0] - against[0]), (with_time if forward else against)[1], forward
 
 
-def _misfit(rest: FloatArray, order: NDArray[np.int64]) -> float:
+def _misfit(rest: Array, order: NDArray[np.int64]) -> float:
     """Return minus the log-likelihood of what is left of the light: a constant, a slow trend and scatter."""
     along = order - order.mean()
     centred = rest - np.median(rest)

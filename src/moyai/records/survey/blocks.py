@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading.clocks import interpolate
 from moyai.records.reading.quality import BlockMoments, Finding, check_record, moments_of
-from moyai.records.reading.record import FloatArray, Record, nominal_step
+from moyai.records.reading.record import Record, nominal_step
 from moyai.records.reading.sensors import Sensor, surface_elevation
 from moyai.records.reading.short_gaps import fill_short_gaps
 from moyai.records.survey.currents import block_means, components, heading_of_bearing
@@ -70,7 +71,7 @@ class BlockResult:
     samples: int
     waves: dict[str, dict[str, float]] = field(default_factory=dict)
     cut: dict[str, Waves] = field(default_factory=dict)
-    spectra: dict[str, tuple[FloatArray, FloatArray, float, dict[str, float]]] = field(default_factory=dict)
+    spectra: dict[str, tuple[Array, Array, float, dict[str, float]]] = field(default_factory=dict)
     directions: dict[str, float] = field(default_factory=dict)
     current: dict[str, float] = field(default_factory=dict)
     reflection: dict[str, float] = field(default_factory=dict)
@@ -84,12 +85,12 @@ class _Samples:
 
     def __init__(self, records: Sequence[Record | None]) -> None:
         self.records = [record for record in records if record is not None and len(record)]
-        self._found: dict[str, tuple[FloatArray, FloatArray]] = {}
+        self._found: dict[str, tuple[Array, Array]] = {}
 
     def record_of(self, name: str) -> Record | None:
         return next((record for record in self.records if name in record.names), None)
 
-    def get(self, name: str) -> tuple[FloatArray, FloatArray] | None:
+    def get(self, name: str) -> tuple[Array, Array] | None:
         """Return instants and sound values, ``None`` where the logger was silent."""
         record = self.record_of(name)
         if record is None:
@@ -166,7 +167,7 @@ def work_off(survey: Survey, index: int, origin: float, records: Sequence[Record
     )
 
 
-def _surface(survey: Survey, data: _Samples, name: str, notices: list[Notice]) -> tuple[FloatArray, FloatArray] | None:
+def _surface(survey: Survey, data: _Samples, name: str, notices: list[Notice]) -> tuple[Array, Array] | None:
     """Return the elevation of a channel, through linear theory where it is a pressure or a vertical motion."""
     found = data.get(name)
     use = survey.use_of(name)
@@ -212,7 +213,7 @@ def _waves(
     return cut, figures
 
 
-def _even(time: FloatArray, *values: FloatArray) -> tuple[float, FloatArray]:
+def _even(time: Array, *values: Array) -> tuple[float, Array]:
     """Return the step, and the columns with NaN where the clock has a gap."""
     step = nominal_step(time)
     # Counted from sample to sample: an error of the step does not add up over the block
@@ -225,9 +226,7 @@ def _even(time: FloatArray, *values: FloatArray) -> tuple[float, FloatArray]:
     return step, out
 
 
-def _filled(
-    survey: Survey, step: float, columns: FloatArray, what: str, notices: list[Notice]
-) -> tuple[float, FloatArray]:
+def _filled(survey: Survey, step: float, columns: Array, what: str, notices: list[Notice]) -> tuple[float, Array]:
     """Return the step, and the columns with short gaps filled; a notice names the share and its effect."""
     assert survey.spectral is not None
     filled = fill_short_gaps(step, columns, survey.spectral.highest)
@@ -238,7 +237,7 @@ def _filled(
 
 def _together(
     data: _Samples, names: Sequence[str], notices: list[Notice], code: str
-) -> tuple[FloatArray, list[FloatArray]] | None:
+) -> tuple[Array, list[Array]] | None:
     """Return channels on one clock, the coarsest of their loggers; ``None``, and a notice, where one is silent."""
     found = [data.get(name) for name in names]
     silent = [name for name, entry in zip(names, found) if entry is None or entry[0].size < 8]
@@ -271,8 +270,8 @@ def _fitting(options: WelchOptions, samples: int, step: float, notices: list[Not
 
 def _spectra(
     survey: Survey, data: _Samples, notices: list[Notice]
-) -> dict[str, tuple[FloatArray, FloatArray, float, dict[str, float]]]:
-    out: dict[str, tuple[FloatArray, FloatArray, float, dict[str, float]]] = {}
+) -> dict[str, tuple[Array, Array, float, dict[str, float]]]:
+    out: dict[str, tuple[Array, Array, float, dict[str, float]]] = {}
     if survey.spectral is None:
         return out
     for name in survey.waves:
@@ -479,9 +478,7 @@ SLOWEST_TENSION_RATE = 10.0
 """Rate below which even a snap that rises in a tenth of a second may fall between two samples [Hz]."""
 
 
-def _refined_lag(
-    survey: Survey, data: _Samples, tension: tuple[FloatArray, FloatArray], fluctuating: FloatArray
-) -> float:
+def _refined_lag(survey: Survey, data: _Samples, tension: tuple[Array, Array], fluctuating: Array) -> float:
     """Return what correlation adds to the stated lag [s], 0 where it is not asked for or not to be had."""
     wave = data.get(survey.wave_of_tensions)
     if survey.largest_lag <= 0.0 or wave is None or not np.isfinite(tension[1]).all():
@@ -496,5 +493,5 @@ def _refined_lag(
         return 0.0
 
 
-def _step(time: FloatArray) -> float:
+def _step(time: Array) -> float:
     return nominal_step(time)

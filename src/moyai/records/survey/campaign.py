@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
-from moyai.records.reading.record import FloatArray
 from moyai.sea.dispersion import wave_number
 from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
@@ -158,7 +158,7 @@ class CampaignLaws:
         phase = 2.0 * math.pi * (storm.start + time) / self.tide_period
         return self.tide_speed * math.cos(phase), self.cross_share * self.tide_speed * math.sin(phase)
 
-    def pull(self, height: FloatArray, period: FloatArray, angle: float, current: float) -> FloatArray:
+    def pull(self, height: Array, period: Array, angle: float, current: float) -> Array:
         """Return the tension that a conventional anchor takes from waves, without scatter [N].
 
         ``sqrt(M m_B K) (alpha u_max + U - U_0)``, not below 0; ``u_max = (pi H/T) coth kh`` of the height times the
@@ -176,8 +176,8 @@ class CampaignLaws:
 class CampaignBlock:
     """One block of a synthetic record: instants [s since 1970 UTC] and channels, and the laws' values in it."""
 
-    time: FloatArray
-    values: FloatArray
+    time: Array
+    values: Array
     height: float
     angle: float
     current: float
@@ -242,7 +242,7 @@ def generate(laws: CampaignLaws, storm: Storm, *, seed: int, every: int = 1) -> 
 
 def _sea(
     laws: CampaignLaws, height: float, angle: float, size: int, random: np.random.Generator
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Array, Array, Array]:
     """Return elevation and the orbital velocities at the current meter of two crossing halves of one sea."""
     # T1/3 is near 0.9 Tp for this spectrum
     spectrum = jonswap(height, laws.period_factor * math.sqrt(height) / 0.9, laws.peak_enhancement)
@@ -267,13 +267,13 @@ def _sea(
     return out[0], out[1], out[2]
 
 
-def _crests(time: FloatArray, elevation: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+def _crests(time: Array, elevation: Array, start: Array, end: Array) -> Array:
     """Return the instant of the highest sample of each wave."""
     first, last = np.searchsorted(time, start), np.searchsorted(time, end)
     return np.array([time[a + int(np.argmax(elevation[a:b]))] for a, b in zip(first, last, strict=True)])
 
 
-def _pulses(laws: CampaignLaws, time: FloatArray, centre: FloatArray, top: FloatArray) -> FloatArray:
+def _pulses(laws: CampaignLaws, time: Array, centre: Array, top: Array) -> Array:
     """Return half sines of the given tops; where two meet, the larger one counts."""
     out = np.zeros(time.size)
     half = 0.5 * laws.pulse

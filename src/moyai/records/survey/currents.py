@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.records.reading.record import FloatArray
 
 
-def components(speed: ArrayLike, heading: ArrayLike) -> tuple[FloatArray, FloatArray]:
+def components(speed: ArrayLike, heading: ArrayLike) -> tuple[Array, Array]:
     """Return velocities along x and y [m/s] of a speed and a direction of travel [rad]."""
     s, angle = np.asarray(speed, dtype=float), np.asarray(heading, dtype=float)
     return np.asarray(s * np.cos(angle)), np.asarray(s * np.sin(angle))
 
 
-def heading_of_bearing(bearing: ArrayLike, x_axis_bearing: float, *, coming_from: bool) -> FloatArray:
+def heading_of_bearing(bearing: ArrayLike, x_axis_bearing: float, *, coming_from: bool) -> Array:
     """Return headings [rad] of compass bearings [rad], clockwise from north.
 
     Parameters
@@ -52,24 +52,24 @@ class MeanCurrents:
         Root of the mean squared departure from the vector mean [m/s].
     """
 
-    start: FloatArray
-    count: FloatArray
-    x: FloatArray
-    y: FloatArray
-    scalar_speed: FloatArray
-    deviation: FloatArray
+    start: Array
+    count: Array
+    x: Array
+    y: Array
+    scalar_speed: Array
+    deviation: Array
 
     @property
-    def speed(self) -> FloatArray:
+    def speed(self) -> Array:
         """Speed of the vector mean [m/s]."""
         return np.hypot(self.x, self.y)
 
     @property
-    def heading(self) -> FloatArray:
+    def heading(self) -> Array:
         """Direction of travel of the vector mean [rad]."""
         return np.arctan2(self.y, self.x)
 
-    def normal(self, heading: float) -> FloatArray:
+    def normal(self, heading: float) -> Array:
         """Return the component along ``heading`` [rad], for instance the normal of a structure [m/s]."""
         return np.asarray(self.x * math.cos(heading) + self.y * math.sin(heading))
 
@@ -105,7 +105,7 @@ def block_means(
     count = np.bincount(number[known], minlength=size).astype(float)
     enough = count >= max(least, 1)
 
-    def mean(values: FloatArray) -> FloatArray:
+    def mean(values: Array) -> Array:
         total = np.bincount(number[known], weights=values[known], minlength=size)
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.where(enough, total / count, np.nan)
@@ -168,10 +168,10 @@ class Profile:
         Mean over the profiled height (x, y) [m/s].
     """
 
-    z: FloatArray
-    x: FloatArray
-    y: FloatArray
-    share: FloatArray
+    z: Array
+    x: Array
+    y: Array
+    share: Array
     exponent: float
     surface_speed: float
     exponent_error: float

@@ -22,15 +22,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 from moyai.records.reading.sensors import Sensor
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 from moyai.series.spectra import CrossSpectra
 
-ComplexArray = NDArray[np.complex128]
 HEADINGS = 180
 
 
@@ -53,15 +52,15 @@ class DirectionalSpectrum:
     notices : tuple of Notice
     """
 
-    frequency: FloatArray
-    heading: FloatArray
-    density: FloatArray
+    frequency: Array
+    heading: Array
+    density: Array
     order: NDArray[np.int64]
-    misfit: FloatArray
+    misfit: Array
     notices: tuple[Notice, ...] = ()
 
     @property
-    def spectrum(self) -> FloatArray:
+    def spectrum(self) -> Array:
         """Density over frequency alone [m2/Hz]."""
         return np.asarray(self.density.sum(axis=1) * self._turn)
 
@@ -69,7 +68,7 @@ class DirectionalSpectrum:
     def _turn(self) -> float:
         return float(self.heading[1] - self.heading[0])
 
-    def moments(self) -> tuple[FloatArray, FloatArray]:
+    def moments(self) -> tuple[Array, Array]:
         """Return mean heading and spread [rad] at each frequency; equation [eq:records-spread-moment]."""
         first = (self.density @ np.exp(1j * self.heading)) / np.maximum(self.density.sum(axis=1), 1e-300)
         return np.angle(first), np.sqrt(np.maximum(2.0 * (1.0 - np.abs(first)), 0.0))
@@ -189,7 +188,7 @@ def _rank(responses: ComplexArray, first: NDArray[np.int64], second: NDArray[np.
 
 def _equations(
     matrix: ComplexArray, products: ComplexArray, first: NDArray[np.int64], second: NDArray[np.int64], freedom: float
-) -> tuple[FloatArray | None, FloatArray | None, FloatArray | None]:
+) -> tuple[Array | None, Array | None, Array | None]:
     """Return real equations kernel @ (density dtheta) = data, and the standard error of each datum."""
     power = np.real(np.diag(matrix))
     if not (power > 0.0).all():
@@ -209,9 +208,7 @@ def _equations(
     return kernel[useful], data[useful], np.sqrt(variance[useful])
 
 
-def _fit(
-    kernel: FloatArray, data: FloatArray, error: FloatArray, heading: FloatArray, most: int
-) -> tuple[FloatArray, int, float]:
+def _fit(kernel: Array, data: Array, error: Array, heading: Array, most: int) -> tuple[Array, int, float]:
     """Return density over headings [m2/(Hz rad)], order and misfit of the best order by Akaike's criterion."""
     turn = float(heading[1] - heading[0])
     weighted = kernel * (turn / error[:, None])
@@ -222,7 +219,7 @@ def _fit(
     if not start > 0.0:
         start = float(np.abs(target).sum() / np.abs(level).sum())
     parameters = np.array([math.log(start)])
-    best: tuple[float, FloatArray, int, float] | None = None
+    best: tuple[float, Array, int, float] | None = None
     for order in range(1, most + 1):
         basis = np.vstack(
             [np.ones_like(heading)]
@@ -238,7 +235,7 @@ def _fit(
     return best[1], best[2], best[3]
 
 
-def _bounded(exponent: FloatArray) -> FloatArray:
+def _bounded(exponent: Array) -> Array:
     top = exponent.max()
     return np.asarray(np.clip(exponent, top - 40.0, min(top, 300.0)))
 
@@ -248,16 +245,14 @@ def _bounded(exponent: FloatArray) -> FloatArray:
 _PRIOR = 12.0
 
 
-def _descend(
-    parameters: FloatArray, basis: FloatArray, weighted: FloatArray, target: FloatArray
-) -> tuple[FloatArray, float]:
+def _descend(parameters: Array, basis: Array, weighted: Array, target: Array) -> tuple[Array, float]:
     """Minimise by Levenberg's method; return parameters and the sum of squares without the prior."""
     size = parameters.size
     prior = np.zeros(size)
     prior[1:] = np.repeat(np.arange(1, (size - 1) // 2 + 1), 2) / _PRIOR
     damping = 1e-2
 
-    def cost(p: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+    def cost(p: Array) -> tuple[float, Array, Array]:
         density = np.exp(_bounded(p @ basis))
         residual = weighted @ density - target
         return float(residual @ residual + np.sum((prior * p) ** 2)), residual, density
@@ -304,13 +299,13 @@ class FourierDirections:
         Horizontal over vertical energy against linear theory [-]: 1 in a sea that obeys it.
     """
 
-    frequency: FloatArray
-    spectrum: FloatArray
-    a1: FloatArray
-    b1: FloatArray
-    a2: FloatArray
-    b2: FloatArray
-    check_ratio: FloatArray
+    frequency: Array
+    spectrum: Array
+    a1: Array
+    b1: Array
+    a2: Array
+    b2: Array
+    check_ratio: Array
 
     def figures(self, lowest: float = 0.0, highest: float = math.inf) -> dict[str, float]:
         """Return energy-weighted mean heading and spread, and those at the peak [rad]."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.records.reading.record import FloatArray
 from moyai.records.survey.model import Survey
 from moyai.series.regressions import (
     Estimate,
@@ -71,7 +71,7 @@ def fit_relations(survey: Survey, groups: Mapping[str, xr.Dataset]) -> xr.Datase
     return out
 
 
-def _of(dataset: xr.Dataset, name: str, place: int | None = None) -> FloatArray:
+def _of(dataset: xr.Dataset, name: str, place: int | None = None) -> Array:
     values = np.asarray(dataset[name].values, dtype=float)
     return values if place is None else values[:, place]
 
@@ -95,7 +95,7 @@ def _tension_rows(survey: Survey, groups: Mapping[str, xr.Dataset]) -> list[_Row
         members.setdefault(entry.group, []).append(place)
     subjects = [(line, [place]) for place, line in enumerate(lines)]
     subjects += [(f"mean of {group}", places) for group, places in members.items() if len(places) > 1]
-    means: dict[str, dict[str, FloatArray]] = {}
+    means: dict[str, dict[str, Array]] = {}
     for name, places in subjects:
         steady, maximum, tenth = (
             np.mean([_of(tensions, key, place) for place in places], axis=0) for key in ("steady", "maximum", "tenth")
@@ -122,7 +122,7 @@ DIRECTION_CLASSES = (0.0, 20.0, 40.0, 60.0, 90.0)
 """Borders of the classes of angles from the normal [deg]."""
 
 
-def _class_rows(of: str, third: FloatArray, tenth: FloatArray, angle: FloatArray) -> list[_Row]:
+def _class_rows(of: str, third: Array, tenth: Array, angle: Array) -> list[_Row]:
     """Return by how much each class of directions leaves the common line of tension and height."""
     known = np.isfinite(third) & np.isfinite(tenth) & np.isfinite(angle)
     if np.count_nonzero(known) < FEWEST:
@@ -146,7 +146,7 @@ def _class_rows(of: str, third: FloatArray, tenth: FloatArray, angle: FloatArray
 
 
 def _type_rows(
-    members: Mapping[str, Sequence[int]], lines: Sequence[str], means: Mapping[str, Mapping[str, FloatArray]]
+    members: Mapping[str, Sequence[int]], lines: Sequence[str], means: Mapping[str, Mapping[str, Array]]
 ) -> list[_Row]:
     """Return every type against the first."""
     rows: list[_Row] = []
@@ -167,7 +167,7 @@ def _type_rows(
     return rows
 
 
-def _add(rows: list[_Row], relation: str, of: str, x: FloatArray, y: FloatArray, fit: object) -> None:
+def _add(rows: list[_Row], relation: str, of: str, x: Array, y: Array, fit: object) -> None:
     known = np.isfinite(x) & np.isfinite(y)
     if np.count_nonzero(known) < FEWEST:
         return
@@ -179,7 +179,7 @@ def _add(rows: list[_Row], relation: str, of: str, x: FloatArray, y: FloatArray,
         rows.append(_row(relation, of, name, estimate, found.determination, int(known.sum())))
 
 
-def _add_number(rows: list[_Row], relation: str, of: str, x: FloatArray, y: FloatArray) -> None:
+def _add_number(rows: list[_Row], relation: str, of: str, x: Array, y: Array) -> None:
     known = np.isfinite(x) & np.isfinite(y)
     if np.count_nonzero(known) < FEWEST:
         return

@@ -10,16 +10,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.survey.reflection import Separation, separate_waves
 from moyai.sea.dispersion import group_velocity, wave_number
 from moyai.sea.water import Water
 from moyai.series.harmonics import Harmonics, sliding_fits
-
-FloatArray = NDArray[np.float64]
 
 _HEADING = re.compile(r"^\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*$")
 
@@ -42,10 +40,10 @@ class FlumeRecord:
         File name.
     """
 
-    time: FloatArray
+    time: Array
     names: tuple[str, ...]
     units: tuple[str, ...]
-    values: FloatArray
+    values: Array
     notices: tuple[Notice, ...] = ()
     source: str = ""
 
@@ -54,7 +52,7 @@ class FlumeRecord:
         """Median time step [s]."""
         return float(np.median(np.diff(self.time)))
 
-    def channel(self, name: str) -> FloatArray:
+    def channel(self, name: str) -> Array:
         """Return one channel.
 
         Raises
@@ -133,8 +131,8 @@ class RegularRun:
     wave_number: float
     window: Window
     harmonics: Harmonics
-    mean_spread: FloatArray
-    amplitude_spread: FloatArray
+    mean_spread: Array
+    amplitude_spread: Array
     separation: Separation
     reflection: float
     transmission: float
@@ -227,7 +225,7 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     return FlumeRecord(time, tuple(names[1:]), channel_units, table[:, 1:], notices, file.name)
 
 
-def _numbers(body: Sequence[Sequence[str]]) -> tuple[FloatArray, int]:
+def _numbers(body: Sequence[Sequence[str]]) -> tuple[Array, int]:
     try:
         return np.array(body, dtype=float), 0
     except ValueError:
@@ -244,7 +242,7 @@ def _numbers(body: Sequence[Sequence[str]]) -> tuple[FloatArray, int]:
 
 
 def _reading_notices(
-    source: str, time: FloatArray, names: list[str], units: tuple[str, ...], values: FloatArray, unreadable: int
+    source: str, time: Array, names: list[str], units: tuple[str, ...], values: Array, unreadable: int
 ) -> tuple[Notice, ...]:
     notices = []
     if not names[0]:
@@ -275,7 +273,7 @@ def _reading_notices(
     return tuple(notices)
 
 
-def wavemaker_start(time: FloatArray, position: FloatArray, *, fraction: float) -> float:
+def wavemaker_start(time: Array, position: Array, *, fraction: float) -> float:
     """Return when the wavemaker first leaves its rest position by ``fraction`` of its largest excursion [s].
 
     The rest position is the median of the first twentieth of the record, in which it must not move yet.

@@ -9,15 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 from moyai.records.survey.reflection import LARGEST_CONDITION
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
 from moyai.series.spectra import WelchOptions, degrees_of_freedom, taper
-
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +43,11 @@ class IrregularSeparation:
     notices : tuple of Notice
     """
 
-    frequency: FloatArray
-    incident: FloatArray
-    reflected: FloatArray
-    noise: FloatArray
-    condition: FloatArray
+    frequency: Array
+    incident: Array
+    reflected: Array
+    noise: Array
+    condition: Array
     used: NDArray[np.bool_]
     reflection: float
     reflection_error: float
@@ -60,7 +58,7 @@ class IrregularSeparation:
     notices: tuple[Notice, ...]
 
 
-def _design(k: FloatArray, x: FloatArray) -> tuple[ComplexArray, FloatArray, FloatArray]:
+def _design(k: Array, x: Array) -> tuple[ComplexArray, Array, Array]:
     """Return the inverse maps (frequencies, 2, gauges) to x = 0, condition numbers, and noise gains of an amplitude."""
     origin = x.mean()
     phase = np.exp(1j * k[:, None] * (x - origin))
@@ -188,7 +186,7 @@ def separate_irregular(
     )
 
 
-def _segments(step: float, values: FloatArray, options: WelchOptions) -> tuple[ComplexArray, FloatArray, int]:
+def _segments(step: float, values: Array, options: WelchOptions) -> tuple[ComplexArray, Array, int]:
     """Return the tapered transforms (segments, frequencies, gauges) as amplitudes of Re(X exp(-i omega t))."""
     size = values.shape[0] if math.isinf(options.segment) else round(options.segment / step)
     if not 8 <= size <= values.shape[0]:
@@ -205,11 +203,11 @@ def _segments(step: float, values: FloatArray, options: WelchOptions) -> tuple[C
     return np.asarray(out), window, shift
 
 
-def _ratio(energy: FloatArray) -> float:
+def _ratio(energy: Array) -> float:
     return math.sqrt(max(float(energy[1]), 0.0) / float(energy[0])) if energy[0] > 0.0 else math.nan
 
 
-def _segment_error(energy: FloatArray, size: int, shift: int, seed: int) -> float:
+def _segment_error(energy: Array, size: int, shift: int, seed: int) -> float:
     """Return the standard error of the root of the energy ratio by resampling segments (NaN for fewer than four)."""
     count = energy.shape[0]
     if count < 4:
@@ -231,7 +229,7 @@ LARGEST_DELAY = 0.05
 """Share of a segment that energy may take from the first to the last gauge."""
 
 
-def _delay_notices(frequency: FloatArray, k: FloatArray, x: FloatArray, length: float) -> tuple[Notice, ...]:
+def _delay_notices(frequency: Array, k: Array, x: Array, length: float) -> tuple[Notice, ...]:
     """Return a notice where the energy takes so long past the gauges that they see different stretches of the sea."""
     if frequency.size < 2:
         return ()
@@ -246,9 +244,7 @@ def _delay_notices(frequency: FloatArray, k: FloatArray, x: FloatArray, length: 
     return (Notice("gauge-delay", message, delay / length, LARGEST_DELAY, remedy="take longer segments"),)
 
 
-def _condition_notices(
-    frequency: FloatArray, condition: FloatArray, used: NDArray[np.bool_], limit: float
-) -> tuple[Notice, ...]:
+def _condition_notices(frequency: Array, condition: Array, used: NDArray[np.bool_], limit: float) -> tuple[Notice, ...]:
     if used.all():
         return ()
     lost = frequency[~used]
@@ -270,7 +266,7 @@ def wave_series(
     highest: float,
     at: float = 0.0,
     largest_condition: float = LARGEST_CONDITION,
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[Array, Array]:
     """Return the incident and the reflected wave at ``x = at`` over time [m], without other frequencies.
 
     One transform over the whole record: the first and last few periods hold the wrap-around of waves that had not
@@ -313,8 +309,8 @@ class Transmission:
     coefficient: float
     error: float
     height: float
-    frequency: FloatArray
-    ratio: FloatArray
+    frequency: Array
+    ratio: Array
     beach_reflection: float
 
 

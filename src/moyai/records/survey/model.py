@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.records.reading.quality import QualityOptions
-from moyai.records.reading.record import FloatArray
 from moyai.records.reading.sensors import Sensor
 from moyai.records.reading.sources import LoggerSource
 from moyai.sea.water import Water
@@ -113,7 +113,7 @@ class TensionUse:
     snap_limit: float = math.inf
 
 
-LoadMeasure = Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]
+LoadMeasure = Callable[[Array, Array, Array, Array], Array]
 """From wave height, period, angle and current of the blocks to what loads the structure."""
 
 

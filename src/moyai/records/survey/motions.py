@@ -8,14 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.floating.decay import Decay, fit_decay
-from moyai.records.reading.record import FloatArray
 from moyai.series.detrend import slow_part
 from moyai.series.spectra import CrossSpectra, WelchOptions, cross_spectra
-
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +121,7 @@ def fit_decay_record(
     return DecayFit(found, level, float(t[0]), float(found.extreme_times[-1]), *errors, tuple(notices))
 
 
-def _rest_shift(t: FloatArray, v: FloatArray, level: float, decay: Decay, quadratic: bool) -> float:
+def _rest_shift(t: Array, v: Array, level: float, decay: Decay, quadratic: bool) -> float:
     """Return how far the rest lies from ``level``: about it the decrements of both sides follow one law best."""
     from scipy.optimize import minimize_scalar
 
@@ -144,7 +142,7 @@ def _rest_shift(t: FloatArray, v: FloatArray, level: float, decay: Decay, quadra
     return float(found.x)
 
 
-def _without_ripple(t: FloatArray, v: FloatArray, level: float) -> tuple[FloatArray, float]:
+def _without_ripple(t: Array, v: Array, level: float) -> tuple[Array, float]:
     """Return the record, smoothed over an eighth of a swing where it has more extremes than swings, and that length."""
     above = v - level
     band = 0.02 * float(np.max(np.abs(above)))
@@ -203,17 +201,17 @@ class ResponseFunction:
     notices : tuple of Notice
     """
 
-    frequency: FloatArray
+    frequency: Array
     response: ComplexArray
-    coherence: FloatArray
-    error: FloatArray
-    phase_error: FloatArray
+    coherence: Array
+    error: Array
+    phase_error: Array
     degrees_of_freedom: float
     coherent: NDArray[np.bool_]
     notices: tuple[Notice, ...] = ()
 
     @property
-    def modulus(self) -> FloatArray:
+    def modulus(self) -> Array:
         """Response amplitude operator [unit of the motion per m]."""
         return np.abs(self.response)
 
@@ -271,7 +269,7 @@ def response_function(
     return response_of(matrix, lowest=lowest, highest=highest, least_coherence=least_coherence)
 
 
-def _blur(response: ComplexArray, error: FloatArray, resolution: float, frequency: FloatArray) -> list[Notice]:
+def _blur(response: ComplexArray, error: Array, resolution: float, frequency: Array) -> list[Notice]:
     """Return a notice where the response bends within the resolution more than its errors explain."""
     if frequency.size < 3:
         return []
@@ -361,7 +359,7 @@ class ImagePlane:
     tilt: float = 0.0
     mirrored: bool = False
 
-    def to_plane(self, pixels: ArrayLike) -> FloatArray:
+    def to_plane(self, pixels: ArrayLike) -> Array:
         """Return x and z [m] of pixels (..., 2), columns to the right and rows downwards."""
         p = np.asarray(pixels, dtype=float)
         right, up = (p[..., 0] - self.origin[0]) * self.scale, (self.origin[1] - p[..., 1]) * self.scale
@@ -387,10 +385,10 @@ class RigidMotion:
     notices : tuple of Notice
     """
 
-    sway: FloatArray
-    heave: FloatArray
-    roll: FloatArray
-    residual: FloatArray
+    sway: Array
+    heave: Array
+    roll: Array
+    residual: Array
     seen: NDArray[np.int64]
     notices: tuple[Notice, ...] = ()
 
@@ -449,7 +447,7 @@ def rigid_motion(markers: ArrayLike, reference: ArrayLike, *, centre: tuple[floa
         )
         notices = (Notice("markers-hidden", message, float(lost.sum()), 0.0),)
 
-    def known(values: FloatArray) -> FloatArray:
+    def known(values: Array) -> Array:
         return np.where(lost, np.nan, values)
 
     return RigidMotion(

@@ -17,13 +17,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 # Errors of the gauges are multiplied by at most the condition number. Goda and Suzuki accept spacings between 0.05 and
 # 0.45 wavelengths; at these ends it is cot(9 degrees) = 6.31: the limit follows theirs.
@@ -50,9 +48,9 @@ class Separation:
 
     incident: ComplexArray
     reflected: ComplexArray
-    condition: FloatArray
-    residual: FloatArray
-    standard_error: FloatArray
+    condition: Array
+    residual: Array
+    standard_error: Array
     notices: tuple[Notice, ...] = ()
 
     @property
@@ -61,7 +59,7 @@ class Separation:
         return self.reflected / self.incident
 
     @property
-    def reflection_error(self) -> FloatArray:
+    def reflection_error(self) -> Array:
         """Standard error of the modulus of the reflection coefficient, to first order."""
         ratio = np.abs(self.reflection_coefficient)
         return np.hypot(self.standard_error[:, 1], ratio * self.standard_error[:, 0]) / np.abs(self.incident)
@@ -142,7 +140,7 @@ def separate_waves(
     return Separation(solution[:, 0] * shift, solution[:, 1] / shift, condition, residual, error, notices)
 
 
-def _spacings(positions: FloatArray) -> str:
+def _spacings(positions: Array) -> str:
     return ", ".join(f"{spacing:.4g}" for spacing in np.diff(np.sort(positions)))
 
 

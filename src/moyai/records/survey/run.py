@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import Notice
 from moyai.records.reading.quality import find_drift, find_slips, quality_notices
 from moyai.records.reading.reader import CHUNK_ROWS, Block, aligned, blocks, read_chunks
-from moyai.records.reading.record import FloatArray, Record, instant_text
+from moyai.records.reading.record import Record, instant_text
 from moyai.records.survey.blocks import BlockResult, work_off
 from moyai.records.survey.fits import fit_relations
 from moyai.records.survey.model import Survey
@@ -393,7 +394,7 @@ def _whole(survey: Survey, found: Sequence[BlockResult]) -> xr.Dataset | None:
     data: dict[str, Any] = {}
     kept = []
     for name in survey.waves:
-        pooled: list[FloatArray] = []
+        pooled: list[Array] = []
         for block in found:
             third = block.waves.get(name, {}).get("third_height", math.nan)
             if name in block.cut and len(block.cut[name]) >= 20 and third > 0.0:

@@ -12,16 +12,15 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.records.survey.tensions import SteadyRule, find_delay, split_tension, tension_statistics, wave_maxima
 from moyai.series.zero_crossing import Waves, zero_crossing
-
-Array = NDArray[np.float64]
 
 _SOURCE = "Tabata et al., field observation of mooring forces of a new-type silt curtain"
 # Rise of a snap: what a logger must resolve

@@ -13,12 +13,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.series.detrend import slow_part
 from moyai.series.wave_statistics import significant
 
-Array = NDArray[np.float64]
 SteadyRule = Literal["median", "mean", "low_pass"]
 
 # A second maximum of one wave counts as a double peak above this share of the first

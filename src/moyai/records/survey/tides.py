@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.reading.record import FloatArray
 
 CONSTITUENTS: Mapping[str, float] = {
     # degrees per hour, from the rates of Doodson's arguments
@@ -84,7 +84,7 @@ class TidalFit:
     left_out: tuple[str, ...]
     notices: tuple[Notice, ...]
 
-    def predict(self, time: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def predict(self, time: ArrayLike) -> tuple[Array, Array]:
         """Return the fitted velocities (x, y) [m/s]: mean and constituents, without the trend."""
         t = np.asarray(time, dtype=float)
         omega = np.array([2.0 * math.pi / ellipse.period for ellipse in self.ellipses])
@@ -185,7 +185,7 @@ def fit_tide(
     return TidalFit(ellipses, mean, slope, explained, reference, amplitudes, tuple(left_out), notices)
 
 
-def _line_errors(t: FloatArray, rest: FloatArray, omega: FloatArray, length: float) -> FloatArray:
+def _line_errors(t: Array, rest: Array, omega: Array, length: float) -> Array:
     """Return the standard error of an amplitude: the level of the rest's periodogram beside each constituent."""
     out = np.empty(omega.size)
     step = 2.0 * math.pi / length

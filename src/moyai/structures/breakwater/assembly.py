@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import Notice
 from moyai.floating.statics import Hydrostatics, body_to_site, find_equilibrium, hydrostatics, inertia_matrix
@@ -17,8 +17,6 @@ from moyai.mooring.system import LineSystem
 from moyai.potential.sections import Section
 from moyai.sea.water import Water
 from moyai.structures.breakwater.model import Breakwater, BreakwaterProblem, Environment, MooringLine, MooringSpring
-
-Array = NDArray[np.float64]
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement above which the case is warned of (issue: over 1 % warned)
 HEEL_LIMIT = math.radians(1.0)

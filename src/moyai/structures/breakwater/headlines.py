@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Headline
 from moyai.structures.breakwater.lines.headlines import (
@@ -35,7 +34,6 @@ from moyai.structures.breakwater.lines.headlines import (
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 STEADY = "wind and current at rest, mean drift of the frequency domain"
 MUCH_OVERTOPPING = 0.05  # share of waves over the deck from which linear transmission is qualified

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai import __version__
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.store import DatasetStore, key_of
@@ -29,7 +29,6 @@ from moyai.structures.breakwater.model import BreakwaterProblem, IrregularSea, R
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 CoefficientsOf = Callable[[FloatingUnit], "xr.Dataset"]
 """Gives planar coefficients per metre of the unit from another program, for a unit at rest."""

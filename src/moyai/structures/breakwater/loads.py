@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import Environment
-
-Array = NDArray[np.float64]
 
 LEVELS = 41  # Simpson points over the draught for the current
 

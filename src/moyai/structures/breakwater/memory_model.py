@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -29,7 +29,6 @@ from moyai.structures.breakwater.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 MOST_POLES = 32
 CAUSAL = ("Kramers-Kronig", "Ogilvie", "lambda is the integral of K", "frequencies resolve the damping")

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.validity import Notice
 from moyai.floating.drift import DriftedMotions
 from moyai.floating.frequency import Motions, relative_elevation
@@ -19,8 +19,6 @@ from moyai.structures.breakwater.hydrodynamics import wavelengths
 if TYPE_CHECKING:
     pass
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 PHASES = 72  # instants of a cycle at which the nonlinear lines are looked up along the linear orbit
 PEAKS_LOOKED_UP = 50

@@ -8,11 +8,10 @@ is two to three times too high in short waves (docs/validation/breakwater.md).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
-
-Array = NDArray[np.float64]
 
 RUOL_CENTRE = 0.7919  # chi_0 of Ruol et al. (2013), quoted from memory: marked unconfirmed in the notices
 RUOL_WIDTH = 0.1922  # sigma of Ruol et al. (2013), likewise

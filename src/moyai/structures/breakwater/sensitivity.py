@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.breakwater.assembly import FloatingUnit, assemble
@@ -20,7 +20,6 @@ from moyai.structures.breakwater.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 SHOWN = (
     "motion_ratio",

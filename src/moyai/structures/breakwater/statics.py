@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 from moyai.floating.drift import mean_offset
 from moyai.floating.modes import NaturalModes, natural_modes
@@ -21,7 +21,6 @@ from moyai.structures.breakwater.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 LINE_POINTS = 60
 SHIFTS_X, SHIFTS_Z = 15, 7  # displacements of the fairlead for which shapes are stored

@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import LinearDamping, QuadraticDamping, critical_damping
@@ -25,9 +25,6 @@ from moyai.structures.breakwater.model import RegularSea, SeaState
 
 if TYPE_CHECKING:
     from moyai.structures.breakwater.frequency.model import FrequencyModel
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 def unit_drag_rows(unit: FloatingUnit) -> tuple[Array, Array]:

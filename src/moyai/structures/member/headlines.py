@@ -12,8 +12,8 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
 from moyai.core.validity import Notice
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
@@ -22,7 +22,6 @@ from moyai.structures.member.model import MemberProblem
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 #: Share of the largest force above which a cause counts as one that decides.
 DECIDES = 0.1

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.validity import Notice
 from moyai.morison.circulation import relaxed, target_circulation
 from moyai.morison.coefficients import Conditions
@@ -17,7 +17,6 @@ from moyai.morison.orbits import mean_frequency, orbit_amplitudes
 from moyai.structures.member.model import MemberProblem
 from moyai.structures.member.waves import Wave
 
-Array = NDArray[np.float64]
 CAUSES = ("inertia", "drag", "magnus")
 #: Values of one array that are held at a time; longer records are worked off in blocks of strips
 _BLOCK = 2_000_000

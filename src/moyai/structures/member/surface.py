@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.morison.members import StraightMember
@@ -17,8 +17,6 @@ from moyai.potential.sections import Hull, Outline
 from moyai.potential.solver import solve
 from moyai.sea.kinematics import depth_functions
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 #: Change of the inertia coefficient or radiation above which the deep-submergence coefficients are warned about
 SURFACE_LIMIT = 0.02

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.morison.flow import Flow, LinearFlow, NonlinearFlow
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
@@ -17,8 +17,6 @@ from moyai.sea.nonlinear import nonlinear_wave
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.model import MemberProblem, RegularWaves
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

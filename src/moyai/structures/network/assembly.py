@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.network import SPHERE, BarType, Bed, Network, Strand
@@ -26,8 +27,6 @@ from moyai.structures.network.model import (
     PointPlan,
     SheetPlan,
 )
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

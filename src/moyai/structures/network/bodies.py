@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
@@ -32,7 +31,6 @@ from moyai.structures.network.coefficients import BodyCoefficients
 if TYPE_CHECKING:
     from moyai.structures.network.model import NetworkProblem
 
-Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 

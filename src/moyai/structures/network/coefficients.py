@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import IdentityCheck, Notice
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from moyai.structures.network.model import NetworkProblem
     from moyai.structures.network.runs import RunPlan
 
-Array = NDArray[np.float64]
 
 #: Depth of the water over that of the coefficients, apart from one, from which a run says so.
 DEPTH_APART = 0.02

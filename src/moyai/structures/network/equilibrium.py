@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.flexible.flow import Flow
 from moyai.flexible.modes import natural_modes
 from moyai.flexible.network import DRIVEN, Network
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
     from moyai.structures.network.bodies import CoupledRest
 
-Array = NDArray[np.float64]
 AXES = ["x", "y", "z"]
 TURNS = ["roll", "pitch", "yaw"]
 MEASURES = ["size", "horizontal", "upwards", "downwards"]

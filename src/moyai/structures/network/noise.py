@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 #: Part of the size of a problem below which a number is rounding.
 NOISE = 1e-12

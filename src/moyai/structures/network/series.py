@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.flexible.result import History
 from moyai.flexible.sheets import sheet_stress
 from moyai.series.snaps import SnapRecord, find_snaps
@@ -23,7 +24,6 @@ from moyai.structures.network.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 #: Values that a run may hold in memory, and those of the frames that it keeps.
 MOST_VALUES, MOST_FRAME_VALUES = 80_000_000, 6_000_000

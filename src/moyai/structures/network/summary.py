@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.equilibrium import named_points
 from moyai.structures.network.model import NetworkProblem
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
 
     from moyai.structures.network.dynamics import Run
 
-Array = NDArray[np.float64]
 
 #: Loads on points in the summary, in the order of :func:`moyai.structures.network.equilibrium.highest_pulls`.
 LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")

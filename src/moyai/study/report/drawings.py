@@ -8,12 +8,11 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Drawing
 from moyai.report.drawing import with_colours
 from moyai.report.formatting import display_unit, format_number
 from moyai.study.report.reading import AxisLabels, StudyPages
-
-Array = NDArray[np.float64]
 
 _WIDTH = 960.0
 _RAMP = ((0.0, (240, 246, 250)), (0.5, (150, 195, 222)), (1.0, (20, 90, 150)))

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.results import Result
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.results import Result
 from moyai.records.nets.report.tables import net_table, tension_table, towing_table, wave_table
 from moyai.report.decimate import envelope_indices
@@ -32,7 +33,6 @@ from moyai.report.formatting import format_number
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.reading import Group, root_of
 
-Array = NDArray[np.float64]
 _MOST_POINTS = 3000
 #: The law of the paper, drawn beside the points
 _PAPER = (9.84, 0.36, 84.0, 1800.0)

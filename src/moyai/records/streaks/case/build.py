@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.case.findings import Findings, duplicates
 from moyai.case.measured import read_points
 from moyai.case.reader import read_block
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, InputError
 from moyai.morison.contour import Contour
 from moyai.records.streaks.case.schema import (
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from moyai.records.streaks.camera_calibration import Calibration
     from moyai.records.streaks.campaign import Campaign, StreakRun
     from moyai.records.streaks.run import Recording
-
-FloatArray = NDArray[np.float64]
 
 
 def load_streaks(path: str | os.PathLike[str]) -> tuple[Campaign, Document]:
@@ -147,7 +145,7 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | N
     )
 
 
-def _section(model: StreaksFile, findings: Findings) -> tuple[FloatArray, float, str]:
+def _section(model: StreaksFile, findings: Findings) -> tuple[Array, float, str]:
     from moyai.records.streaks.flow import circle_map
 
     section = model.section
@@ -177,7 +175,7 @@ def _section(model: StreaksFile, findings: Findings) -> tuple[FloatArray, float,
     return corners, area, words
 
 
-def _encloses_origin(corners: FloatArray) -> bool:
+def _encloses_origin(corners: Array) -> bool:
     """Return whether the origin lies inside a closed polygon, with room to its edges."""
     size = float(np.ptp(corners, axis=0).max())
     turn = np.diff(np.unwrap(np.arctan2(corners[:, 1], corners[:, 0])))

@@ -11,10 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Drawing
 from moyai.report.drawing import Sketch, with_colours
-
-Array = NDArray[np.float64]
 
 # Bright on the dark of a picture, and apart for most colour-blind readers
 TONES = ("#56b4e9", "#e69f00", "#5fd38d", "#f0e442", "#ff8ac4", "#ff7043", "#b39ddb", "#80deea")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.results import Result
 from moyai.records.streaks.report.drawings import drift_map, overlay
 from moyai.report.document import (
@@ -30,8 +30,6 @@ from moyai.report.encoding import slug
 from moyai.report.formatting import DASH, format_number
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.reading import Group, root_of
-
-Array = NDArray[np.float64]
 
 # Circulations of models are a few square centimetres per second
 _CM2 = 1e4

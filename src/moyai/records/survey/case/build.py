@@ -11,10 +11,10 @@ from typing import Any
 
 from moyai.case.reader import read_block
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
+from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.units import parse_unit
 from moyai.records.reading.quality import QualityOptions
-from moyai.records.reading.record import FloatArray
 from moyai.records.reading.sensors import QUANTITIES, Sensor
 from moyai.records.reading.sources import ClockCorrection, ColumnSource, LoggerSource, TimeSource
 from moyai.records.survey.case.schema import ChannelEntry, Logger, QualityKeys, RecordsFile
@@ -334,7 +334,7 @@ class _Builder:
         water = Water(site.water_depth, site.density, site.gravity)
         depth, rule, ratio = keys.curtain_depth, keys.direction_rule, keys.height_ratio
 
-        def measure(height: FloatArray, period: FloatArray, angle: FloatArray, current: FloatArray) -> FloatArray:
+        def measure(height: Array, period: Array, angle: Array, current: Array) -> Array:
             return squared_velocity(effective_height(height, angle, rule, ratio), period, current, depth, water)
 
         return measure

@@ -8,8 +8,8 @@ from datetime import UTC, datetime
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.results import Result
 from moyai.report.document import (
     Abscissa,
@@ -28,8 +28,6 @@ from moyai.report.document import (
 from moyai.report.formatting import format_percent, format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.reading import root_of
-
-Array = NDArray[np.float64]
 
 WAVE_COLUMNS = (
     ("count", "waves"),

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, ComplexArray
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -48,8 +48,6 @@ from moyai.structures.breakwater.viscous_damping import (
 if TYPE_CHECKING:
     pass
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 MOST_TURNS = 60  # of the loop of drift and stiffness
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.coefficients import Hydrodynamics
@@ -24,8 +24,6 @@ from moyai.structures.breakwater.viscous_damping import unit_drag_rows, water_mo
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 COEFFICIENT_ACCURACY = 1e-3  # of the solve of the section
 

@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck
 from moyai.floating.coefficients import Hydrodynamics
@@ -41,9 +41,6 @@ from moyai.structures.breakwater.viscous_damping import (
 
 if TYPE_CHECKING:
     pass
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 def operators(model: FrequencyModel, omega: Array, heading: float, seas: tuple[SeaState, ...] = ()) -> FrequencyResult:

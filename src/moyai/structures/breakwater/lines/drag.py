@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import MooringLine
 from moyai.structures.breakwater.statics import line_points
-
-Array = NDArray[np.float64]
 
 STEP = 1e-4  # displacement of the fairlead over the beam for the slopes of the shape
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.floating.forcing import IrregularForcing
 from moyai.floating.memory import StateSpaceMemory
@@ -25,8 +26,6 @@ from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun, compiled_lines
 from moyai.structures.breakwater.viscous_damping import in_moving_water
-
-Array = NDArray[np.float64]
 
 SETTLING_PERIODS = 4.0  # peak periods from the start of a window to where it counts, at least
 MOST_LEAD = 600.0  # [s] from the start of a window to its event

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
 from moyai.mooring.anchors import gravity_anchor_weight
 from moyai.series.intervals import student_quantile
@@ -19,7 +19,6 @@ from moyai.tables.design_codes import anchor_factor, holding_data
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 IN_MOTION = "time domain, lines in motion"
 AT_REST = "time domain, lines at rest at every instant"

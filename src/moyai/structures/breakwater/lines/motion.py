@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import BodyHistory
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from moyai.flexible.flow import Current
     from moyai.sea.components import WaveComponents
 
-Array = NDArray[np.float64]
 
 #: Shapes of the lines are kept over this many periods around the governing peak, so many a period.
 KEPT_PERIODS, SHAPES_PER_PERIOD = 12.0, 40

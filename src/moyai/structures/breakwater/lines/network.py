@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck
 from moyai.coupled.rest import point_pulls
@@ -21,8 +21,6 @@ from moyai.mooring.lines import Line
 from moyai.mooring.shape import line_shape
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import LineDynamics, MooringLine
-
-Array = NDArray[np.float64]
 
 #: Depth to which a line sinks into the bed at rest, over its diameter, where no stiffness is given.
 SINKING = 0.02

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
 from moyai.floating.forcing import IrregularForcing
@@ -25,7 +25,6 @@ from moyai.structures.breakwater.time.model import SeaOfRun, TimeRun
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 MOST_EVENTS = 8  # of one realisation that are rerun
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.flexible.flow import Flow
@@ -18,7 +19,6 @@ from moyai.sea.time_sum import sum_over_time
 if TYPE_CHECKING:
     from moyai.flexible.flow import Current
 
-Array = NDArray[np.float64]
 
 #: Components up to which the water is summed at the present place of every node.
 FEW_COMPONENTS = 8

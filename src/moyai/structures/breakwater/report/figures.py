@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
 from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, common_scale
 from moyai.structures.breakwater.report.reading import Level
-
-Array = NDArray[np.float64]
 
 DASHES: tuple[Literal["solid", "dash", "dot", "dashdot"], ...] = ("solid", "dash", "dot", "dashdot")
 

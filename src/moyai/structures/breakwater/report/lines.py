@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.decimate import focus_indices
 from moyai.report.document import Abscissa, Block, Column, Figure, Panel, Paragraph, Series, Table
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 from moyai.structures.breakwater.report.figures import key
 from moyai.structures.breakwater.report.reading import Level, Sea
-
-Array = NDArray[np.float64]
 
 BINS = 300
 

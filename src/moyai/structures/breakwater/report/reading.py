@@ -6,13 +6,11 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.results import Result
 from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, root_of
-
-Array = NDArray[np.float64]
 
 MODES = ("sway", "heave", "roll")
 SNAP_RATIO = 5.0  # as moyai.structures.breakwater.responses has it: lines at rest serve up to so many times the mean

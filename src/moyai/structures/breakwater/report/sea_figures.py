@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.formatting import largest_magnitude
 from moyai.report.reading import Group, common_scale
 from moyai.structures.breakwater.report.figures import DASHES, breaking_marks, key, wave_axes, within
 from moyai.structures.breakwater.report.reading import MODES, Level, Sea
-
-Array = NDArray[np.float64]
 
 FREQUENCY_WORDS, TIME_WORDS, MEASURED_WORDS = "frequency domain", "time domain", "measured"
 RATIO_LABELS = {"sway": "sway |x|/(H/2)", "heave": "heave |z|/(H/2)", "roll": "roll |θ|B/H"}

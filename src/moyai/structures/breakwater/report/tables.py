@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.report.document import Column, Table
 from moyai.report.formatting import display_unit
@@ -21,8 +20,6 @@ from moyai.structures.breakwater.report.reading import (
     breaking_loads,
     ratios_beyond_range,
 )
-
-Array = NDArray[np.float64]
 
 
 def _useful(column: Column) -> bool:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.animation import (
     MovingBody,
     MovingLine,
@@ -27,8 +27,6 @@ from moyai.report.waves import travelling_surface
 from moyai.structures.breakwater.report.figures import key
 from moyai.structures.breakwater.report.lines import in_motion, line_blocks, moving_paths
 from moyai.structures.breakwater.report.reading import MODES, Level, Sea, attribute_number
-
-Array = NDArray[np.float64]
 
 WINDOW_PERIODS = 12.0
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -39,8 +40,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from moyai.flexible.flow import Current
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

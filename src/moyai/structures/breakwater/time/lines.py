@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import LineDynamics, MooringLine
 
 if TYPE_CHECKING:
     from moyai.structures.breakwater.time.model import TimeRun
 
-Array = NDArray[np.float64]
 
 #: Names of the variations of a peak, and of their variables.
 SENSITIVITIES = {

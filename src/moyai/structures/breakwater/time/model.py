@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.forcing import Forcing
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from moyai.flexible.flow import Current
     from moyai.sea.components import WaveComponents
 
-Array = NDArray[np.float64]
 
 MOST_ROWS = 120_000  # rows of a stored time series
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
@@ -42,7 +42,6 @@ if TYPE_CHECKING:
 
     from moyai.flexible.flow import Current
 
-Array = NDArray[np.float64]
 
 RAMP_PERIODS = 6.0  # P3: cosine ramp of six periods
 LEAST_SETTLING_PERIODS = 20.0

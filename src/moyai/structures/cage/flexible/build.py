@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.flexible.mesh_groups import group_meshes
 from moyai.flexible.network import FIXED, FREE, SPHERE, Bars, BarType, Network, Nodes, Strand
 from moyai.flexible.panels import NetPanels, PanelLaw, panel_areas
@@ -17,10 +17,6 @@ from moyai.structures.cage.flexible.collar import Pipe
 from moyai.structures.cage.flexible.model import CageDesign, FlexibleCage, GridMooring
 from moyai.structures.cage.flexible.parts import CageNetwork, CageParts, LinePart, enclosed_volume
 from moyai.tables.lines import LineProperties
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
-
 
 #: Spacing of knots around over that at the rim below which the bottom drops every second one.
 _CROWDED = 0.55

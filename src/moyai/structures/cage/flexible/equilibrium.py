@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
 from moyai.flexible.dynamic_relaxation import relax_network
@@ -21,8 +21,6 @@ from moyai.structures.cage.flexible.loads import PARTS, drag_on_holds, drag_spli
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork, CageParts
 from moyai.structures.cage.flexible.wake import sheltered
-
-Array = NDArray[np.float64]
 
 #: Force left over the largest tension: what is asked for, and above what the true motion leads to rest.
 TOLERANCE, SETTLE_ABOVE = 1e-4, 1e-3

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.flexible.network import SPHERE, Network
 from moyai.flexible.panels import forces_on_panels
 from moyai.structures.cage.flexible.parts import CageNetwork
-
-Array = NDArray[np.float64]
 
 #: Parts of the drag split.
 PARTS = ("net walls", "net bottoms", "collars", "sinker tubes", "weights", "lines", "buoys")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
 from moyai.flexible.result import History
@@ -23,7 +24,6 @@ from moyai.structures.cage.rigid.waves import Wave
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 #: Rows at which the split of the drag is told, at most.
 _DRAG_ROWS = 200

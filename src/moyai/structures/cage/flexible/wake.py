@@ -8,13 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.flexible.flow import Current
 from moyai.flexible.network import Network
 from moyai.morison.net_wake import wake_factor
 from moyai.structures.cage.flexible.model import FlexibleCage
 from moyai.structures.cage.flexible.parts import CageNetwork
-
-Array = NDArray[np.float64]
 
 
 def _walls_passed(model: FlexibleCage, lateral: Array, heading: float, speed: Array) -> Array:

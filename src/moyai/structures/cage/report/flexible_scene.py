@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.report.document import Animation, Block, Choice, Option
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group
@@ -14,8 +15,6 @@ from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animat
 from moyai.structures.cage.report.flexible_figures import design_row
 from moyai.structures.cage.report.rigid_reading import Level, key
 
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Parts = tuple[IntArray, NDArray[np.bool_], tuple[Faces, ...], tuple[Marker, ...], tuple[str, ...]]
 
 #: Periods of the window that an animation opens with.

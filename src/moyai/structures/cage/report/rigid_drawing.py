@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Drawing
 from moyai.report.drawing import Sketch, with_colours
 from moyai.report.formatting import format_quantity
 from moyai.structures.cage.report.rigid_reading import Level, Record, Section, key, line_path, section_of
-
-Array = NDArray[np.float64]
 
 NET_LINES = 5
 

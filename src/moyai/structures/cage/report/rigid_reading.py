@@ -6,12 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.encoding import slug
 from moyai.report.reading import Group
-
-Array = NDArray[np.float64]
 
 MODES = ("sway", "heave", "roll")
 ENDS = ("cage", "anchor")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.animation import MovingBody, MovingLine, Surface, fairlead_motion, frame_times, side_view
 from moyai.report.decimate import focus_indices
 from moyai.report.document import Abscissa, Animation, Block, Figure, Mark, Panel, Series
@@ -16,8 +16,6 @@ from moyai.report.reading import common_scale
 from moyai.report.waves import travelling_surface
 from moyai.structures.cage.report.rigid_drawing import circle, net_lines
 from moyai.structures.cage.report.rigid_reading import Level, Record, Section, key, line_path, section_of
-
-Array = NDArray[np.float64]
 
 
 def run_blocks(level: Level, sea: str, record: Record, animate: bool, bins: int) -> tuple[Block, ...]:

@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.cage.rigid import kernel
 from moyai.structures.cage.rigid.kernel import Packed
 from moyai.structures.cage.rigid.statics import Rest
-
-Array = NDArray[np.float64]
 
 
 def mass_matrix(packed: Packed, place: Array) -> Array:

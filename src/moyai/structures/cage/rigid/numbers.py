@@ -6,11 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.cage.rigid.time import March
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

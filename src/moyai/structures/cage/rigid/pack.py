@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.morison.net_law_names import Net, NetLaw
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
@@ -16,8 +16,6 @@ from moyai.structures.cage.rigid.kernel import Packed
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.wake import shelter
-
-Array = NDArray[np.float64]
 
 SPHERE_COLUMNS = ("r_x", "r_z", "radius", "count", "drag", "fluid_factor", "body_factor")
 PATCH_COLUMNS = (

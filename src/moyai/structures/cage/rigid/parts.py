@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.morison.net_law_names import Net, NetLaw
-
-Array = NDArray[np.float64]
 
 
 def _points(values: object, name: str) -> Array:

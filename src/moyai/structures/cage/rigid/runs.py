@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine
@@ -18,8 +18,6 @@ from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.statics import Rest, size_of
 from moyai.structures.cage.rigid.time import March, march, march_fixed
 from moyai.structures.cage.rigid.waves import Wave
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

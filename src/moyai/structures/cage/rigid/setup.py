@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.lines import CageLine, series_stiffness
@@ -16,8 +16,6 @@ from moyai.structures.cage.rigid.model import LinePlan, RigidCageProblem
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.parts import RigidCage
 from moyai.structures.cage.rigid.statics import Rest, force_at, free_floating, reserve_buoyancy, size_of
-
-Array = NDArray[np.float64]
 
 
 def lines_of(problem: RigidCageProblem) -> tuple[CageLine, ...]:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
@@ -16,8 +16,6 @@ from moyai.structures.cage.rigid.kernel import Packed
 from moyai.structures.cage.rigid.lines import CageLine
 from moyai.structures.cage.rigid.pack import pack
 from moyai.structures.cage.rigid.parts import RigidCage
-
-Array = NDArray[np.float64]
 
 #: Largest step of Newton's method: share of the size of the cage, and radians
 _LARGEST_MOVE = 0.05

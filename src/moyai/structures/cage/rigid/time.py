@@ -6,14 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.rigid import kernel
 from moyai.structures.cage.rigid.kernel import Packed
-
-Array = NDArray[np.float64]
 
 #: Rows between two calls of the compiled marcher: progress and interruption
 _CHUNK = 4000

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.morison.net_wake import wake_factor
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.cage.rigid.parts import RigidCage
-
-Array = NDArray[np.float64]
 
 
 def shelter(cage: RigidCage, current: CurrentProfile, water: Water, kinematic_viscosity: float) -> Array:

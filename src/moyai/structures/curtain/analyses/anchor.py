@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.model import AnchorLoadSettings, LimitSettings
@@ -26,7 +26,6 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 RULES = ("paper", "normal", "none")
 _ANGLES = np.radians(np.linspace(0.0, 90.0, 46))
 _HEIGHT_STEPS = 40

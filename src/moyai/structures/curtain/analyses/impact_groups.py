@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.curtain.analyses.impact import ImpactAnswer, counts, drag_coefficient, skirt_tension, start_speed
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.frames import frame_times, plan_frames
@@ -24,7 +25,6 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 _MARCH_STEPS = (1, 4, 16, 64, 256, 1024)
 _AUTO_STEP = 0.01  # omega dt

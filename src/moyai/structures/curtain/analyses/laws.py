@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.statics.load_laws import PlanLaw, SectionLaw, plan_laws, section_laws
 from moyai.structures.curtain.variables import labelled
@@ -15,7 +15,6 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 _LAW_POINTS = 61
 
 

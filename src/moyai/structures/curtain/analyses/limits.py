@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.headline import Bound
 from moyai.core.progress import Progress
@@ -30,7 +31,6 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 PARTS = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor", "floats", "effective depth")
 _SPEED_COUNT, _HEIGHT_COUNT = 9, 11
 

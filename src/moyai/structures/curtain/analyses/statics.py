@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.current import CurrentProfile
@@ -30,7 +30,6 @@ from moyai.tables.curtain_classes import curtain_class, mildest_class
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 #: Difference of two blockages up to which they are the same
 _LIKE_BLOCKAGE = 0.05
 DRAG_CASES = ("low", "given", "high")

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import Notice
@@ -31,7 +31,6 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 _TRANSIENT = 10  # peak periods left out of an irregular sea
 _WINDOW = 6.0  # peak periods on each side of the largest snap that are kept

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.flexible.mass_blocks import MassBlocks
@@ -19,9 +19,6 @@ from moyai.sea.water import Water
 from moyai.structures.curtain.dynamic.model import CurtainNetwork, CurtainSpan, Mesh
 from moyai.structures.curtain.dynamic.section import SectionMesh, section_mesh
 from moyai.structures.curtain.impact.kernels import taut_shape
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Viscosity of cables and skirt where none is given, as a part of what would be critical on the mesh.
 MESH_DAMPING = 0.05

@@ -5,12 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.structures.curtain.dynamic.runs import DynamicRun
-
-Array = NDArray[np.float64]
 
 #: Part of the energy of a span that viscosity may take in a period: a snap loses some per cent, crumpling much more.
 MOST_VISCOUS = 0.3

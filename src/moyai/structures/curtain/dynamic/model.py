@@ -11,16 +11,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import IntArray
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.flexible.network import Network
 from moyai.flexible.result import State
 from moyai.structures.curtain.dynamic.section import SectionMesh
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 _TIGHT = 1e-9
 

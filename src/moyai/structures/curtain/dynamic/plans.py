@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.flexible.flow import Flow
 from moyai.sea.components import WaveComponents
@@ -20,8 +21,6 @@ from moyai.structures.curtain.dynamic.model import CurtainSpan
 from moyai.structures.curtain.dynamic.runs import DynamicSettings
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
 from moyai.structures.curtain.model import Settings
-
-Array = NDArray[np.float64]
 
 #: Rows in a period and in the rise of model A, components of an irregular sea.
 _ROWS_OF_A_PERIOD, _ROWS_OF_A_RISE, _COMPONENTS = 400, 150, 120

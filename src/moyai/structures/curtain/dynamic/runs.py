@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.options import checks_words
 from moyai.core.progress import Progress, silent
 from moyai.flexible.flow import Flow
@@ -19,8 +20,6 @@ from moyai.sea.water import Water
 from moyai.series.snaps import SnapRecord, find_snaps
 from moyai.structures.curtain.dynamic.assembly import build_span
 from moyai.structures.curtain.dynamic.model import CurtainNetwork, CurtainSpan, Mesh
-
-Array = NDArray[np.float64]
 
 #: Rows of a result, at most.
 MOST_ROWS = 20000

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.potential.thin_plate import Plate, hanging_arc, solve_plate_limit
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.closed_forms import arc_half_angle
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.potential.thin_plate import Plate, hanging_arc, horizontal_motion, solve_plate_limit
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 # Largest sagitta over chord of the table; a half circle has 0.5
 LARGEST_SAGITTA = 0.44

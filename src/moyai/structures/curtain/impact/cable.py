@@ -10,15 +10,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.added_mass import flat_skirt_mass
 from moyai.structures.curtain.impact.kernels import energy_peak, energy_peaks, spring, taut_shape
-
-Array = NDArray[np.float64]
 
 _SOURCE = "Sawaragi, Aoki and Liu (1991)"
 # Peak time over sqrt(d/g) above which waves made during the impact matter

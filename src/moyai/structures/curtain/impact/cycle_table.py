@@ -7,15 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.sea import dispersion
 from moyai.sea.breaking import breaking_limit
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.impact.settling import settled_cycles
 from moyai.structures.curtain.snaps.flow import depth_mean_factor
-
-Array = NDArray[np.float64]
 
 _HEIGHTS = 10
 _SETTLED, _ANALYSED = 4, 10

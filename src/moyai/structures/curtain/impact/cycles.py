@@ -6,14 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.structures.curtain.impact.cable import Impact, closed_form, peak_by_energy, sweep_peaks
 from moyai.structures.curtain.impact.kernels import load_table, sag_ratio, slack_taut, taut_shape
 from moyai.structures.curtain.snaps.flow import check_samples
-
-Array = NDArray[np.float64]
 
 # Taut, a step is at most this share of the rise of model A
 _TAUT_SHARE = 0.04

@@ -10,9 +10,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from moyai.core.arrays import Array
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _TIME_NODES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(32)

@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.cable import Impact, ImpactPeak, closed_form, moved_mass, peak_by_energy
 from moyai.structures.curtain.impact.kernels import march, spring, taut_shape
 from moyai.structures.curtain.statics.closed_forms import solve_cable
-
-Array = NDArray[np.float64]
 
 _MOST_STEPS = 10_000_000
 

@@ -11,15 +11,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.potential.thin_plate_waves import plate_memory
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact, ImpactPeak, peak_by_energy
 from moyai.structures.curtain.impact.kernels import memory_march, spring, taut_shape
-
-Array = NDArray[np.float64]
 
 # Steps to the peak of model A
 _STEPS = 400

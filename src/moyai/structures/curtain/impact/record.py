@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.cable import Impact, edge_impact, peak_by_energy
@@ -15,8 +16,6 @@ from moyai.structures.curtain.impact.compare import Comparison
 from moyai.structures.curtain.impact.march import march_impact
 from moyai.structures.curtain.impact.memory import impact_with_memory
 from moyai.structures.curtain.impact.release import snap_in_current
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -13,13 +13,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.options import checks_words
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.impact.cycles import Contact, SlackTautMotion, slack_sag, slack_taut_motion
 
-Array = NDArray[np.float64]
 Kind = Literal["repeating", "chaotic", "not steady"]
 
 #: Change of the largest tension (over the highest) and of the place at a period's start (over the slack sag) up to

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
@@ -17,7 +17,6 @@ from moyai.structures.curtain.impact.cable import Impact, ImpactPeak, peak_by_en
 from moyai.structures.curtain.impact.kernels import cable_and_skirt, sag_ratio, shape_of_sag, spring, taut_shape
 from moyai.structures.curtain.statics.closed_forms import arc_half_angle
 
-Array = NDArray[np.float64]
 Variant = Literal["literal", "energy_mid", "energy_proj"]
 
 # Frequency of the skirt over that of the cable beyond which the skirt counts as rigid

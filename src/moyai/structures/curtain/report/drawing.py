@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Drawing
 from moyai.report.drawing import Sketch, with_colours
 from moyai.report.formatting import format_number, format_quantity, trimmed
 from moyai.structures.curtain.report.reading import GIVEN, CurtainLevel, curve, key
-
-Array = NDArray[np.float64]
 
 _FLOW_ARROWS = 9
 _OBLIQUE = 0.05  # [rad] from the normal

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import (
     Abscissa,
@@ -26,8 +26,6 @@ from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 from moyai.report.scene_3d import Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
-
-Array = NDArray[np.float64]
 
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0
 #: Columns of the table of what peaks are worth: heading, name in the table of runs, name of each line in its run.

@@ -7,13 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.formatting import format_quantity, largest_magnitude
 from moyai.report.reading import Group, common_scale
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, components, curve, key
-
-Array = NDArray[np.float64]
 
 _BINS = 700  # stretches of a long record whose extremes are drawn
 _SHARES = (("steady", "steady load", 0), ("wave", "added by waves", 2), ("impact", "added by the impact", 1),

@@ -8,13 +8,12 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table
 from moyai.report.drawing import with_colours
 from moyai.report.formatting import DASH, format_fixed, format_number, format_quantity, pretty_unit, trimmed
 from moyai.report.reading import Group
 from moyai.structures.curtain.report.reading import CurtainLevel, key, texts, words
-
-Array = NDArray[np.float64]
 
 _WIDTH, _LEFT, _TOP, _BOTTOM, _CELL = 960.0, 70.0, 16.0, 92.0, 34.0
 # Light to dark below one, reds above; numbers stand in the cells, so that the reading does not hang on colour

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.results import Result
 from moyai.report.encoding import slug
 from moyai.report.reading import Group, root_of
-
-Array = NDArray[np.float64]
 
 LEVEL_GROUPS = (
     "statics",

@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
 from moyai.structures.curtain.report.reading import CurtainLevel, key
-
-Array = NDArray[np.float64]
 
 _PERIODS_SHOWN = 6.0
 _BINS = 900

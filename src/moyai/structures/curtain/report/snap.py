@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.animation import encode_track
 from moyai.report.document import Animation
 from moyai.report.drawing import Sketch, with_colours
@@ -15,8 +15,6 @@ from moyai.report.encoding import encode_array
 from moyai.report.formatting import display_unit, format_quantity
 from moyai.report.reading import Group
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
-
-Array = NDArray[np.float64]
 
 
 def _shapes(snap: Group, view: str) -> Array | None:

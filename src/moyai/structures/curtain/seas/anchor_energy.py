@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
@@ -20,7 +21,6 @@ from moyai.sea.water import Water
 from moyai.series.intervals import student_quantile
 from moyai.structures.curtain.seas.squared_velocity import surface_speed
 
-Array = NDArray[np.float64]
 FittingRule = Literal["mean_zero", "least_relative_error", "least_squares"]
 FITTING_RULES: tuple[FittingRule, ...] = ("mean_zero", "least_relative_error", "least_squares")
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.sea.water import Water
@@ -26,8 +26,6 @@ from moyai.structures.curtain.limits.utilisation import AddedLoads
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
 from moyai.structures.curtain.seas.squared_velocity import DirectionRule, effective_height, squared_velocity
 from moyai.structures.curtain.statics.hanging import CurtainStatics
-
-Array = NDArray[np.float64]
 
 _CURVE_POINTS = 31
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
@@ -20,7 +21,6 @@ from moyai.sea import dispersion
 from moyai.sea.breaking import breaking_limit
 from moyai.sea.water import Water
 
-Array = NDArray[np.float64]
 DirectionRule = Literal["paper", "normal", "none"]
 
 _SOURCE = "Tabata et al., field observation of mooring forces of a new-type silt curtain"

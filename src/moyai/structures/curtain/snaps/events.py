@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.impact.cycles import SlackTautMotion, simulate_in_flow, slack_sag
 from moyai.structures.curtain.snaps.flow import SkirtFlow
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Peak of a snap over sqrt(d/g) beyond which the mass of infinite frequency is too simple

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.components import WaveComponents
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 
-Array = NDArray[np.float64]
 SkirtVelocity = Literal["skirt_mean", "surface", "wheeler"]
 
 # Depths between which the mean over a stretched skirt is interpolated

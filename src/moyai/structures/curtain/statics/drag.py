@@ -6,14 +6,13 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

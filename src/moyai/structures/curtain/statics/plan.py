@@ -12,16 +12,14 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw
 from moyai.structures.curtain.statics.section import LoadLaw, Skirt, solve_section
-
-Array = NDArray[np.float64]
 
 _WIDEST = math.radians(85.0)
 # sixteen points in each of twelve pieces of (-1, 1): the curve of sections is smooth in pieces only

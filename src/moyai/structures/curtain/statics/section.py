@@ -14,15 +14,14 @@ from typing import Literal
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw, sample_pressure
 
-Array = NDArray[np.float64]
 LoadLaw = Literal["normal_velocity", "uniform_normal"]
 
 _SAMPLES = 4001

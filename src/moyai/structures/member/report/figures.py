@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table
 from moyai.report.drawing import Sketch, with_colours
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
-
-Array = NDArray[np.float64]
 
 AXES = ("first", "second")
 COMPONENTS = ("x", "y", "z")

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Figure, Mark, Panel, Series
 from moyai.report.encoding import slug
 from moyai.report.reading import Group, common_scale
 from moyai.structures.network.report.reading import NetworkLevel, attribute, peak_of_run, texts
-
-Array = NDArray[np.float64]
 
 MOST_LINES, MOST_POINTS, WINDOW_PERIODS, BINS = 6, 4, 12.0, 700
 

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from moyai.core.results import Result
 from moyai.report.reading import Group, root_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,15 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from moyai.core.arrays import Array, IntArray
 from moyai.report.document import Animation, Block, Choice, Option
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group
 from moyai.report.scene_3d import Body3D, Faces, Marker, Scene3D, Trace, Waves3D, animation_3d, frame_rows
 from moyai.structures.network.report.reading import NetworkLevel, attribute, peak_of_run, texts
-
-Array = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 #: Periods that are played at first, and a length of run that is played whole [s].
 WINDOW_PERIODS, WHOLE = 8.0, 45.0

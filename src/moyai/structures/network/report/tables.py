@@ -6,14 +6,12 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Column, Table
 from moyai.report.encoding import slug
 from moyai.report.reading import Group
 from moyai.structures.network.report.reading import NetworkLevel, attribute, texts
-
-Array = NDArray[np.float64]
 
 #: Rows of tables that a reader goes through; longer ones are folded away, and cut.
 FOLDED, MOST_ROWS = 24, 400
