@@ -9,6 +9,7 @@ from moyai.core.errors import ConvergenceError, InputError
 from moyai.sea import dispersion
 from moyai.sea.breaking import highest_steady_wave
 from moyai.sea.nonlinear import nonlinear_wave
+from moyai.sea.permanent_wave import RESIDUAL
 from moyai.sea.regular import RegularWave
 from moyai.sea.water import Water
 
@@ -198,8 +199,10 @@ def test_nearly_all_random_waves_are_found_by_length_and_by_period():
         except ConvergenceError:
             refused.append((share, kh))
             continue
-        assert max(wave.surface_residuals()) < 1e-3
-        assert again.wavelength == pytest.approx(length, rel=1e-6)
+        worst = max(*wave.surface_residuals(), *again.surface_residuals())
+        assert worst < 1e-3
+        # a wave that misses its surface by more than is promised, of which it warns, is known within that residual
+        assert again.wavelength == pytest.approx(length, rel=1e-6 if worst <= RESIDUAL else worst)
     assert len(refused) <= 6
     assert all(share > 0.9 and kh < 0.35 for share, kh in refused)
 
