@@ -205,20 +205,21 @@ def run(
                 tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
         with progress_bars(quiet) as progress:
             result = run_case(case, progress, keep=folder / "coefficients")
-        files = [result.write(folder / "results.nc")]
+        files, document = [result.write(folder / "results.nc")], None
         if report:
-            from moyai.report.writer import write_report
+            from moyai.report.writer import compose_document, write_report
 
             with progress_bars(quiet) as progress:
                 progress("report", 0, 1)
-                files += write_report(result, folder, pdf=pdf)
+                document = compose_document(result)
+                files += write_report(result, folder, pdf=pdf, document=document)
         seconds = time.perf_counter() - started
         from moyai.cli.tables import key_figures, print_summary
 
         if as_json:
-            print_json(_run_record(case, result, files, seconds, key_figures(result)))
+            print_json(_run_record(case, result, files, seconds, key_figures(result, document)))
         elif not quiet:
-            print_summary(rich_console(), result, files, seconds)
+            print_summary(rich_console(), result, files, seconds, document)
         else:
             if result.status != "converged":
                 tell(f"{result.status}: {result.message}")
