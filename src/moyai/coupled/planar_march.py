@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -86,7 +87,7 @@ class PlanarMarch:
         )  # fmt: skip
         if self._compiled is None:
             self._compiled = _compiled(arguments)
-        good = int(self._compiled(march, run_state_space, *arguments))
+        good = int(self._compiled(*arguments))
         done = slice(first, first + good)
         stepped.end_march(good, self.interval, kept, now, tuple(rows[done] for rows in self._network_rows))
         carrier.time = stepped.time
@@ -132,11 +133,27 @@ def _compiled(arguments: tuple[Any, ...]) -> Callable[..., int]:
     stepped = (
         *motion[:3], 0, 1, h, force, constants, lines, rest, weights, inputs, outputs, motion[0], kernel.NEVER, saved
     )  # fmt: skip
-    functions = []
-    for function, given in ((march, marched), (run_state_space, stepped)):
-        kinds = tuple(typeof(value) for value in given)
-        function.compile(kinds)
-        functions.append(types.FunctionType(function.overloads[kinds].signature.return_type(*kinds)))
-    kinds = (*functions, *(typeof(value) for value in arguments))
+    pointers = [_Pointer(march, marched), _Pointer(run_state_space, stepped)]
+    kinds = (*(types.FunctionType(pointer.signature()) for pointer in pointers), *map(typeof, arguments))
     kernel.march_together.compile(kinds)
-    return kernel.march_together.overloads[kinds].entry_point
+    return partial(kernel.march_together.overloads[kinds].entry_point, *pointers)
+
+
+class _Pointer:
+    """A compiled function for arguments of given types as another one takes it; numba asks for these two methods."""
+
+    def __init__(self, function: Any, arguments: tuple[Any, ...]) -> None:
+        from numba import typeof
+
+        kinds = tuple(typeof(value) for value in arguments)
+        function.compile(kinds)
+        compiled = function.overloads[kinds]
+        self._signature = compiled.signature.return_type(*kinds)
+        self._address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)
+
+    def __wrapper_address__(self) -> int:
+        return int(self._address)
+
+    def signature(self) -> Any:
+        """Return the signature."""
+        return self._signature
