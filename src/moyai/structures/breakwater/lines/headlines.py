@@ -234,7 +234,8 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     if not pulled:
         return []
     bare = _bare_lines(groups, levels)
-    lifted = max(pulled, key=lambda peak: peak.vertical)
+    # where no anchor is lifted, the line that leaves least on the bed comes nearest to it
+    lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), -peak.grounded))
     hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
     if not (hardest.known and lifted.known):
         text = "not known"
