@@ -420,6 +420,10 @@ def _beside(name: str, statics: xr.Dataset, value: float) -> str:
     )
 
 
+#: Parts that an impact loads
+_STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
+
+
 def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
     """Return up to which current without waves, and up to which wave height in its own current, a curtain holds."""
     for name, label, unit, where, value, key in (
@@ -446,6 +450,8 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         details = [said or f"{governing} sets it"]
         if limit > 0.0 and governing != "not reached" and said:
             details.insert(0, f"{governing} sets it")
+        if key == "speed_limit" and table.attrs.get("with_impact") and governing in _STRUCK:
+            details.append("with the impact when the current draws the curtain taut")
         if bound == "at most":
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
