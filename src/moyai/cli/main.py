@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
+COMPILING = "compiling numerical kernels, once after an installation: about a minute"
+
 app = typer.Typer(
     name="moyai",
     no_args_is_help=True,
@@ -193,6 +195,7 @@ def run(
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
+        from moyai.core.compiled import when_compiling
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
@@ -203,7 +206,7 @@ def run(
             count = len(case.warnings)
             if count:
                 tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
-        with progress_bars(quiet) as progress:
+        with progress_bars(quiet) as progress, when_compiling(lambda: None if quiet else tell(COMPILING)):
             result = run_case(case, progress, keep=folder / "coefficients")
         files, document = [result.write(folder / "results.nc")], None
         if report:

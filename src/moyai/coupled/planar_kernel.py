@@ -11,8 +11,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from moyai.core.compiled import njit
 from moyai.flexible import explicit_kernel as explicit
 from moyai.sea.kinematics import linear_velocity_acceleration
 
