@@ -35,6 +35,7 @@ from moyai.cli.convert import Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
+from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
 
@@ -61,6 +62,7 @@ app.add_typer(measure)
 app.command()(compare)
 app.command()(convert)
 app.command()(scale)
+app.command()(reproduce)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]
