@@ -42,7 +42,7 @@ def _catenary(runs: Runs) -> Finding:
     shoji = float(np.max(np.abs(by_shoji[laid] / elastic[laid] - 1.0)))
     words = (
         f"while chain lies on the bed (to {100 * offsets[laid].max():+.1f} cm) the inextensible chain is within "
-        f"{100 * between:.0f} % of the elastic one, {100 * float(np.interp(0.0, offsets, apart)):.1f} % at zero offset, "
+        f"{100 * between:.0f} % of the elastic one, {100 * float(np.interp(0.0, offsets, apart)):.1f} % at rest, "
         f"and Shoji's form within {shoji:.0e}"
     )
     return judged(between < 0.10 and shoji < 1e-3, words)
@@ -122,8 +122,8 @@ def _stiffness_follows(runs: Runs) -> Finding:
     order = np.argsort(drift[short])
     follows = all(np.all(np.diff(each[short][order]) > -2e-3) for each in (sway, roll))
     words = (
-        f"K11 {100 * sway[short].min():+.1f} to {100 * sway[short].max():+.1f} %, K33 {100 * roll[short].min():+.1f} to "
-        f"{100 * roll[short].max():+.1f} % of that without drift, rising with F*"
+        f"K11 {100 * sway[short].min():+.1f} to {100 * sway[short].max():+.1f} %, K33 {100 * roll[short].min():+.1f} "
+        f"to {100 * roll[short].max():+.1f} % of that without drift, rising with F*"
     )
     return judged(bool(follows) and sway[short].min() > 0.0 and roll[short].min() > 0.0, words)
 
@@ -197,8 +197,8 @@ def _sway_heave_domains(runs: Runs) -> Finding:
         _, moved, still = paired(runs, runs.drifted_time, "motion_ratio", mode)
         at_rest = max(at_rest, float(np.abs(moved / still - 1.0).max()))
     words = (
-        f"the domains differ by at most {100 * worst:.0f} % with chains in motion, by {100 * at_rest:.0f} % with chains at "
-        "rest at every instant"
+        f"the domains differ by at most {100 * worst:.0f} % with chains in motion, by {100 * at_rest:.0f} % with chains "
+        "at rest at every instant"
     )
     return judged(max(worst, at_rest) < 0.10, words, f"{JUMP}; the paper's own model was of chains at rest")
 
@@ -240,10 +240,8 @@ def _measured_reflection(runs: Runs) -> Finding:
 
 
 def _measured_motion(runs: Runs) -> Finding:
-    return measured(
-        "heave of both domains within "
-        f"{100 * float(np.abs(np.divide(*paired(runs, runs.drifted_time, 'motion_ratio', 'heave')[1:]) - 1.0).max()):.1f} %"
-    )
+    _, moved, still = paired(runs, runs.drifted_time, "motion_ratio", "heave")
+    return measured(f"heave of both domains within {100 * float(np.abs(moved / still - 1.0).max()):.1f} %")
 
 
 def _roll_closer(runs: Runs) -> Finding:
@@ -288,8 +286,8 @@ def _weight(runs: Runs) -> Finding:
     )
     return judged(
         abs(left - pull) < 0.1, words,
-        f"{left - pull:.2f} kg remain ({float(statics.imbalance):.2f} % of the displacement); six to eight chains would "
-        "close it, and the number is not printed",
+        f"{left - pull:.2f} kg remain ({float(statics.imbalance):.2f} % of the displacement); six to eight chains "
+        "would close it, and the number is not printed",
     )  # fmt: skip
 
 
