@@ -81,7 +81,7 @@ class Runs:
     def contour(self, number: float, ratio: float) -> float:
         """Return the circulation [m2/s] of the particles' drift on a ring, clockwise positive."""
         time, path = self.paths(number, ratio, self.particles)
-        middle = np.trapezoid(path, time, axis=1) / PERIOD
+        middle = np.asarray(np.trapezoid(path, time, axis=1)) / PERIOD
         drift = (path[:, -1] - path[:, 0]) / PERIOD
         return float(2.0 * math.pi * np.mean(drift[:, 0] * middle[:, 1] - drift[:, 1] * middle[:, 0]))
 
@@ -100,15 +100,15 @@ class Runs:
         worst = []
         for number in (1.0, 1.5):
             time, path = self.paths(number, 2.0, 12, 1.4)
-            flashes = PERIOD / STROBE * np.arange(12)
             lit = 0.5 * PERIOD / STROBE
+            start = np.asarray(PERIOD / STROBE * np.arange(12), dtype=np.float64)
+            end = np.asarray(start + lit, dtype=np.float64)
             misses = []
             for one in path:
                 ends = [
-                    np.column_stack([np.interp(when, time, one[:, axis]) for axis in (0, 1)])
-                    for when in (flashes, flashes + lit)
+                    np.column_stack([np.interp(when, time, one[:, axis]) for axis in (0, 1)]) for when in (start, end)
                 ]
-                chain = StreakChain(flashes, flashes + lit, ends[0], ends[1])
+                chain = StreakChain(start, end, ends[0], ends[1])
                 found = close_period_cubic(chain, PERIOD).velocity
                 middle = 0.5 * lit
                 true = [
