@@ -182,7 +182,12 @@ def _small(runs: Runs) -> Finding:
     slack, taut = _slack(runs), _taut(runs)
     most = max(slack.peak.values()) / GRAM
     words = f"largest tension slack {most:.1f} gf, taut {max(taut.peak.values()) / GRAM:.0f} gf"
-    return judged(most < 0.2 * max(taut.peak.values()) / GRAM, words)
+    return judged(
+        most < 0.2 * max(taut.peak.values()) / GRAM,
+        words,
+        "the waves carry the slack cage until the offshore line comes taut for an instant of each wave; the slack that was "
+        "filled in, 4 cm, decides how hard, and none is printed",
+    )
 
 
 STATEMENTS = (
