@@ -141,13 +141,13 @@ def agreements(figure: Figure, points: Points) -> tuple[Agreement, ...]:
     for series in figure.series:
         known = np.isfinite(series.x[key]) & np.isfinite(series.y)
         x, y = series.x[key][known], series.y[known]
-        if series.style == "bar" or x.size < 2:
+        # Scattered points and loops have no value at a place; they are drawn and not compared
+        if series.style == "bar" or x.size < 2 or not np.all(np.diff(x) > 0.0):
             continue
-        order = np.argsort(x, kind="stable")
-        inside = (points.x >= x[order[0]]) & (points.x <= x[order[-1]])
+        inside = (points.x >= x[0]) & (points.x <= x[-1])
         if not inside.any():
             continue
-        difference = np.interp(points.x[inside], x[order], y[order]) - points.y[inside]
+        difference = np.interp(points.x[inside], x, y) - points.y[inside]
         size = math.sqrt(float(np.mean(points.y[inside] ** 2)))
         found.append(
             Agreement(

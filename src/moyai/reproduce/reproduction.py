@@ -18,7 +18,7 @@ from moyai.reproduce.points import Agreement, Points, agreements, laid_over, rea
 if TYPE_CHECKING:
     from moyai.core.results import Result
 
-NAMES = ("nakamura", "arai", "matsubara", "sawaragi")
+NAMES = ("nakamura", "tabata", "arai", "sawaragi", "matsubara")
 """Papers in the order in which they are listed."""
 
 
