@@ -281,10 +281,18 @@ def validate(
     only: Annotated[
         list[str] | None, typer.Option("--only", metavar="TOPIC", help="Topic to validate; may be repeated.")
     ] = None,
+    paper: Annotated[
+        str | None, typer.Option("--paper", metavar="PAPER", help="Statements of one paper in place of the topics.")
+    ] = None,
     quiet: Quiet = False,
 ) -> None:
     """Compute every published or exact case again: value, reference, error, tolerance."""
     with guard(as_json):
+        if paper is not None:
+            from moyai.cli.reproduce import print_statements
+
+            print_statements(paper, as_json=as_json, quiet=quiet)
+            raise typer.Exit(OK)
         from moyai.cli.validation import choose, compute
 
         with progress_bars(quiet) as progress:

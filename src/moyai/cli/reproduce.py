@@ -66,6 +66,28 @@ def reproduce(
         raise typer.Exit(OK)
 
 
+def print_statements(paper: str, *, as_json: bool, quiet: bool) -> None:
+    """Run a paper quickly and print every statement with its verdict, one row each.
+
+    Parameters
+    ----------
+    paper : str
+        Key of the paper.
+    as_json, quiet : bool
+        As in the commands.
+    """
+    from moyai.reproduce import reproduce as run_paper
+
+    with progress_bars(quiet or as_json) as progress:
+        found = run_paper(paper, quick=True, progress=progress)
+    if as_json:
+        print_json({"paper": found.paper.key, "statements": [row.as_dict() for row in found.rows], "faults": []})
+        return
+    for row in found.rows:
+        why = f" [{row.finding.why}]" if row.finding.why else ""
+        say(f"{row.finding.verdict:8} {row.statement.place}: {row.statement.text} {row.finding.found}{why}")
+
+
 def _list(listed: tuple, as_json: bool) -> None:
     if as_json:
         print_json(

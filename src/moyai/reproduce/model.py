@@ -29,7 +29,7 @@ class Equation:
     places : tuple of str
         Dotted names of the code that computes it.
     note : str
-        Misprints and how they were mended; empty where the print is sound.
+        Misprints and how the code reads them; empty where the print is sound.
     """
 
     number: str

@@ -43,7 +43,7 @@ def test_keys_are_unique_and_cases_are_there(one):
 
 
 def test_unknown_paper_says_which_there_are():
-    with pytest.raises(InputError, match=r"no paper 'nakamra'; allowed: nakamura"):
+    with pytest.raises(InputError, match=r"no paper 'nakamra'; allowed: nakamura, tabata, arai, sawaragi, matsubara"):
         paper("nakamra")
 
 

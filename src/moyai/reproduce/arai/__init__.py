@@ -33,7 +33,8 @@ PAPER = Paper(
     year="1990s",
     title="Fall of the inertia force and circulating flow on horizontal members in regular waves at low KC",
     journal="Proceedings of coastal engineering, Japan",
-    line="horizontal members at low KC: fall of the inertia force, circulation and lift of circle, square and rectangle",
+    line="horizontal members at low KC: fall of the inertia force, circulation and lift of circle, square and "
+    "rectangle",
     equations=EQUATIONS,
     statements=STATEMENTS,
     plotted=PLOTTED,

@@ -97,7 +97,8 @@ def _contour(runs: Runs) -> Figure:
     return figure(
         "12", "circulation against the size of the contour, circle", (Abscissa("ratio", "contour over section B_c/B"),),
         Panel("circulation", "cm2/s", from_zero=True), series,
-        "Drift of particles on rings in a flow without vortices; it holds the Stokes drift, which falls with the fourth "
+        "Drift of particles on rings in a flow without vortices; it holds the Stokes drift, which falls with the "
+        "fourth "
         "power of the distance.",
     )  # fmt: skip
 
@@ -138,7 +139,8 @@ def _force(runs: Runs) -> Figure:
     lift = data.magnus_force_per_length.values * MODEL_LENGTH
     series.append(curve("lift of the circulation", {"kc": data.keulegan_carpenter.values}, lift, 4))
     return figure(
-        "14", "loss of inertia force and lift on the model of 79 cm", NUMBER, Panel("force", "N", from_zero=True), series,
+        "14", "loss of inertia force and lift on the model of 79 "
+              "cm", NUMBER, Panel("force", "N", from_zero=True), series,
         LAW_WORDS,
     )  # fmt: skip
 
@@ -146,7 +148,8 @@ def _force(runs: Runs) -> Figure:
 def figures(runs: Runs) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     sarpkaya = (
-        "the curve for planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the paper shows "
+        "the curve for planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the "
+        "paper shows "
         "is measured and no number of it is printed"
     )
     return (

@@ -69,7 +69,7 @@ class Runs:
         return np.asarray(np.diagonal(tensor))
 
     def paths(self, number: float, ratio: float, count: int, periods: float = 1.0) -> tuple[Array, Array]:
-        """Return instants and paths of particles that start on a ring about the circle, with the paper's circulation."""
+        """Return instants and paths of particles from a ring about the circle, with the paper's circulation."""
         v = speed(number)
         circulation = float(settled_circulation(STRENGTHS["arai"], v, v, PERIOD))
         flow = OrbitalFlow(circle_map(BREADTH), PERIOD, v, v, circulation)

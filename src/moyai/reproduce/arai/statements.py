@@ -26,7 +26,10 @@ def _falls_early(runs: Runs) -> Finding:
     ideal = runs.ideal("circle")[0]
     share = [1.0 - _at(runs, "circle", "inertia_coefficient", number) / ideal for number in (0.5, 1.0)]
     planar = np.ptp(runs.sweep("circle").planar_inertia_coefficient.values[:, 0])
-    words = f"C_M of the circle falls by {100 * share[0]:.1f} % at KC 0.5 and {100 * share[1]:.1f} % at 1; planar flow by {planar:.0f}"
+    words = (
+        f"C_M of the circle falls by {100 * share[0]:.1f} % at KC 0.5 and {100 * share[1]:.1f} % at 1; "
+        f"planar flow by {planar:.0f}"
+    )
     return judged(share[1] > 0.05 and planar == 0.0, words)
 
 
@@ -51,7 +54,8 @@ def _rises_again(runs: Runs) -> Finding:
     words = f"the fall is held beyond KC 2 and the curve ends at {last:g}"
     return judged(
         bool(known[np.isfinite(known)][-1] > np.nanmin(known) + 1e-6), words,
-        "the rise is the work of a vortex of the size of the section, which no model here sheds; beyond 2 the run warns and a "
+        "the rise is the work of a vortex of the size of the section, which no model here sheds; beyond 2 the "
+        "run warns and a "
         "measured table can be given",
     )  # fmt: skip
 
@@ -69,7 +73,8 @@ def _both_ways(runs: Runs) -> Finding:
     tank = (ideal[None, :] - waves.effective_inertia_coefficient.values)[-1]
     words = (
         f"{falls[0]:.3f} and {falls[1]:.3f} at KC = 2 in circular orbits; in the tank, whose orbits are "
-        f"{float(waves.orbit_ratio[-1]):.2f} as high as wide, the vertical fall is {tank[1] / tank[0]:.2f} of the horizontal"
+        f"{float(waves.orbit_ratio[-1]):.2f} as high as wide, the vertical fall is {tank[1] / tank[0]:.2f} of "
+        f"the horizontal"
     )
     return judged(abs(falls[1] / falls[0] - 1.0) < 0.01, words)
 
@@ -115,7 +120,10 @@ def _inertia_rules(runs: Runs) -> Finding:
         * waves.effective_inertia_coefficient.values[:, 0]
         / (waves.drag_coefficient.values[:, 0] * waves.keulegan_carpenter.values)
     )
-    words = f"inertia over drag amplitude {ratio.min():.1f} to {ratio.max():.0f} over the waves, C_D = {float(waves.drag_coefficient[0, 0]):g} filled in"
+    words = (
+        f"inertia over drag amplitude {ratio.min():.1f} to {ratio.max():.0f} over the waves, C_D = "
+        f"{float(waves.drag_coefficient[0, 0]):g} filled in"
+    )
     return judged(ratio.min() > 3.0, words)
 
 
@@ -157,10 +165,14 @@ def _drifts(runs: Runs) -> Finding:
 
 def _contour(runs: Runs) -> Finding:
     values = 1e4 * runs.contours[1.0]
-    words = f"{values[0]:.1f} to {values[-1]:.1f} cm2/s from B_c/B = {CONTOURS[0]} to {CONTOURS[-1]:g} without any vortex; planted 18.0, found {1e4 * runs.extrapolated(1.0):.1f}"
+    words = (
+        f"{values[0]:.1f} to {values[-1]:.1f} cm2/s from B_c/B = {CONTOURS[0]} to {CONTOURS[-1]:g} without "
+        f"any vortex; planted 18.0, found {1e4 * runs.extrapolated(1.0):.1f}"
+    )
     return judged(
         values[0] / values[-1] < 1.05, words,
-        "the dependence needs no vortices: particles show the Stokes drift as well, which falls with the fourth power of the "
+        "the dependence needs no vortices: particles show the Stokes drift as well, which falls with the fourth "
+        "power of the "
         "distance; the fit that takes it apart finds the circulation at the wall",
     )  # fmt: skip
 
@@ -260,7 +272,8 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
                     "none on C_M, which the first harmonic separates from drag"),
         FilledInput(
             "strength of the circulation in elliptic orbits", "0.936 of v_x v_y T", "1.036, Chaplin",
-            f"C_M of the circle at KC = {number:.2f}: {taken:.3f} and {float(changed.effective_inertia_coefficient[last, 0]):.3f}",
+            f"C_M of the circle at KC = {number:.2f}: {taken:.3f} and "
+            f"{float(changed.effective_inertia_coefficient[last, 0]):.3f}",
         ),
         FilledInput("kinematic viscosity", "1.14e-6 m2/s, 15 degrees", "1.118e-6; 1.152e-6 m2/s",
                     f"beta {BREADTH**2 / PERIOD / 1.118e-6:.0f} and {BREADTH**2 / PERIOD / 1.152e-6:.0f}; none on C_M"),

@@ -16,20 +16,22 @@ EQUATIONS = (
         "3",
         "motion along the waves",
         (_MOTION, _PRINTED),
-        "as printed the mass is the weight in water, the volume that of the whole cage, and the signs of the lines hold only "
-        "when they cross; mended: dry mass, solid volume, lines along their own direction",
+        "as printed the mass is the weight in water, the volume that of the whole cage, and the signs of the "
+        "lines hold only "
+        "when they cross; read as: dry mass, solid volume, lines along their own direction",
     ),
     Equation(
         "4",
         "vertical motion",
         (_MOTION, _PRINTED),
-        "printed with a constant buoyancy and the axis named y; mended: buoyancy of the wet part of each float",
+        "printed with a constant buoyancy and the axis named y; read as: buoyancy of the wet part of each float",
     ),
     Equation(
         "5",
         "rotation about the centre of gravity",
         (_MOTION, _PRINTED),
-        "the print leaves out the vertical forces of lines, floats and water, and one lever is exchanged; mended: moments of "
+        "the print leaves out the vertical forces of lines, floats and water, and one lever is exchanged; "
+        "read as: moments of "
         "all parts",
     ),
 )

@@ -45,9 +45,11 @@ def _wave_force() -> Figure:
             curve("drag and inertia", x, drag + inertia, 0),
             curve("drag", x, drag, 1, dash="dash"),
             curve("inertia", x, inertia, 2, dash="dot"),
-            curve("velocity, scaled to the force", x, velocity * np.abs(drag).max() / np.abs(velocity).max(), 5, faint=True),
+            curve("velocity, scaled to the "
+                  "force", x, velocity * np.abs(drag).max() / np.abs(velocity).max(), 5, faint=True),
         ],
-        "H = 6.5 cm, T = 1.3 s, depth 45 cm, panel at 20 cm; C_d by equation (2), C_m = 2. Wave and place of the paper's "
+        "H = 6.5 cm, T = 1.3 s, depth 45 cm, panel at 20 cm; C_d by equation (2), C_m = 2. Wave and place of the "
+        "paper's "
         "record are not printed.",
     )  # fmt: skip
 

@@ -44,7 +44,8 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
         ),
     )
     return (
-        FilledInput("anchors", "30 cm from the middle, lines crossed from the top corners", "35 cm; outward from the bottom "
+        FilledInput("anchors", "30 cm from the middle, lines crossed from the top "
+                               "corners", "35 cm; outward from the bottom "
                     "corners to 45 cm", f"{_words(_lines(case, anchor_x=0.35))}; {_words(outward)}{plain}"),
         FilledInput("pull of the taut lines", "cage drawn down by 11 mm", "10; 12 mm",
                     f"{_words(_lines(case, value=0.010))}; {_words(_lines(case, value=0.012))}{plain}"),

@@ -80,19 +80,21 @@ def _parameters(_runs: Runs) -> Finding:
     solidity = [matsubara_net(name).solidity for name in NETS]
     diameter = [1e3 * matsubara_net(name).twine_diameter for name in NETS]
     words = (
-        f"ten nets, solidity {min(solidity):.2f} to {max(solidity):.2f}, twines {min(diameter):g} to {max(diameter):g} mm, "
+        f"ten nets, solidity {min(solidity):.2f} to {max(solidity):.2f}, twines {min(diameter):g} to "
+        f"{max(diameter):g} mm, "
         f"correlated by {np.corrcoef(solidity, diameter)[0, 1]:.2f}"
     )
     return measured(words, "forces of the single nets are not printed; moyai measure nets fits A and B over both")
 
 
 def _in_phase(_runs: Runs) -> Finding:
-    _, velocity, drag, inertia = net_in_wave("F", 0.065, 1.3)
+    _, _, drag, inertia = net_in_wave("F", 0.065, 1.3)
     share = float(np.abs(inertia).max() / np.abs(drag).max())
-    total = drag + inertia
-    lead = math.degrees(math.atan2(float(np.sum(total * inertia)) / float(np.sum(inertia**2)) * np.abs(inertia).max(),
-                                   float(np.sum(total * velocity)) / float(np.sum(velocity**2)) * np.abs(velocity).max()))  # fmt: skip
-    words = f"inertia is {100 * share:.0f} % of drag on net F at H = 6.5 cm, T = 1.3 s; the force leads by {lead:.0f} degrees"
+    lead = math.degrees(math.atan(share))
+    words = (
+        f"inertia is {100 * share:.0f} % of drag on net F at H = 6.5 cm, T = 1.3 s: the force leads the velocity by about "
+        f"{lead:.0f} degrees"
+    )
     return judged(share < 0.3, words)
 
 
@@ -113,10 +115,14 @@ def _circle(runs: Runs) -> Finding:
 
 def _higher(runs: Runs) -> Finding:
     ratio = [wave.ratio("heave") for wave in runs.higher]
-    words = f"heave {ratio[0]:.2f} to {ratio[-1]:.2f} H for H = {100 * runs.higher[0].height:g} to {100 * runs.higher[-1].height:g} cm"
+    words = (
+        f"heave {ratio[0]:.2f} to {ratio[-1]:.2f} H for H = {100 * runs.higher[0].height:g} to "
+        f"{100 * runs.higher[-1].height:g} cm"
+    )
     return judged(
         ratio[-1] < ratio[0], words,
-        "with the same pull the lines go slack in the troughs of higher waves and hold less; a pull that grows with the wave "
+        "with the same pull the lines go slack in the troughs of higher waves and hold less; a pull that grows "
+        "with the wave "
         "is needed for the reverse, and none is printed",
     )  # fmt: skip
 
@@ -154,7 +160,8 @@ def _third(runs: Runs) -> Finding:
     words = "taut over slack at equal period: " + ", ".join(f"{ratio:.1f} at {period:g} s" for period, ratio in pairs)
     return judged(
         max(ratio for _, ratio in pairs) > 2.5, words,
-        "slack rotation falls with the period; the paper's two records may be of different waves, whose periods are not "
+        "slack rotation falls with the period; the paper's two records may be of different waves, whose periods "
+        "are not "
         "printed",
     )  # fmt: skip
 
@@ -173,8 +180,10 @@ def _shore(runs: Runs) -> Finding:
 def _forty(runs: Runs) -> Finding:
     wave = _taut(runs)
     return measured(
-        f"largest tension {wave.peak[OFFSHORE] / GRAM:.0f} gf offshore, {wave.peak[SHORE] / GRAM:.0f} gf on the shore side",
-        "the peak goes with the root of the stiffness of line and gauge, which is not printed: see what the paper leaves out",
+        f"largest tension {wave.peak[OFFSHORE] / GRAM:.0f} gf offshore, {wave.peak[SHORE] / GRAM:.0f} gf on the "
+        f"shore side",
+        "the peak goes with the root of the stiffness of line and gauge, which is not printed: see what the "
+        "paper leaves out",
     )
 
 
@@ -185,7 +194,8 @@ def _small(runs: Runs) -> Finding:
     return judged(
         most < 0.2 * max(taut.peak.values()) / GRAM,
         words,
-        "the waves carry the slack cage until the offshore line comes taut for an instant of each wave; the slack that was "
+        "the waves carry the slack cage until the offshore line comes taut for an instant of each wave; the "
+        "slack that was "
         "filled in, 4 cm, decides how hard, and none is printed",
     )
 

@@ -197,7 +197,8 @@ def _sway_heave_domains(runs: Runs) -> Finding:
         _, moved, still = paired(runs, runs.drifted_time, "motion_ratio", mode)
         at_rest = max(at_rest, float(np.abs(moved / still - 1.0).max()))
     words = (
-        f"the domains differ by at most {100 * worst:.0f} % with chains in motion, by {100 * at_rest:.0f} % with chains "
+        f"the domains differ by at most {100 * worst:.0f} % with chains in motion, by {100 * at_rest:.0f} % with "
+        f"chains "
         "at rest at every instant"
     )
     return judged(max(worst, at_rest) < 0.10, words, f"{JUMP}; the paper's own model was of chains at rest")

@@ -21,7 +21,8 @@ def _record(number: str, record: Record, material: str) -> Figure:
     shown = time < record.taut + 4.0
     return figure(
         number, f"release and snap, {material}", (Abscissa("time", "time from release", "s"),),
-        Panel("tension", "N", from_zero=True), [curve("both cables", {"time": time[shown]}, record.motion.tension[shown])],
+        Panel("tension", "N", from_zero=True),
+        [curve("both cables", {"time": time[shown]}, record.motion.tension[shown])],
         f"{SUM} Current 0.30 m/s, C_D = 1.2; a cable without tension until it is taut.",
     )  # fmt: skip
 
@@ -40,7 +41,8 @@ def _rigid(runs: Runs) -> Figure:
     distance, values, lengths = runs.over_curvature
     x = {"s": distance}
     return figure(
-        "7", "added mass of a curved skirt that moves as a whole", (Abscissa("s", "s/d"),), Panel("M/M₀", from_zero=True),
+        "7", "added mass of a curved skirt that moves as a "
+             "whole", (Abscissa("s", "s/d"),), Panel("M/M₀", from_zero=True),
         [curve("M₀ of the chord", x, values[0], 0), curve("M₀ of the arc", x, values[0] / lengths**2, 1, dash="dash")],
         "Infinite frequency, deep water. s/d = 0 is a half circle, large s/d the plate.",
     )  # fmt: skip
@@ -66,7 +68,8 @@ def _series(runs: Runs) -> Figure:
     ]
     return figure(
         "15", "tension from the taut instant, fishing line", (Abscissa("time", "time from taut", "s"),),
-        Panel("tension", "N", from_zero=True), series, f"{SUM} A: the paper's model A marched with a thousandth of the rise.",
+        Panel("tension", "N", from_zero=True), series, f"{SUM} A: the paper's model A marched with a thousandth "
+                                                       f"of the rise.",
     )  # fmt: skip
 
 
@@ -76,7 +79,8 @@ def _swept(runs: Runs, number: str, name: str, words: str) -> Figure:
         x, found = runs.over(name, total)
         series.append(curve(f"model A, {material}", {"x": x}, found, tone))
     return figure(number, f"C_T against {words}", (Abscissa("x", words),), COEFFICIENT, series,
-                  "Sum of both cables; stiffness and sizes of the flume are filled in, slopes are the paper's.")  # fmt: skip
+                  "Sum of both cables; stiffness and sizes of the flume are filled in, slopes are the "
+                  "paper's.")  # fmt: skip
 
 
 def _stiffness(runs: Runs) -> Figure:

@@ -29,8 +29,10 @@ def _rise_first(runs: Runs) -> Finding:
     motion = runs.line.motion
     before = motion.tension[motion.time < runs.line.taut - 1e-6]
     return judged(
-        bool(before.max() > 0.05 * runs.line.spike), f"tension {before.max():.2g} N until taut at {runs.line.taut:.2f} s",
-        "the model's span has no weight and no drag along the cable, so that it bears nothing while slack; a whole span in "
+        bool(before.max() > 0.05 * runs.line.spike), f"tension {before.max():.2g} N until taut at "
+                                                     f"{runs.line.taut:.2f} s",
+        "the model's span has no weight and no drag along the cable, so that it bears nothing while slack; a "
+        "whole span in "
         "motion starts from the just-taut shape",
     )  # fmt: skip
 
@@ -49,7 +51,8 @@ def _one_spike(runs: Runs) -> Finding:
     words = f"contacts above half of the highest: {counts[0]} with fishing line, {counts[1]} with steel"
     return judged(
         max(counts) == 1, words,
-        "the stretched cable gives its energy back and throws the skirt upstream; a real sheet folds and loses it, which "
+        "the stretched cable gives its energy back and throws the skirt upstream; a real sheet folds and loses "
+        "it, which "
         "model A does not hold",
     )  # fmt: skip
 
@@ -62,7 +65,9 @@ def _same_time(runs: Runs) -> Finding:
 
 def _steel(runs: Runs) -> Finding:
     ratio, faster = runs.steel.spike / runs.line.spike, runs.line.rise / runs.steel.rise
-    return judged(ratio > 2.0 and faster > 2.0, f"steel is {ratio:.0f} times as high and rises {faster:.0f} times as fast")
+    return judged(
+        ratio > 2.0 and faster > 2.0, f"steel is {ratio:.0f} times as high and rises {faster:.0f} times as fast"
+    )
 
 
 def _plateau(runs: Runs) -> Finding:
@@ -72,7 +77,10 @@ def _plateau(runs: Runs) -> Finding:
 
 def _high_frequency(runs: Runs) -> Finding:
     number, mass, _ = runs.over_frequency
-    words = f"M/M0 = {np.interp(10.0, number, mass):.2f} at Kd = 10, {mass[-1]:.2f} at {number[-1]:.0f}, least {mass.min():.2f}"
+    words = (
+        f"M/M0 = {np.interp(10.0, number, mass):.2f} at Kd = 10, {mass[-1]:.2f} at {number[-1]:.0f}, least "
+        f"{mass.min():.2f}"
+    )
     return judged(0.93 < mass[-1] < 1.0 and mass[-1] > np.interp(10.0, number, mass), words)
 
 
@@ -111,7 +119,9 @@ def _depth(runs: Runs) -> Finding:
 def _root(runs: Runs) -> Finding:
     x, found = runs.over_stiffness()
     slope = log_slope(x, found, float(x[1]), float(x[-2]))
-    return judged(abs(slope - 1.0) < 0.05, f"C_T goes with C_E to the power {slope:.3f}, T with EA to {0.5 * slope:.3f}")
+    return judged(
+        abs(slope - 1.0) < 0.05, f"C_T goes with C_E to the power {slope:.3f}, T with EA to {0.5 * slope:.3f}"
+    )
 
 
 def _proportional(runs: Runs) -> Finding:
@@ -140,14 +150,16 @@ def _iterates(runs: Runs) -> Finding:
     words = ", ".join(f"{'meets' if met else 'does not meet'} at omega dt = {each:g}" for each, met in tried.items())
     return judged(
         tried[0.02], f"the iteration {words}",
-        "from displacement to acceleration to load it contracts only for steps too long to be accurate; the other way round it "
+        "from displacement to acceleration to load it contracts only for steps too long to be accurate; the "
+        "other way round it "
         "works, and the code needs none, since the load follows from the displacement",
     )  # fmt: skip
 
 
 def _above(runs: Runs) -> Finding:
     return measured(
-        f"model A {peak_by_energy(runs.span).tension:.2f} N, released by itself {runs.line.spike:.2f} N: the skirt is slower "
+        f"model A {peak_by_energy(runs.span).tension:.2f} N, released by itself {runs.line.spike:.2f} N: the "
+        f"skirt is slower "
         "than the current when taut"
     )
 
@@ -174,9 +186,15 @@ STATEMENTS = (
     Statement("same-time", "2, figure 3", "Both cables spike together.", _same_time),
     Statement("steel", "2", "Steel makes the spike sharper and higher.", _steel),
     Statement("plateau", "2", "The steady level hardly depends on the cable.", _plateau),
-    Statement("high-frequency", "3.2, figure 6", "The added mass tends to the plate's at high frequency.", _high_frequency),
-    Statement("half-circle", "3.2, figure 7", "A half circle has about 1.4 times the added mass of the plate.", _half_circle),
-    Statement("stretching", "3.2, figure 8", "The added mass of stretching falls with s/d and is well below M0.", _stretching),
+    Statement(
+        "high-frequency", "3.2, figure 6", "The added mass tends to the plate's at high frequency.", _high_frequency
+    ),
+    Statement(
+        "half-circle", "3.2, figure 7", "A half circle has about 1.4 times the added mass of the plate.", _half_circle
+    ),
+    Statement(
+        "stretching", "3.2, figure 8", "The added mass of stretching falls with s/d and is well below M0.", _stretching
+    ),
     Statement("iteration", "3.4", "In each step the displacement is found by iteration.", _iterates),
     Statement("above", "4.1, figures 15, 16", "Model A lies a little above the tests with fishing line.", _above),
     Statement("froude", "4.2, figure 17", "C_T falls with the Froude number.", _froude),
@@ -184,7 +202,9 @@ STATEMENTS = (
     Statement("depth", "4.2, figure 19", "C_T hardly depends on d/h.", _depth),
     Statement("root", "4.3, figure 20", "C_T goes with the root of the stiffness.", _root),
     Statement("start", "4.4", "The skirt may be slower than the flow when it becomes taut.", _start_speed),
-    Statement("proportional", "4.5", "The impact tension is proportional to speed and depth of the skirt.", _proportional),
+    Statement(
+        "proportional", "4.5", "The impact tension is proportional to speed and depth of the skirt.", _proportional
+    ),
     Statement("cube", "4.3, 4.5", "A model needs a stiffness of the scale's cube.", _cube),
     Statement("model-b", "5", "Model B for stiff cables was not computed.", _model_b),
 )
@@ -217,5 +237,6 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
                     f"{words(replace(span, speed=0.15))}; {words(replace(span, speed=0.45))}{plain}"),
         FilledInput("curvature of the skirt", "flat plate, as in model A", f"arc on a chord of {chord:g} m",
                     f"{curved.tension:.2f} N{plain}"),
-        FilledInput("drag coefficient", f"{DRAG:g}", "1.2 to 2 in practice", "proportional to the steady level, none on A"),
+        FilledInput("drag coefficient", f"{DRAG:g}", "1.2 to 2 in practice", "proportional to the steady level, "
+                                                                             "none on A"),
     )  # fmt: skip

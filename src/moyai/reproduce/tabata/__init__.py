@@ -12,10 +12,13 @@ EQUATIONS = (
         "1",
         "squared velocity of waves and current over the curtain's depth",
         (f"{_SEAS}.squared_velocity.squared_velocity",),
-        "the print has U h omega in the cross term, which has no height; it is U H omega. It is the mean over the depth at the "
+        "the print has U h omega in the cross term, which has no height; it is U H omega. It is the mean over "
+        "the depth at the "
         "crest, not in time",
     ),
-    Equation("2", "wave height corrected by direction, 1.8 H_1/3 cos^2", (f"{_SEAS}.squared_velocity.effective_height",)),
+    Equation(
+        "2", "wave height corrected by direction, 1.8 H_1/3 cos^2", (f"{_SEAS}.squared_velocity.effective_height",)
+    ),
     Equation("3", "largest speed of the float", (f"{_SEAS}.anchor_energy.EnergyModel.float_speed",)),
     Equation("4", "kinetic energy of the float", (f"{_SEAS}.anchor_energy.EnergyModel.fluctuating_tension",)),
     Equation(

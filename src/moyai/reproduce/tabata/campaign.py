@@ -48,7 +48,7 @@ def campaign(
     """Return a campaign of so many blocks; angles of the waves are spread over 0 to 75 degrees from the normal."""
     rng = np.random.default_rng(seed)
     size = round(BLOCK / STEP)
-    time = STEP * np.arange(blocks * size)
+    time = np.asarray(STEP * np.arange(blocks * size), dtype=np.float64)
     elevation, new, conventional = np.empty(time.size), np.empty((2, time.size)), np.empty((2, time.size))
     current = np.zeros((time.size, 2))
     angle, steady = np.radians(rng.uniform(0.0, 75.0, blocks)), rng.uniform(4e3, 12e3, blocks)
@@ -60,7 +60,7 @@ def campaign(
             jonswap(height, 3.86 * np.sqrt(height), 3.3), WATER, duration=BLOCK, seed=seed * 1000 + k, time_step=STEP,
             heading=angle[k], amplitudes="rayleigh",
         )  # fmt: skip
-        local = STEP * np.arange(size)
+        local = np.asarray(STEP * np.arange(size), dtype=np.float64)
         elevation[part] = sea.elevation(local)
         current[part, 0] = flow
         for model, lines, more in ((NEW, new, 0.0), (CONVENTIONAL, conventional, 3e3)):

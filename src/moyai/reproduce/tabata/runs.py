@@ -1,4 +1,4 @@
-"""Runs of the paper: a synthetic campaign through the chain of the paper, and the curtain of the site in the typhoon."""
+"""Runs of the paper: a synthetic campaign through the chain of the paper, and the curtain of the site."""
 
 from __future__ import annotations
 
@@ -13,7 +13,15 @@ from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
 from moyai.records.survey.tension_blocks import Blocks
 from moyai.reproduce.inputs import problem_of, run_problem
-from moyai.reproduce.tabata.campaign import CONVENTIONAL, CURTAIN_DEPTH, WATER, Campaign, campaign, observations, process
+from moyai.reproduce.tabata.campaign import (
+    CONVENTIONAL,
+    CURTAIN_DEPTH,
+    WATER,
+    Campaign,
+    campaign,
+    observations,
+    process,
+)
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.structures.curtain.impact.cable import Impact

@@ -22,7 +22,9 @@ def _linear(runs: Runs) -> Finding:
     chosen = new.angle < CHOSEN
     reduced = (new.averaged("tenth") * new.significant_period / np.cos(new.angle) ** 2)[chosen]
     found = fit_power(new.significant_height[chosen], reduced)["exponent"]
-    words = f"T_1/10 times the period goes with H_1/3 to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f})"
+    words = (
+        f"T_1/10 times the period goes with H_1/3 to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f})"
+    )
     return judged(abs(found.value - 1.0) < 0.15, words)
 
 
@@ -63,7 +65,8 @@ def _squared(runs: Runs) -> Finding:
     words = f"T_max goes with u^2 to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f})"
     return judged(
         found.value > 0.8, words,
-        "in proportion to the height, as figure 4 and the energy model have it, the tension goes with the root of u^2; the two "
+        "in proportion to the height, as figure 4 and the energy model have it, the tension goes with the root "
+        "of u^2; the two "
         "statements of the paper exclude each other but for scatter",
     )  # fmt: skip
 
@@ -81,14 +84,17 @@ def _higher_steady(runs: Runs) -> Finding:
 
 def _waves(runs: Runs) -> Finding:
     found = float(np.mean(runs.new.maximum_height / runs.new.significant_height))
-    return judged(abs(found - 1.8) < 0.2, f"H_max is {found:.2f} H_1/3 in blocks of {runs.new.wave_count.mean():.0f} waves")
+    return judged(
+        abs(found - 1.8) < 0.2, f"H_max is {found:.2f} H_1/3 in blocks of {runs.new.wave_count.mean():.0f} waves"
+    )
 
 
 def _tenths(runs: Runs) -> Finding:
     found = float(np.mean(runs.conventional.averaged("maximum") / runs.conventional.averaged("tenth")))
     return judged(
         abs(found - 1.7) < 0.15, f"T_max is {found:.2f} T_1/10",
-        "1.7 needs a tension that grows faster than the height, as it does over a pretension; the energy model of the paper is "
+        "1.7 needs a tension that grows faster than the height, as it does over a pretension; the energy model "
+        "of the paper is "
         "linear",
     )  # fmt: skip
 
@@ -98,7 +104,8 @@ def _factor(runs: Runs) -> Finding:
     words = f"M = {found:.3f} ({low:.3f} to {high:.3f}) where {CONVENTIONAL.energy_factor} was planted"
     return judged(
         low <= CONVENTIONAL.energy_factor <= high, words,
-        "largest tension and highest wave of a block do not belong together: with scatter the largest of many pulls exceeds "
+        "largest tension and highest wave of a block do not belong together: with scatter the largest of many "
+        "pulls exceeds "
         "that of the highest wave, and the rule of the paper takes the excess for M",
     )  # fmt: skip
 
@@ -112,7 +119,9 @@ def _flume(_runs: Runs) -> Finding:
 def _wire(runs: Runs) -> Finding:
     anchors = runs.case.curtain.anchors
     assert anchors is not None
-    return measured(f"0.6 of the rope, {0.6 * 14.7:.1f} kN of 14.7 kN", "a factor of flume tests that are not in the paper")
+    return measured(
+        f"0.6 of the rope, {0.6 * 14.7:.1f} kN of 14.7 kN", "a factor of flume tests that are not in the paper"
+    )
 
 
 def _impulsive(runs: Runs) -> Finding:
@@ -128,7 +137,9 @@ def _stands(runs: Runs) -> Finding:
         if item.name.endswith("_utilisation") and math.isfinite(item.value)
     }
     worst = max(used, key=lambda name: used[name])
-    words = f"largest share of a strength {used[worst]:.2f} ({worst.lower()}) at 60 degrees; anchors and joints filled in"
+    words = (
+        f"largest share of a strength {used[worst]:.2f} ({worst.lower()}) at 60 degrees; anchors and joints filled in"
+    )
     return judged(used[worst] < 1.0, words, "the strengths that were filled in do not carry the typhoon")
 
 
@@ -145,14 +156,21 @@ def _worked(model: EnergyModel, angle: float, period: float = 7.0) -> float:
 
 
 STATEMENTS = (
-    Statement("impulsive", "3 (1)", "Impulsive tension comes when waves act on a rope that the current has drawn taut.", _impulsive),
+    Statement(
+        "impulsive",
+        "3 (1)",
+        "Impulsive tension comes when waves act on a rope that the current has drawn taut.",
+        _impulsive,
+    ),
     Statement("linear", "3 (1), figure 4", "T_1/10 is nearly linear in H_1/3.", _linear),
     Statement("uncorrelated", "3 (1), figure 4", "Steady tension has nothing to do with the current.", _uncorrelated),
     Statement("weak", "3 (1)", "The current is too weak to draw the curtain taut.", _weak),
     Statement("near-normal", "3 (1), figure 4", "Waves near normal incidence leave the line.", _near_normal),
     Statement("cosine", "3 (1), figure 5", "Tension goes with cos^2 of the angle.", _cosine),
     Statement("squared", "3 (2), figure 6", "The largest tension is proportional to the squared velocity.", _squared),
-    Statement("types", "3 (3), figure 7", "The new type has 0.7 of the tension of the conventional one.", _seven_tenths),
+    Statement(
+        "types", "3 (3), figure 7", "The new type has 0.7 of the tension of the conventional one.", _seven_tenths
+    ),
     Statement("steady", "3 (1), figure 3", "The conventional type has the higher steady tension.", _higher_steady),
     Statement("waves", "2", "H_max is 1.8 H_1/3.", _waves),
     Statement("tenths", "2", "T_max is 1.7 T_1/10.", _tenths),
