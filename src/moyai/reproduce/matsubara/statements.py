@@ -92,8 +92,8 @@ def _in_phase(_runs: Runs) -> Finding:
     share = float(np.abs(inertia).max() / np.abs(drag).max())
     lead = math.degrees(math.atan(share))
     words = (
-        f"inertia is {100 * share:.0f} % of drag on net F at H = 6.5 cm, T = 1.3 s: the force leads the velocity by about "
-        f"{lead:.0f} degrees"
+        f"inertia is {100 * share:.0f} % of drag on net F at H = 6.5 cm, T = 1.3 s: the force leads the velocity by "
+        f"about {lead:.0f} degrees"
     )
     return judged(share < 0.3, words)
 
@@ -201,7 +201,7 @@ def _small(runs: Runs) -> Finding:
 
 
 STATEMENTS = (
-    Statement("table", "2.1, table 1", "Areas and solidities of the ten nets belong to one panel.", _table),
+    Statement("table", "2.1, table 1", "Table 1 lists twine, aperture, area and solidity of ten nets.", _table),
     Statement("lift", "2.2", "A net square to the flow has hardly any lift.", _lift),
     Statement("falls", "2.4, figure 4", "C_d falls with the Reynolds number from about 2 to about 0.6.", _falls),
     Statement(

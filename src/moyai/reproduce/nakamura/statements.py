@@ -293,7 +293,7 @@ def _weight(runs: Runs) -> Finding:
 
 
 STATEMENTS = (
-    Statement("table", "table 1", "Weight, displacement and chains of the model balance.", _weight),
+    Statement("table", "table 1", "Table 1 lists weight, draught and chains of the model.", _weight),
     Statement(
         "steep", "4.1, figure 4", "The horizontal tension rises steeply and non-linearly with the offset.", _steep
     ),
