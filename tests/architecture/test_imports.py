@@ -26,6 +26,7 @@ LEVELS = {
     "records": 8,
     "study": 9,
     "validation": 10,
+    "reproduce": 10,
     "cli": 11,
     "app": 11,
 }

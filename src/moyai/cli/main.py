@@ -35,6 +35,7 @@ from moyai.cli.convert import Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
+from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
 
@@ -63,6 +64,7 @@ app.add_typer(measure)
 app.command()(compare)
 app.command()(convert)
 app.command()(scale)
+app.command()(reproduce)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]
@@ -283,10 +285,18 @@ def validate(
     only: Annotated[
         list[str] | None, typer.Option("--only", metavar="TOPIC", help="Topic to validate; may be repeated.")
     ] = None,
+    paper: Annotated[
+        str | None, typer.Option("--paper", metavar="PAPER", help="Statements of one paper in place of the topics.")
+    ] = None,
     quiet: Quiet = False,
 ) -> None:
     """Compute every published or exact case again: value, reference, error, tolerance."""
     with guard(as_json):
+        if paper is not None:
+            from moyai.cli.reproduce import print_statements
+
+            print_statements(paper, as_json=as_json, quiet=quiet)
+            raise typer.Exit(OK)
         from moyai.cli.validation import choose, compute
 
         with progress_bars(quiet) as progress:

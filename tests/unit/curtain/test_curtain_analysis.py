@@ -20,7 +20,7 @@ from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.statics.steady_load import QUANTITIES
 from moyai.structures.curtain.variables import VARIABLES
 
-EXAMPLES = Path(__file__).parents[3] / "examples" / "curtain"
+PAPERS = Path(__file__).parents[3] / "examples" / "papers"
 SMALL = """moyai: 1
 title: Small curtain
 site: {water_depth: 8 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
@@ -54,7 +54,7 @@ def problem_of(folder: Path, text: str):
 
 @pytest.fixture(scope="module")
 def flume():
-    text = (EXAMPLES / "flume.yaml").read_text(encoding="utf-8").replace("[1.5 s, 2 s, 3 s, 4 s]", "[4 s]")
+    text = (PAPERS / "sawaragi" / "flume.yaml").read_text(encoding="utf-8").replace("[1.5 s, 2 s, 3 s, 4 s]", "[4 s]")
     return text
 
 
@@ -348,7 +348,7 @@ def test_cycle_table_is_the_oscillator(small):
 
 def test_anchor_loads_of_the_field_paper(tmp_path):
     """Worked example, T = 7 s, 60 degrees: 14.5 kN; squared velocity 5.6471736 m2/s2 of a wave of 5.508 m."""
-    text = (EXAMPLES / "kansai.yaml").read_text(encoding="utf-8")
+    text = (PAPERS / "tabata" / "kansai.yaml").read_text(encoding="utf-8")
     start, end = text.index("waves:"), text.index("structure:")
     waves = """waves:
   - {name: worked, kind: bretschneider_mitsuyasu, significant_height: 3.06 m, significant_period: 7 s, heading_deg: 60}

@@ -1,0 +1,174 @@
+"""The figures of the paper: coefficients, their fall, flow around the circle, circulation and lift over KC."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from moyai.report.document import Abscissa, Figure, Panel
+from moyai.reproduce.arai.runs import BREADTH, CONTOURS, DENSITY, MODEL_LENGTH, OMEGA, PRINTED, SECTIONS, Runs, speed
+from moyai.reproduce.drawing import curve, figure
+from moyai.reproduce.model import PaperFigure
+
+NUMBER = (Abscissa("kc", "Keulegan-Carpenter number KC"),)
+PLOTTED = ("2a", "2b", "2c", "3", "6", "7", "12", "13", "14")
+LAW_WORDS = "The law is held from KC = 2 and ends at 3, where vortices of the size of the section govern."
+
+
+def _coefficients(runs: Runs, number: str, section: str) -> Figure:
+    data = runs.sweep(section)
+    kc = data.keulegan_carpenter.values
+    x = {"kc": kc}
+    own = data.inertia_coefficient.values
+    ideal = runs.ideal(section)
+    series = [
+        curve("C_Mx with circulation", x, own[:, 0], 0),
+        curve("C_My with circulation", x, own[:, 1], 1, dash="dash"),
+        curve("ideal fluid, horizontal", x, np.full(kc.size, ideal[0]), 0, dash="dot", faint=True),
+        curve("ideal fluid, vertical", x, np.full(kc.size, ideal[1]), 1, dash="dot", faint=True),
+    ]
+    if section == "circle":
+        below = kc <= 2.0
+        near = {"kc": kc[below]}
+        series.append(curve("Chaplin", near, data.chaplin_inertia_coefficient.values[below, 0], 2, dash="dashdot"))
+        series.append(curve("Otsuka and Ikeda", near, data.otsuka_inertia_coefficient.values[below, 0], 3, dash="dot"))
+        series.append(
+            curve("planar flow, laminar theory", x, data.planar_inertia_coefficient.values[:, 0], 5, dash="dash")
+        )
+    return figure(
+        number, f"inertia coefficients of the {section}", NUMBER, Panel("C_M", from_zero=True), series, LAW_WORDS
+    )
+
+
+def _fall(runs: Runs) -> Figure:
+    series = []
+    for tone, section in enumerate(SECTIONS):
+        data = runs.sweep(section)
+        fall = runs.ideal(section)[0] - data.inertia_coefficient.values[:, 0]
+        series.append(curve(section, {"kc": data.keulegan_carpenter.values}, fall, tone))
+        kc = np.linspace(0.0, 2.0, 41)
+        series.append(
+            curve(f"{section}, as printed", {"kc": kc}, PRINTED[section] * kc**2, tone, dash="dot", faint=True)
+        )
+    return figure(
+        "3", "fall of the inertia coefficient", NUMBER, Panel("fall of C_M", from_zero=True), series,
+        f"Both directions are alike in circular orbits. Thin: equations (8) to (10). {LAW_WORDS}",
+    )  # fmt: skip
+
+
+def _surface(runs: Runs) -> Figure:
+    data = runs.sweep("circle")
+    angle = {"angle": np.degrees(data.surface_angle.values)}
+    series = [
+        curve(str(phase), angle, data.surface_speed_ratio.sel(phase=phase).values, tone)
+        for tone, phase in enumerate(data.phase.values)
+    ]
+    return figure(
+        "6", "speed around the circle at KC = 1.5, four phases", (Abscissa("angle", "angle from the x axis", "deg"),),
+        Panel("speed over that of the stream", from_zero=True), series,
+        "In place of photographs: potential flow with the paper's circulation. 90 degrees is the top, -90 the bottom; "
+        "waves go right.",
+    )  # fmt: skip
+
+
+def _paths(runs: Runs) -> Figure:
+    _, paths = runs.paths(1.5, 2.2, 8)
+    series = [
+        curve(f"particle {index + 1}", {"x": 1e3 * path[:, 0]}, 1e3 * path[:, 1], index % 8)
+        for index, path in enumerate(paths)
+    ]
+    angle = np.linspace(0.0, 2.0 * math.pi, 121)
+    series.append(curve("circle", {"x": 500 * BREADTH * np.cos(angle)}, 500 * BREADTH * np.sin(angle), 7, dash="dash"))
+    return figure(
+        "7", "particles over one period at KC = 1.5", (Abscissa("x", "x", "mm"),), Panel("z", "mm"), series,
+        "Eight particles that start on a ring; they do not return to their place.", 520,
+    )  # fmt: skip
+
+
+def _contour(runs: Runs) -> Figure:
+    ratio = np.array(CONTOURS)
+    series = []
+    for tone, (number, found) in enumerate(runs.contours.items()):
+        series.append(curve(f"drift of particles, KC = {number:g}", {"ratio": ratio}, 1e4 * found, tone, points=True))
+        wall = np.array([1.0, CONTOURS[-1]])
+        level = np.full(2, 1e4 * runs.extrapolated(number))
+        series.append(curve(f"circulation found, KC = {number:g}", {"ratio": wall}, level, tone, dash="dash"))
+    return figure(
+        "12", "circulation against the size of the contour, circle", (Abscissa("ratio", "contour over section B_c/B"),),
+        Panel("circulation", "cm2/s", from_zero=True), series,
+        "Drift of particles on rings in a flow without vortices; it holds the Stokes drift, which falls with the "
+        "fourth "
+        "power of the distance.",
+    )  # fmt: skip
+
+
+def _circulation(runs: Runs) -> Figure:
+    data = runs.sweep("circle")
+    kc = data.keulegan_carpenter.values
+    known = (kc > 0.2) & (kc <= 2.0)
+    x = {"kc": kc[known]}
+    return figure(
+        "13", "circulation against KC", (Abscissa("kc", NUMBER[0].label, log=True),), Panel("circulation", "cm2/s"),
+        [
+            curve("18 KC²", x, 1e4 * data.arai_circulation.values[known], 0),
+            curve("Otsuka and Ikeda", x, 1e4 * data.otsuka_circulation.values[known], 1, dash="dash"),
+            curve("Chaplin", x, 1e4 * data.chaplin_circulation.values[known], 2, dash="dot"),
+        ],
+        "The same for the three sections.",
+    )  # fmt: skip
+
+
+def lost_force(runs: Runs, section: str, number: float) -> tuple[float, float]:
+    """Return the loss of inertia force on the model [N], horizontal and vertical, at a KC in circular orbits."""
+    data = runs.sweep(section)
+    fall = runs.ideal(section)[None, :] - data.inertia_coefficient.values
+    area = float(runs.members[section].tree["SWL/member"].to_dataset().area)
+    at = [float(np.interp(number, data.keulegan_carpenter.values, fall[:, axis])) for axis in (0, 1)]
+    size = DENSITY * area * OMEGA * speed(number) * MODEL_LENGTH
+    return size * at[0], size * at[1]
+
+
+def _force(runs: Runs) -> Figure:
+    series = []
+    for tone, section in enumerate(SECTIONS):
+        kc = np.linspace(0.1, 3.0, 30)
+        loss = np.array([lost_force(runs, section, float(number))[0] for number in kc])
+        series.append(curve(f"loss of inertia force, {section}", {"kc": kc}, loss, tone, points=True))
+    data = runs.sweep("circle")
+    lift = data.magnus_force_per_length.values * MODEL_LENGTH
+    series.append(curve("lift of the circulation", {"kc": data.keulegan_carpenter.values}, lift, 4))
+    return figure(
+        "14", "loss of inertia force and lift on the model of 79 "
+              "cm", NUMBER, Panel("force", "N", from_zero=True), series,
+        LAW_WORDS,
+    )  # fmt: skip
+
+
+def figures(runs: Runs) -> tuple[PaperFigure, ...]:
+    """Return the figures of the paper."""
+    sarpkaya = (
+        "the curve for planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the "
+        "paper shows "
+        "is measured and no number of it is printed"
+    )
+    return (
+        PaperFigure("1", None, "sketch of the tank; its measures stand in the case files"),
+        PaperFigure("2a", _coefficients(runs, "2a", "circle"), sarpkaya),
+        PaperFigure("2b", _coefficients(runs, "2b", "square")),
+        PaperFigure("2c", _coefficients(runs, "2c", "rectangle")),
+        PaperFigure("3", _fall(runs)),
+        PaperFigure("4", None, "sketch of the light sheets and the camera"),
+        PaperFigure(
+            "5", None, "photographs of vortices of the size of the section at KC near 3.8; no model here sheds them"
+        ),
+        PaperFigure("6", _surface(runs)),
+        PaperFigure("7", _paths(runs)),
+        PaperFigure("8", None, "sketch of the interpolation; the table of statements gives its error"),
+        PaperFigure("9", None, "drift without a model: settling and mass transport, measured in each campaign"),
+        PaperFigure("10", None, "arrows of the drift; moyai measure streaks draws them from pictures"),
+        PaperFigure("11", None, "sketch of the lift"),
+        PaperFigure("12", _contour(runs)),
+        PaperFigure("13", _circulation(runs)),
+        PaperFigure("14", _force(runs)),
+    )

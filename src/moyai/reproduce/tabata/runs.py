@@ -1,0 +1,126 @@
+"""Runs of the paper: a synthetic campaign through the chain of the paper, and the curtain of the site."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.progress import Progress, silent
+from moyai.records.survey.tension_blocks import Blocks
+from moyai.reproduce.inputs import problem_of, run_problem
+from moyai.reproduce.tabata.campaign import (
+    CONVENTIONAL,
+    CURTAIN_DEPTH,
+    WATER,
+    Campaign,
+    campaign,
+    observations,
+    process,
+)
+from moyai.sea.irregular import synthesise
+from moyai.sea.spectra import jonswap
+from moyai.structures.curtain.impact.cable import Impact
+from moyai.structures.curtain.model import CurtainProblem
+from moyai.structures.curtain.seas.anchor_energy import calibrate
+from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
+from moyai.structures.curtain.snaps.events import snaps_in_sea
+from moyai.structures.curtain.snaps.flow import flow_over_skirt
+
+if TYPE_CHECKING:
+    from moyai.core.results import Result
+
+SEED = 3
+CHOSEN = math.radians(50.0)  # directions in which the waves, not the noise of the gauge, set the tension
+
+
+@dataclass(frozen=True)
+class Runs:
+    """The runs that the figures and statements read.
+
+    Parameters
+    ----------
+    data : Campaign
+        Synthetic.
+    new, conventional : Blocks
+        Both types through the chain of the paper.
+    site : Result
+        The curtain of the site in the typhoon.
+    case : CurtainProblem
+    quick : bool
+    """
+
+    data: Campaign
+    new: Blocks
+    conventional: Blocks
+    site: Result
+    case: CurtainProblem
+    quick: bool
+
+    @cached_property
+    def squared(self) -> Array:
+        """Squared velocity of every block by equations (1) and (2) [m2/s2]."""
+        height = effective_height(self.new.significant_height, self.new.angle, "paper", 1.8)
+        return squared_velocity(
+            height, self.new.significant_period, np.abs(self.new.current_normal), CURTAIN_DEPTH, WATER
+        )
+
+    @cached_property
+    def observed(self) -> tuple[Array, Array]:
+        """Largest tensions [N] and speeds of the float [m/s], block by block."""
+        return observations(self.conventional)
+
+    def energy_factor(self, rule: str = "mean_zero") -> tuple[float, float, float]:
+        """Return M and its interval by a rule of fitting."""
+        fit = calibrate(*self.observed, 0.0, line_factor=1.0, rule=rule)  # type: ignore[arg-type]
+        unit = CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness
+        return fit.product / unit, fit.interval[0] / unit, fit.interval[1] / unit
+
+    @cached_property
+    def snaps(self) -> tuple[int, int]:
+        """Snaps in twenty minutes of one sea without current, and with 0.3 m/s."""
+        curtain = self.case.curtain
+        counts = []
+        step, duration = 0.05, 1200.0
+        sea = synthesise(jonswap(1.2, 4.2, 3.3), WATER, duration=duration, seed=9, time_step=step)
+        for current in (0.0, 0.3):
+            span = Impact(curtain.span, curtain.length, CURTAIN_DEPTH, 5e5, 5e5, 0.3, WATER)
+            flow = flow_over_skirt(
+                sea, WATER, draught=CURTAIN_DEPTH, normal_heading=0.0, current=current, duration=duration,
+                time_step=step, velocity="skirt_mean",
+            )  # fmt: skip
+            found = snaps_in_sea(span, flow, drag_coefficient=1.2, slowest=0.05, transient=120.0)
+            counts.append(int(found.counted.sum()))
+        return counts[0], counts[1]
+
+
+def run(quick: bool = False, progress: Progress = silent) -> Runs:
+    """Run everything.
+
+    Parameters
+    ----------
+    quick : bool
+        A shorter campaign, and the site in the typhoon alone.
+    progress : Progress
+    """
+    case: CurtainProblem = problem_of("tabata", "kansai")
+    steps = 3
+    progress("parts of the paper", 0, steps)
+    data = campaign(SEED, 40 if quick else 120)
+    new, conventional = process(data), process(data, conventional=True)
+    progress("parts of the paper", 1, steps)
+    plan = case
+    if quick:
+        states = case.environment.sea_states[:1]
+        settings = replace(case.settings, analyses=("statics", "waves", "anchor_loads"))
+        plan = replace(case, environment=replace(case.environment, sea_states=states), settings=settings)
+    site = run_problem("curtain", plan, progress)
+    runs = Runs(data, new, conventional, site, case, quick)
+    progress("parts of the paper", 2, steps)
+    _ = runs.snaps
+    progress("parts of the paper", steps, steps)
+    return runs

@@ -1,0 +1,203 @@
+"""The statements of the paper, each judged from the runs, and what was filled in."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
+from moyai.reproduce.tabata.campaign import CONVENTIONAL, CURTAIN_DEPTH, NEW, WATER
+from moyai.reproduce.tabata.runs import CHOSEN, Runs
+from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, fit_power, type_ratio
+from moyai.structures.curtain.seas.anchor_energy import EnergyModel, product_needed
+from moyai.structures.curtain.seas.squared_velocity import effective_height
+
+PLANTED = "planted in a synthetic campaign"
+
+
+def _linear(runs: Runs) -> Finding:
+    new = runs.new
+    chosen = new.angle < CHOSEN
+    reduced = (new.averaged("tenth") * new.significant_period / np.cos(new.angle) ** 2)[chosen]
+    found = fit_power(new.significant_height[chosen], reduced)["exponent"]
+    words = (
+        f"T_1/10 times the period goes with H_1/3 to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f})"
+    )
+    return judged(abs(found.value - 1.0) < 0.15, words)
+
+
+def _uncorrelated(runs: Runs) -> Finding:
+    found = correlation(runs.new.current_normal, runs.new.averaged("steady"))
+    words = f"correlation {found.value:+.2f} ({found.low:+.2f} to {found.high:+.2f}), none {PLANTED}"
+    return judged(found.low <= 0.0 <= found.high, words)
+
+
+def _weak(runs: Runs) -> Finding:
+    load = 0.5 * WATER.density * 1.2 * CURTAIN_DEPTH * 0.2**2 * runs.case.curtain.span
+    words = f"drag of 0.2 m/s on a unit {load / 1e3:.1f} kN, steady tension of the paper up to 13.7 kN"
+    return judged(load < 0.25 * 13.7e3, words)
+
+
+def _cosine(runs: Runs) -> Finding:
+    new = runs.new
+    found = fit_cosine(new.angle, new.averaged("tenth") * new.significant_period / new.significant_height)["exponent"]
+    words = f"cos to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f}); 2 {PLANTED}"
+    return judged(abs(found.value - 2.0) < 0.25, words)
+
+
+def _near_normal(runs: Runs) -> Finding:
+    edges = np.radians([0.0, 25.0, 50.0, 76.0])
+    _, classes = fit_by_direction(runs.new.significant_height, runs.new.averaged("tenth"), runs.new.angle, edges)
+    parts = ", ".join(
+        f"{math.degrees(one.low):.0f} to {math.degrees(one.high):.0f} degrees {100 * one.departure.value:+.0f} %"
+        for one in classes
+        if one.departure
+    )
+    first = classes[0].departure
+    return judged(first is not None and first.low > 0.0, f"off the line through all: {parts}")
+
+
+def _squared(runs: Runs) -> Finding:
+    top = runs.new.averaged("maximum")
+    found = fit_power(runs.squared, top)["exponent"]
+    words = f"T_max goes with u^2 to the power {found.value:.2f} ({found.low:.2f} to {found.high:.2f})"
+    return judged(
+        found.value > 0.8, words,
+        "in proportion to the height, as figure 4 and the energy model have it, the tension goes with the root "
+        "of u^2; the two "
+        "statements of the paper exclude each other but for scatter",
+    )  # fmt: skip
+
+
+def _seven_tenths(runs: Runs) -> Finding:
+    _, ratio = type_ratio(runs.conventional.averaged("maximum"), runs.new.averaged("maximum"))
+    words = f"ratio {ratio.value:.3f} ({ratio.low:.3f} to {ratio.high:.3f}); {NEW.type_factor} {PLANTED}"
+    return judged(abs(ratio.value - 0.7) < 0.03, words)
+
+
+def _higher_steady(runs: Runs) -> Finding:
+    more = runs.conventional.averaged("steady") - runs.new.averaged("steady")
+    return judged(bool(more.min() > 0.0), f"{more.min() / 1e3:.1f} to {more.max() / 1e3:.1f} kN more; 3 kN {PLANTED}")
+
+
+def _waves(runs: Runs) -> Finding:
+    found = float(np.mean(runs.new.maximum_height / runs.new.significant_height))
+    return judged(
+        abs(found - 1.8) < 0.2, f"H_max is {found:.2f} H_1/3 in blocks of {runs.new.wave_count.mean():.0f} waves"
+    )
+
+
+def _tenths(runs: Runs) -> Finding:
+    found = float(np.mean(runs.conventional.averaged("maximum") / runs.conventional.averaged("tenth")))
+    return judged(
+        abs(found - 1.7) < 0.15, f"T_max is {found:.2f} T_1/10",
+        "1.7 needs a tension that grows faster than the height, as it does over a pretension; the energy model "
+        "of the paper is "
+        "linear",
+    )  # fmt: skip
+
+
+def _factor(runs: Runs) -> Finding:
+    found, low, high = runs.energy_factor()
+    words = f"M = {found:.3f} ({low:.3f} to {high:.3f}) where {CONVENTIONAL.energy_factor} was planted"
+    return judged(
+        low <= CONVENTIONAL.energy_factor <= high, words,
+        "largest tension and highest wave of a block do not belong together: with scatter the largest of many "
+        "pulls exceeds "
+        "that of the highest wave, and the rule of the paper takes the excess for M",
+    )  # fmt: skip
+
+
+def _flume(_runs: Runs) -> Finding:
+    ratio = float(product_needed(14.7e3, 2.0, 13.7e3) / product_needed(14.7e3, 2.0, 0.0))
+    words = f"with the steady 13.7 kN in the rope the same 14.7 kN need M = {0.2 * ratio:.2f}"
+    return measured(words, "the model of the paper leaves the pretension out; with it field and flume need not differ")
+
+
+def _wire(runs: Runs) -> Finding:
+    anchors = runs.case.curtain.anchors
+    assert anchors is not None
+    return measured(
+        f"0.6 of the rope, {0.6 * 14.7:.1f} kN of 14.7 kN", "a factor of flume tests that are not in the paper"
+    )
+
+
+def _impulsive(runs: Runs) -> Finding:
+    none, many = runs.snaps
+    words = f"{none} snaps in 20 minutes without current, {many} with 0.3 m/s, in one sea of H_1/3 = 1.2 m"
+    return judged(none == 0 and many > 20, words)
+
+
+def _stands(runs: Runs) -> Finding:
+    used = {
+        item.label: item.value
+        for item in runs.site.headlines
+        if item.name.endswith("_utilisation") and math.isfinite(item.value)
+    }
+    worst = max(used, key=lambda name: used[name])
+    words = (
+        f"largest share of a strength {used[worst]:.2f} ({worst.lower()}) at 60 degrees; anchors and joints filled in"
+    )
+    return judged(used[worst] < 1.0, words, "the strengths that were filled in do not carry the typhoon")
+
+
+def _along(_runs: Runs) -> Finding:
+    model = replace(CONVENTIONAL, type_factor=1.0)
+    load = [_worked(model, angle) for angle in (0.0, 60.0)]
+    words = f"{load[0] / 1e3:.1f} kN in waves across, {load[1] / 1e3:.1f} kN at 60 degrees, by the energy model"
+    return judged(load[1] < 0.5 * load[0], words)
+
+
+def _worked(model: EnergyModel, angle: float, period: float = 7.0) -> float:
+    height = float(effective_height(3.06, math.radians(angle), "paper", 1.8))
+    return float(model.fluctuating_tension(model.float_speed(height, period, 0.2, WATER), 0.0))
+
+
+STATEMENTS = (
+    Statement(
+        "impulsive",
+        "3 (1)",
+        "Impulsive tension comes when waves act on a rope that the current has drawn taut.",
+        _impulsive,
+    ),
+    Statement("linear", "3 (1), figure 4", "T_1/10 is nearly linear in H_1/3.", _linear),
+    Statement("uncorrelated", "3 (1), figure 4", "Steady tension has nothing to do with the current.", _uncorrelated),
+    Statement("weak", "3 (1)", "The current is too weak to draw the curtain taut.", _weak),
+    Statement("near-normal", "3 (1), figure 4", "Waves near normal incidence leave the line.", _near_normal),
+    Statement("cosine", "3 (1), figure 5", "Tension goes with cos^2 of the angle.", _cosine),
+    Statement("squared", "3 (2), figure 6", "The largest tension is proportional to the squared velocity.", _squared),
+    Statement(
+        "types", "3 (3), figure 7", "The new type has 0.7 of the tension of the conventional one.", _seven_tenths
+    ),
+    Statement("steady", "3 (1), figure 3", "The conventional type has the higher steady tension.", _higher_steady),
+    Statement("waves", "2", "H_max is 1.8 H_1/3.", _waves),
+    Statement("tenths", "2", "T_max is 1.7 T_1/10.", _tenths),
+    Statement("factor", "4, figure 8", "M = 0.2 makes the error of the energy model least.", _factor),
+    Statement("flume", "4", "Flume tests gave M = 0.5.", _flume),
+    Statement("wire", "4", "The wire bears 0.6 of the anchor rope.", _wire),
+    Statement("stands", "3 (3), 5", "The curtain stood in H_1/3 = 3.06 m.", _stands),
+    Statement("along", "5", "It stood since the high waves ran along it.", _along),
+)
+
+
+def filled(runs: Runs) -> tuple[FilledInput, ...]:
+    """Return the inputs that were filled in, with the tension of the energy model in the typhoon."""
+    model = replace(CONVENTIONAL, type_factor=1.0)
+    plain = f" (taken: {_worked(model, 60.0) / 1e3:.1f} kN)"
+    least, squares = runs.energy_factor("least_relative_error"), runs.energy_factor("least_squares")
+    return (
+        FilledInput("wave period of the typhoon", "7 s", "6; 8 s",
+                    f"{_worked(model, 60.0, 6.0) / 1e3:.1f}; {_worked(model, 60.0, 8.0) / 1e3:.1f} kN{plain}"),
+        FilledInput("angle of the waves from the normal", "60 degrees", "45; 70 degrees",
+                    f"{_worked(model, 45.0) / 1e3:.1f}; {_worked(model, 70.0) / 1e3:.1f} kN{plain}"),
+        FilledInput("mass of a float and what moves with it", "518 kg, sheet and ballast of a unit", "130; 1036 kg",
+                    "; ".join(f"{_worked(replace(model, float_mass=mass), 60.0) / 1e3:.1f}" for mass in (130.0, 1036.0))
+                    + f" kN{plain}"),
+        FilledInput("rule by which the error is least", "mean of zero", "least relative error; least squares",
+                    f"M = {least[0]:.3f}; {squares[0]:.3f} (taken: {runs.energy_factor()[0]:.3f})"),
+        FilledInput("the record", "a synthetic campaign of "
+                    f"{len(runs.new)} blocks, its relations planted, 15 % scatter", "other seeds",
+                    "intervals stand with each number"),
+    )  # fmt: skip
