@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, Any
 from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from moyai.core.progress import Progress
     from moyai.core.results import Result
     from moyai.core.vocabulary import Vocabulary
@@ -150,6 +152,19 @@ def kind_of_result(name: str) -> Kind | None:
         kind: Kind = import_module(_FURTHER[name]).KIND
         return kind
     return structure_kind(name) if name in structure_kinds() else None
+
+
+def vocabulary_of(tree: xr.DataTree) -> Vocabulary | None:
+    """Return the vocabulary of a result by its root; None for a result of no known kind."""
+    kind = kind_of_result(str(tree.attrs.get("structure", "")))
+    return None if kind is None else kind.vocabulary()
+
+
+def groups_of(tree: xr.DataTree) -> dict[str, xr.Dataset]:
+    """Return the groups of a result by their path, with unit and words of its vocabulary on every variable."""
+    groups = {node.path: node.to_dataset() for node in tree.subtree}
+    own = vocabulary_of(tree)
+    return groups if own is None else own.described(groups)[0]
 
 
 def templates() -> dict[str, Kind]:

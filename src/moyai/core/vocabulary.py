@@ -60,12 +60,14 @@ LINE_TENSION_MEAN = Variable("line_tension_mean", "N", "mean tension of the line
 LINE_TENSION_PEAK_SINCE_ROW = Variable(
     "line_tension_peak_since_row", "N", "highest tension of the line since the row before", ("line",)
 )
+BREAKING_LOAD = Variable("breaking_load", "N", "breaking load of the line", ("line",))
 
 _QUANTITIES = (
     LINE_TENSION_MAXIMUM,
     LINE_TENSION_MINIMUM,
     LINE_TENSION_MEAN,
     LINE_TENSION_PEAK_SINCE_ROW,
+    BREAKING_LOAD,
     Variable("time", "s", "time"),
     Variable("wavelength", "m", "wave length L"),
     Variable("wave_number", "1/m", "wave number k"),
@@ -88,6 +90,19 @@ _LABELS = (
 )
 #: Concepts and labels that several kinds of result share.
 COMMON: Mapping[str, Variable] = {variable.name: variable for variable in (*_QUANTITIES, *_LABELS)}
+
+#: Names of earlier versions and what they are called, for users who ask for them.
+FORMER: Mapping[str, str] = {
+    **dict.fromkeys(
+        ("maximum_tension", "peak_tension", "tension_largest", "tension_maximum"), LINE_TENSION_MAXIMUM.name
+    ),
+    **dict.fromkeys(("minimum_tension", "tension_minimum", "line_least_tension"), LINE_TENSION_MINIMUM.name),
+    **dict.fromkeys(("mean_tension", "tension_mean"), LINE_TENSION_MEAN.name),
+    **dict.fromkeys(("tension_peak", "line_tension"), LINE_TENSION_PEAK_SINCE_ROW.name),
+    **dict.fromkeys(("peak", "line_peak"), f"{LINE_TENSION_MAXIMUM.name} or {LINE_TENSION_PEAK_SINCE_ROW.name}"),
+    "worst_tension": f"worst_{LINE_TENSION_MAXIMUM.name}",
+    "line_breaking_load": BREAKING_LOAD.name,
+}
 
 
 @dataclass(frozen=True)

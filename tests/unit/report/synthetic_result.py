@@ -204,9 +204,9 @@ def regular(height: float, depth: float, in_time: bool, breaking: float) -> xr.D
         "mooring_stiffness": variable(names, stiffness, "N/m", "mooring stiffness"),
     }
     if in_time:
-        data["maximum_tension"] = variable(("period", "line"), tension, "N", "largest tension")
+        data["line_tension_maximum"] = variable(("period", "line"), tension, "N", "largest tension")
     else:
-        data["maximum_tension"] = variable(("period", "line"), tension, "N", "largest tension")
+        data["line_tension_maximum"] = variable(("period", "line"), tension, "N", "largest tension")
         data["maximum_anchor_vertical_tension"] = variable(("period", "line"), tension * 0.0, "N", "uplift")
     coordinates = {
         "period": variable(("period",), period, "s", "period"),
@@ -246,7 +246,7 @@ def irregular_frequency(breaking: float) -> xr.Dataset:
             "significant_motion": variable(("dof",), significant, "m", "significant motion"),
             "most_probable_maximum_motion": variable(("dof",), 0.93 * significant, "m", "most probable maximum"),
             "most_probable_maximum_tension": variable(("line",), [0.31e6, 0.2e6], "N", "most probable maximum"),
-            "mean_tension": variable(("line",), [45e3, 36e3], "N", "mean tension"),
+            "line_tension_mean": variable(("line",), [45e3, 36e3], "N", "mean tension"),
         },
         {"omega": variable(("omega",), omega, "rad/s", "angular frequency"), "dof": MODES, "line": LINES},
     )
@@ -283,8 +283,8 @@ def irregular_time(run: xr.Dataset) -> xr.Dataset:
             "significant_motion": variable(("dof",), 4 * position.std(axis=0), "m", "significant motion"),
             "maximum_motion": variable(("dof",), np.abs(position).max(axis=0), "m", "maximum motion"),
             "mean_offset": variable(("dof",), position.mean(axis=0), "m", "mean offset"),
-            "maximum_tension": variable(("line",), tension.max(axis=0), "N", "maximum tension"),
-            "mean_tension": variable(("line",), tension.mean(axis=0), "N", "mean tension"),
+            "line_tension_maximum": variable(("line",), tension.max(axis=0), "N", "maximum tension"),
+            "line_tension_mean": variable(("line",), tension.mean(axis=0), "N", "mean tension"),
             "significant_tension": variable(("line",), np.quantile(tension, 0.9, axis=0), "N", "significant tension"),
             "transmission_coefficient": variable((), 0.41, "1", "transmission"),
         },

@@ -35,7 +35,7 @@ class Journey:
 
 def _breakwater(tables: Tables) -> float:
     """Return the largest tension of the frequency domain over all levels and periods."""
-    return max(float(table["maximum_tension"].max()) for path, table in tables.items() if "/frequency/" in path)
+    return max(float(table["line_tension_maximum"].max()) for path, table in tables.items() if "/frequency/" in path)
 
 
 def _curtain(tables: Tables) -> float:
@@ -54,12 +54,12 @@ def _cage(tables: Tables) -> float:
 
 def _rigid_cage(tables: Tables) -> float:
     """Return the highest tension of any line in any wave."""
-    return float(tables["/SWL/waves/regular"]["peak_tension"].max())
+    return float(tables["/SWL/waves/regular"]["line_tension_maximum"].max())
 
 
 def _network(tables: Tables) -> float:
     """Return the highest peak of any line in any run."""
-    return float(tables["/SWL/dynamic"]["peak"].max())
+    return float(tables["/SWL/dynamic"]["line_tension_maximum"].max())
 
 
 def _member(tables: Tables) -> float:

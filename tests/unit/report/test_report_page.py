@@ -92,10 +92,14 @@ def test_governing_tension_is_the_largest_use_of_the_breaking_load() -> None:
         groups = {node.path: node.to_dataset(inherit=False) for node in made.tree.subtree}
         used = {}
         for path, data in groups.items():
-            if "maximum_tension" in data and "/time/" in path:
-                values = random.uniform(1e4, 1e6, data["maximum_tension"].shape)
-                data["maximum_tension"] = (data["maximum_tension"].dims, values, data["maximum_tension"].attrs)
-                data["lines_in_motion"] = (data["maximum_tension"].dims, np.ones(values.shape))
+            if "line_tension_maximum" in data and "/time/" in path:
+                values = random.uniform(1e4, 1e6, data["line_tension_maximum"].shape)
+                data["line_tension_maximum"] = (
+                    data["line_tension_maximum"].dims,
+                    values,
+                    data["line_tension_maximum"].attrs,
+                )
+                data["lines_in_motion"] = (data["line_tension_maximum"].dims, np.ones(values.shape))
                 data.attrs["status"] = "converged"
                 used[path] = values.max()
         result = Result(xr.DataTree.from_dict(groups), headlines=headlines(groups))
