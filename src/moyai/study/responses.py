@@ -76,8 +76,7 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
     found: dict[str, Any] = {}
     groups = groups_of(tree)
     for path, held in groups.items():
-        variables: dict[Hashable, xr.DataArray] = {**held.data_vars, **largest_tensions(held)}
-        for name, variable in variables.items():
+        for name, variable in held.assign(largest_tensions(held)).data_vars.items():
             if variable.dtype.kind in "fiubc" and variable.size <= _LARGEST and _labelled(variable):
                 found[_key(path, str(name))] = _record(variable)
     for item in wanted:

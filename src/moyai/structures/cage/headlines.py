@@ -186,7 +186,7 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
         name = str(state.statics["line"].values[line])
         item = Headline(
             "line_tension", "tension of the governing line", value, "N", f"{name}, {state.where}", STATICS,
-            state.band("tension"), detail="no sea was run: waves are not in it",
+            state.band("line_tension_maximum"), detail="no sea was run: waves are not in it",
         )  # fmt: skip
         found.append((float(used[line]), value, item, state))
     if not found:
@@ -229,7 +229,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
         else:
             details.append("one seed, too short to tell the scatter of its maximum")
     if state is not None:
-        low, high, text = state.moved("tension", low, high)
+        low, high, text = state.moved("line_tension_maximum", low, high)
         words += [text] if text else []
     name = str(run["line"].values[line])
     band = Band(max(low, 0.0), high, "; ".join(words)) if words else None
