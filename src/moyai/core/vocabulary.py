@@ -123,7 +123,7 @@ class Vocabulary:
     open_groups : tuple of str
         Paths of groups whose variables the user's file names.
     always : mapping
-        Names that a group holds whenever its analysis was run, by a regular expression of its path.
+        Names that a group holds whenever its analysis was run to its end, by a regular expression of its path.
     """
 
     kind: str
@@ -196,18 +196,26 @@ class Vocabulary:
         if Strictness.names and name not in self:
             raise VocabularyError(f"results of kind '{self.kind}' have no variable '{name}': it is not declared")
 
-    def absent(self, path: str, names: Iterable[object]) -> tuple[str, ...]:
+    def absent(self, path: str, held: xr.Dataset | xr.DataTree) -> tuple[str, ...]:
         """Return what a group must hold and does not.
+
+        Nothing is missed in a run that did not converge, and nothing of lines where there are none.
 
         Parameters
         ----------
         path : str
-        names : iterable
-            What it holds.
+        held : Dataset or DataTree
+            The group.
         """
-        place, held = f"/{path.strip('/')}", set(map(str, names))
+        place = f"/{path.strip('/')}"
+        if not held.data_vars or held.attrs.get("status", "converged") != "converged":
+            return ()
         wanted = [name for pattern, own in self.always.items() if re.fullmatch(pattern, place) for name in own]
-        return tuple(name for name in dict.fromkeys(wanted) if name not in held)
+        return tuple(
+            name
+            for name in dict.fromkeys(wanted)
+            if name not in held.variables and all(held.sizes.get(dim) for dim in self.variables[name].dims)
+        )
 
     def describe(self, dataset: xr.Dataset) -> xr.Dataset:
         """Return the dataset with ``units`` and ``long_name`` on every declared variable.
@@ -234,9 +242,7 @@ class Vocabulary:
         """
         owners = {path: self.at(path) for path in groups}
         faults = [fault for path, own in owners.items() if own for fault in own._faults(path, groups[path])]
-        faults += [
-            f"{path}: '{name}' is absent" for path in groups for name in self.absent(path, groups[path].variables)
-        ]
+        faults += [f"{path}: '{name}' is absent" for path, group in groups.items() for name in self.absent(path, group)]
         out = {path: own.describe(groups[path]) if own else groups[path] for path, own in owners.items()}
         return out, tuple(faults)
 

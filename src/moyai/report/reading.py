@@ -44,7 +44,7 @@ def root_of(result: Result) -> Group:
     """
     own = vocabulary_of(result.tree)
     for node in () if own is None else result.tree.subtree:
-        missing = () if own is None else own.absent(node.path, node.variables)
+        missing = () if own is None else own.absent(node.path, node)
         if missing:
             raise _absent(node.path, *missing)
     return Group("", result.tree, own)

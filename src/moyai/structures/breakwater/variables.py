@@ -177,11 +177,21 @@ LABELS: dict[str, str] = {
     "mode": "natural mode",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("draught", "metacentric_height", "natural_period", "fairlead_tension", "breaking_load"),
+    "/[^/]+/mooring": ("restoring_force", "vertical_force"),
+    "/[^/]+/rao": ("rao",),
+    "/[^/]+/frequency/[^/]+": ("line_tension_maximum", "line_tension_mean", "mean_offset", "mean_drift_force"),
+    "/[^/]+/time/[^/]+": ("line_tension_maximum", "line_tension_mean"),
+}
+
 VOCABULARY = Vocabulary.of(
     "breakwater",
     VARIABLES,
     labels=LABELS,
     parts={".*/hydrodynamics(_oblique)?": POTENTIAL},
     open_groups=("/measured",),
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

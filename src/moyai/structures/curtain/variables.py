@@ -361,9 +361,22 @@ LABELS: dict[str, str] = {
     "direction_rule": "rule of the direction",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("steady_line_load", "steady_cable_tension", "cable_tension", "effective_depth", "float_reserve"),
+    "/[^/]+/loads": ("governing_load", "governing", "load_unit", "capacity", "utilisation"),
+    "/[^/]+/impact": ("impact_tension", "design_tension"),
+    "/[^/]+/waves/[^/]+": ("maximum_tension", "maximum_tension_low", "maximum_tension_high", "mean_tension"),
+    "/[^/]+/anchor_loads": ("rope_tension", "total_rope_tension"),
+    "/[^/]+/limits": ("limit_height", "speed_limit"),
+    "/[^/]+/dynamic": ("both_peak", "upper_peak", "lower_peak", "anchor_peak", "skirt_peak"),
+    "/[^/]+/dynamic/[^/]+": ("line_tension_maximum", "line_tension_peak_since_row"),
+}
+
 VOCABULARY = Vocabulary.of(
     "curtain",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

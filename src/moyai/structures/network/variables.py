@@ -130,9 +130,17 @@ LABELS: dict[str, str] = {
     "left": "body of the last state",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("position", "tension", "line_tension_maximum"),
+    "/[^/]+/dynamic": ("line_tension_maximum", "line_tension_mean"),
+    "/[^/]+/time/[^/]+": ("line_tension_peak_since_row", "kinetic_energy", "work"),
+}
+
 VOCABULARY = Vocabulary.of(
     "network",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

@@ -100,9 +100,22 @@ LABELS: dict[str, str] = {
     "value": "value of the quantity",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("volume_share", "total_drag", "net_deflection", "line_tension_maximum"),
+    "/[^/]+/laws": ("law_volume_share", "law_drag", "law_line_tension_maximum"),
+    "/[^/]+/time/[^/]+/[^/]+": (
+        "volume_minimum",
+        "line_tension_maximum",
+        "line_tension_mean",
+        "line_tension_peak_since_row",
+    ),
+}
+
 VOCABULARY = Vocabulary.of(
     "flexible cage",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 described = VOCABULARY.describe

@@ -80,9 +80,17 @@ LABELS: dict[str, str] = {
     "translation": "degree of freedom along an axis",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("rest_x", "rest_z", "tension_at_rest"),
+    "/[^/]+/waves/[^/]+": ("range", "line_tension_maximum", "line_tension_mean", "slack_share"),
+    "/[^/]+/time/[^/]+/[^/]+": ("sway", "heave", "roll", "line_tension_peak_since_row"),
+}
+
 VOCABULARY = Vocabulary.of(
     "rigid cage",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe
