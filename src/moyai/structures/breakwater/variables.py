@@ -179,7 +179,7 @@ LABELS: dict[str, str] = {
 
 # Names that a group holds whenever its analysis was run
 ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/statics": ("draught", "metacentric_height", "natural_period", "fairlead_tension", "breaking_load"),
+    "/[^/]+/statics": ("draught", "metacentric_height", "natural_period", "breaking_load"),
     "/[^/]+/mooring": ("restoring_force", "vertical_force"),
     "/[^/]+/rao": ("rao",),
     "/[^/]+/frequency/[^/]+": ("line_tension_maximum", "line_tension_mean", "mean_offset", "mean_drift_force"),
