@@ -105,6 +105,11 @@ FORMER: Mapping[str, str] = {
 }
 
 
+def former(name: str) -> str:
+    """Say what a variable of an earlier version is called; empty where it was none."""
+    return f"'{name}' of earlier versions is called {FORMER[name]}" if name in FORMER else ""
+
+
 @dataclass(frozen=True)
 class Vocabulary:
     """All names that the results of one kind may carry.

@@ -11,7 +11,7 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.kinds import groups_of
-from moyai.core.vocabulary import FORMER, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN
+from moyai.core.vocabulary import LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -249,11 +249,6 @@ def _variable(groups: Mapping[str, xr.Dataset], group: str, name: str) -> xr.Dat
         )
     found: xr.DataArray = held[name]
     return found
-
-
-def former(name: str) -> str:
-    """Say what a variable of an earlier version is called; empty where it was none."""
-    return f"'{name}' of earlier versions is called {FORMER[name]}" if name in FORMER else ""
 
 
 def _key(path: str, name: str) -> str:

@@ -11,10 +11,10 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.results import Result
-from moyai.core.vocabulary import BREAKING_LOAD, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN
+from moyai.core.vocabulary import BREAKING_LOAD, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 from moyai.study import schema
 from moyai.study.plan import Study
-from moyai.study.responses import former, largest_tensions, picked, split_response
+from moyai.study.responses import largest_tensions, picked, split_response
 
 if TYPE_CHECKING:
     import xarray as xr
