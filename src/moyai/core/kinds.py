@@ -159,6 +159,11 @@ def kind_of_result(name: str) -> Kind | None:
     return structure_kind(name) if name in structure_kinds() else None
 
 
+def kinds_of_results() -> tuple[str, ...]:
+    """Return the names of all kinds of result."""
+    return (*structure_kinds(), *_FURTHER)
+
+
 def vocabulary_of(tree: xr.DataTree) -> Vocabulary | None:
     """Return the vocabulary of a result by its root; None for a result of no known kind."""
     kind = kind_of_result(str(tree.attrs.get("structure", "")))

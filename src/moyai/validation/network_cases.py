@@ -112,7 +112,7 @@ def run_text(text: str, **files: str) -> Result:
 @cache
 def _snap_peak() -> float:
     summary: Any = run_text(SNAP).tree["SWL/dynamic"]
-    return float(summary["peak"].values[0, 0])
+    return float(summary["line_tension_maximum"].values[0, 0])
 
 
 @cache

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +13,13 @@ from moyai.core.errors import InputError
 from moyai.core.kinds import groups_of, kind_of_result, structure_kinds
 from moyai.core.results import Result
 from moyai.core.vocabulary import COMMON, FORMER, Vocabulary, VocabularyError
+from moyai.core.vocabulary_page import page, vocabularies
 from moyai.records.comparison.run import Pairing, compare_result
 from moyai.study.responses import find_response
+
+DOCS = Path(__file__).parents[3] / "docs"
+KINDS = {"Force record": "force_record", "Streak pictures": "streaks"}
+GROUPS = {"event", "realisation", "memory"}
 
 TENSION = np.array([1.0e5, 2.0e5])
 
@@ -82,3 +88,29 @@ def test_a_name_of_earlier_versions_is_answered_by_what_it_is_called(tmp_path: P
     with pytest.raises(InputError) as caught:
         compare_result(Result(plain()), record, [Pairing("maximum_tension", "pull")])
     assert "is called line_tension_maximum" in caught.value.fault.remedy
+
+
+def test_every_declared_variable_is_documented() -> None:
+    """The page is made from the vocabularies."""
+    written = (DOCS / "result_variables.md").read_text(encoding="utf-8")
+    assert page() == written, "run: python -m moyai.core.vocabulary_page docs/result_variables.md"
+
+
+def test_every_documented_variable_is_declared() -> None:
+    text, owners = (DOCS / "result_layout.md").read_text(encoding="utf-8"), vocabularies()
+    sections = {part.partition("\n")[0]: part for part in re.split("(?m)^## ", text)[1:]}
+    assert len(sections) > 9
+    for title, section in sections.items():
+        if title == "Every structure":
+            continue
+        named = {name for row in section.splitlines() if row.startswith("| ") for name in variables_of(row)}
+        assert len(named) > 10, title
+        own = owners[KINDS.get(title, title.lower())]
+        assert not sorted(name for name in named - GROUPS if name not in own), title
+
+
+def variables_of(row: str) -> list[str]:
+    """Return the variables in the last cell of a row, without dimensions in parentheses and attributes."""
+    cell = row.replace(r"\|", "").strip("| ").split("|")[-1]
+    cell = re.sub(r"\([^()]*\)", "", re.sub(r"[^;`]*\battributes?\b.*", "", cell))
+    return re.findall(r"`([a-z]\w*)`", cell)

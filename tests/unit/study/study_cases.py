@@ -10,6 +10,7 @@ import xarray as xr
 
 from moyai.core.errors import InputError
 from moyai.core.results import Result
+from moyai.structures.breakwater.variables import labelled
 
 BASE = """\
 moyai: 1
@@ -144,16 +145,15 @@ def gumbel_case(case, progress):
     names = [line.name for line in case.model.lines]
     count = len(names)
     tensions = {
-        "line_tension_maximum": (("line",), [largest] * count, {"units": "N", "long_name": "largest tension"}),
-        "line_tension_mean": (("line",), [0.3 * largest] * count, {"units": "N", "long_name": "mean tension"}),
-        "maximum_anchor_vertical_tension": (("line",), [0.1 * largest] * count, {"units": "N"}),
+        "line_tension_maximum": (("line",), [largest] * count),
+        "line_tension_mean": (("line",), [0.3 * largest] * count),
+        "maximum_anchor_vertical_tension": (("line",), [0.1 * largest] * count),
         "worst": ((), largest, {"units": "N", "long_name": "worst tension"}),
     }
-    loads = {"breaking_load": (("line",), [1e6] * count, {"units": "N"})}
     groups = {
         "/": xr.Dataset(),
-        "/SWL/time/storm": xr.Dataset(tensions, coords={"line": names}),
-        "/SWL/statics": xr.Dataset(loads, coords={"line": names}),
+        "/SWL/time/storm": labelled(xr.Dataset(tensions, coords={"line": names})),
+        "/SWL/statics": labelled(xr.Dataset({"breaking_load": ("line", [1e6] * count)}, coords={"line": names})),
     }
     return Result(xr.DataTree.from_dict(groups))
 
@@ -164,12 +164,11 @@ def sine_case(case, progress):
     time_axis = np.arange(0.0, 1000.25, 0.05)
     names = [line.name for line in case.model.lines]
     series = 2e5 + 5e4 * sea.significant_height * np.sin(2 * math.pi * time_axis / 5.0)
-    data = {"tension": (("time", "line"), np.stack([series, 2 * series], axis=1), {"units": "N"})}
-    loads = {"breaking_load": (("line",), [1e6, 1e6], {"units": "N"})}
+    data = {"tension": (("time", "line"), np.stack([series, 2 * series], axis=1))}
     groups = {
         "/": xr.Dataset(),
-        "/SWL/time/storm/run": xr.Dataset(data, coords={"time": time_axis, "line": names}),
-        "/SWL/statics": xr.Dataset(loads, coords={"line": names}),
+        "/SWL/time/storm/run": labelled(xr.Dataset(data, coords={"time": time_axis, "line": names})),
+        "/SWL/statics": labelled(xr.Dataset({"breaking_load": ("line", [1e6, 1e6])}, coords={"line": names})),
     }
     return Result(xr.DataTree.from_dict(groups))
 

@@ -195,8 +195,8 @@ def motion_table(level: Level, sea: Group) -> Table | None:
 
 def tension_table(level: Level, sea: Group) -> Table | None:
     """Return the tensions of every wave and line at both ends."""
-    peak = sea.array("line_tension_maximum", "wave", "line", "end")
-    if peak is None or peak.shape[1] == 0:
+    peak = sea.require("line_tension_maximum", "wave", "line", "end")
+    if peak.shape[1] == 0:
         return None
     lines, size = sea.labels("line"), peak.shape[0]
     at = [(w, n) for w in range(size) for n in range(len(lines))]

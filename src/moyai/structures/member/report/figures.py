@@ -249,9 +249,9 @@ def coefficient_table(level: Group, sea: Group) -> Table | None:
 
 def force_table(level: Group, sea: Group) -> Table | None:
     """Return the forces of every wave."""
-    values = sea.real("maximum_total_force", "wave")
-    if values is None:
+    if not sea.exists:
         return None
+    values = sea.require("maximum_total_force", "wave")
     entries = (
         *_WAVE,
         *((f"largest F_{name}", "maximum_force", "N", {"component": name}) for name in COMPONENTS),
