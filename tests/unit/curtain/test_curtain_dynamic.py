@@ -305,6 +305,7 @@ def test_case_faults(tmp_path: Path, old: str, new: str, words: str) -> None:
         moyai.run(moyai.load_case(write(tmp_path, CASE.replace(old, new))))
 
 
+@pytest.mark.slow  # a minute of a span through time, and statics of a held toe
 def test_current_dies_down_to_the_statics_of_the_same_case(tmp_path: Path) -> None:
     """Held toe: the tensions that a long run in the current ends at are those of `statics`, which solves another model.
 
@@ -593,7 +594,7 @@ def changed(text: str, changes: dict[str, str]) -> str:
     return text
 
 
-@pytest.mark.parametrize("analyses", ["dynamic", "statics, dynamic"])
+@pytest.mark.parametrize("analyses", ["dynamic", pytest.param("statics, dynamic", marks=pytest.mark.slow)])
 def test_moving_spans_are_held_against_the_strengths(tmp_path: Path, analyses: str) -> None:
     """The table of loads takes the highest tension of a span where it was run."""
     text = changed(CASE, STRONG | {"analyses: [dynamic]": f"analyses: [{analyses}]"})

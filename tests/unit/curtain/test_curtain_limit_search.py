@@ -29,6 +29,10 @@ WATER = Water(12.0, 1025.0, 9.81)
 SITE = Site(WATER, lambda speed: uniform(speed, 0.0), 0.0, 0.0, 0.5)
 
 
+#: Random curtains of a test: two in the fast suite
+SAMPLES = pytest.mark.parametrize("count", [2, pytest.param(6, marks=pytest.mark.slow)])
+
+
 def required(**given):
     plain = {
         name: given.get(name, UNJUDGED) for name in ("upper_cable", "lower_cable", "sheet", "anchor_line", "anchor")
@@ -112,8 +116,9 @@ def test_limit_rises_with_strength():
         assert np.all(np.diff(values) >= -1e-9)
 
 
-def test_current_that_keeps_the_depth_rises_with_the_toe_weight():
-    for curtain in curtains(1, 6):
+@SAMPLES
+def test_current_that_keeps_the_depth_rises_with_the_toe_weight(count):
+    for curtain in curtains(1, count):
         need = required(least_depth=0.8 * curtain.skirt.length)
         values = []
         for factor in (0.7, 1.0, 1.5):
@@ -124,8 +129,9 @@ def test_current_that_keeps_the_depth_rises_with_the_toe_weight():
         assert values == sorted(values) and values[0] < values[-1]
 
 
-def test_current_that_an_anchor_holds_falls_with_the_distance_and_rises_with_its_strength():
-    for curtain in curtains(2, 5):
+@SAMPLES
+def test_current_that_an_anchor_holds_falls_with_the_distance_and_rises_with_its_strength(count):
+    for curtain in curtains(2, count):
         # a third of what the skirt can put on it at most
         most = (curtain.skirt.toe_load + curtain.skirt.submerged_weight * curtain.skirt.length) * curtain.span
         values = []

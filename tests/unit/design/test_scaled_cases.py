@@ -39,7 +39,9 @@ def read(text, tmp_path, name="unit.yaml"):
     return load_case(path)
 
 
-@pytest.mark.parametrize("length", [26.0, float(np.random.default_rng(11).uniform(5, 60))])
+@pytest.mark.parametrize(
+    "length", [pytest.param(26.0, marks=pytest.mark.slow), float(np.random.default_rng(11).uniform(5, 60))]
+)
 def test_whole_breakwater_is_the_same_in_both_sizes(length, tmp_path):
     """Every variable of every group, sway and heave where there are motions: ratio of its unit, to rounding."""
     from moyai.cli.runner import run
