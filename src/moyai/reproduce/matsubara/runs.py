@@ -117,7 +117,10 @@ def read(result: Result, sea: str) -> tuple[Wave, ...]:
                 data.heave.values[last],
                 data["roll"].values[last],
                 {side: data.tension.sel(line=name).values[last, 0] for side, name in sides.items()},
-                {side: float(data.line_tension_peak_since_row.sel(line=name).values[many].max()) for side, name in sides.items()},
+                {
+                    side: float(data.line_tension_peak_since_row.sel(line=name).values[many].max())
+                    for side, name in sides.items()
+                },
                 float(np.angle(np.exp(1j * (phases[0] - phases[1])))),
             )
         )
