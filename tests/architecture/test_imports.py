@@ -1,11 +1,7 @@
 """Imports run downward only, kinds of structure do not know each other, and only `report` draws."""
 
-import ast
-from pathlib import Path
-
 import pytest
-
-SOURCE = Path(__file__).resolve().parents[2] / "src" / "moyai"
+from source_files import FILES, SOURCE, findings, findings_of_text
 
 LEVELS = {
     "core": 0,
@@ -33,7 +29,6 @@ LEVELS = {
 PLOTTING = {"matplotlib", "plotly", "typst", "seaborn", "bokeh"}
 # The facade of the package (moyai/__init__.py) hands out the calls of every room
 FACADE = 12
-FILES = sorted(SOURCE.rglob("*.py"))
 
 
 def room(path):
@@ -42,26 +37,7 @@ def room(path):
 
 
 def imported_modules(path):
-    """All modules that a file imports, wherever the statement stands, with their line."""
-    package = ["moyai", *path.relative_to(SOURCE).parts[:-1]]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield alias.name, node.lineno
-        elif isinstance(node, ast.ImportFrom):
-            if node.level:
-                base = package[: len(package) - node.level + 1]
-                module = ".".join([*base, *([node.module] if node.module else [])])
-            else:
-                module = node.module or ""
-            yield module, node.lineno
-            if module == "moyai":
-                for alias in node.names:
-                    yield f"moyai.{alias.name}", node.lineno
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute | ast.Name):
-            name = node.func.attr if isinstance(node.func, ast.Attribute) else node.func.id
-            if name in ("import_module", "__import__") and node.args and isinstance(node.args[0], ast.Constant):
-                yield str(node.args[0].value), node.lineno
+    return findings()[path].imports
 
 
 KIND_PARTS = ("structures", "records")
@@ -102,44 +78,44 @@ def test_every_room_has_a_level():
     assert rooms <= set(LEVELS), f"no level for {sorted(rooms - set(LEVELS))}"
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
-def test_imports_run_downward(path):
+def upward_imports(path, imports):
     own = room(path)
     level = LEVELS[own] if own else FACADE
-    wrong = []
-    for module, line in imported_modules(path):
+    for module, line in imports:
         parts = module.split(".")
         if parts[0] != "moyai" or len(parts) < 2 or parts[1] not in LEVELS or parts[1] == own:
             continue
         if LEVELS[parts[1]] >= level:
-            wrong.append(f"line {line}: {own or 'moyai'} (level {level}) imports {module} (level {LEVELS[parts[1]]})")
+            where = f"{path.relative_to(SOURCE)}, line {line}: {own or 'moyai'} (level {level})"
+            yield f"{where} imports {module} (level {LEVELS[parts[1]]})"
+
+
+def test_imports_run_downward():
+    wrong = [fault for path in FILES for fault in upward_imports(path, imported_modules(path))]
     assert not wrong, "\n".join(wrong)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
-def test_only_report_draws(path):
-    if room(path) in ("report", "app"):
-        return
-    wrong = [f"line {line}: {module}" for module, line in imported_modules(path) if module.split(".")[0] in PLOTTING]
+def test_the_check_sees_an_upward_import():
+    imaginary = SOURCE / "sea" / "imaginary.py"
+    assert len(list(upward_imports(imaginary, [("moyai.case.reader", 1), ("moyai.core.errors", 2)]))) == 1
+
+
+def test_only_report_draws():
+    wrong = [
+        f"{path.relative_to(SOURCE)}, line {line}: {module}"
+        for path in FILES
+        if room(path) not in ("report", "app")
+        for module, line in imported_modules(path)
+        if module.split(".")[0] in PLOTTING
+    ]
     assert not wrong, "\n".join(wrong)
 
 
-def test_the_check_sees_imports_inside_functions(tmp_path):
+def test_the_check_sees_imports_inside_functions():
     """The walker must not be blind to late, relative and computed imports."""
-    file = SOURCE / "core" / "imaginary.py"
     text = (
         "def f():\n    from moyai.sea import water\n    from ..case import reader\n"
         "    import importlib\n    importlib.import_module('moyai.cli.main')\n    from moyai import report\n"
     )
-    tree = ast.parse(text)
-    assert tree
-
-    class Fake:
-        def relative_to(self, other):
-            return file.relative_to(other)
-
-        def read_text(self, encoding):
-            return text
-
-    found = {module for module, _ in imported_modules(Fake())}
+    found = {module for module, _ in findings_of_text(text, ("core", "imaginary.py")).imports}
     assert {"moyai.sea", "moyai.case", "moyai.cli.main", "moyai.report"} <= found

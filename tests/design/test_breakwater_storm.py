@@ -51,7 +51,7 @@ def test_a_peak_out_of_range_is_not_known_and_never_the_headline(tmp_path):
     settings = "settings: {time: {realisations: 1, lines: {mode: quasi_static}}}"
     result = result_of(tmp_path, design, duration=300.0, settings=settings)
     time = result.tree["SWL/time/storm"].to_dataset()
-    assert float((time.maximum_tension / time.mean_tension).max()) > 5.0
+    assert float((time.line_tension_maximum / time.line_tension_mean).max()) > 5.0
     for name in ("line_tension", "line_utilisation", "anchor_uplift"):
         assert headline(result, name).text == "not known"
     assert "quasi-static-snap" in codes(result)
@@ -66,7 +66,7 @@ def test_a_light_line_is_a_judgement_of_the_design_not_of_the_computation(tmp_pa
     # lines at rest are far out of their range here: the row says so, the headline is not known, nothing holds
     (row,) = all_numbers(water_levels(result))
     ratio = result.tree["SWL/frequency/storm"].to_dataset()
-    assert row.beyond_range == pytest.approx(float((ratio.maximum_tension / ratio.mean_tension).max()))
+    assert row.beyond_range == pytest.approx(float((ratio.line_tension_maximum / ratio.line_tension_mean).max()))
     (loads, _) = governing_tables((row,), None)
     marks = next(column for column in loads.columns if column.label == "Range of the line model")
     assert marks.values[0].startswith("OUT OF RANGE")
@@ -82,13 +82,13 @@ def test_the_storm_with_all_defaults(tmp_path):
     # The slow excursions take up the slack of the chains: more than twice the tension, in the mean of five
     assert tension.value > 2.0 * still.value
     time = result.tree["SWL/time/storm"].to_dataset()
-    assert tension.value < float(time.maximum_tension_lines_at_rest.max())
+    assert tension.value < float(time.line_tension_maximum_lines_at_rest.max())
     assert headline(result, "anchor_uplift").value > 0.0
     # every event whose tension with lines at rest passes the largest in motion was rerun, or bounds what is judged
     assert float(time.events_in_motion.max()) >= 1.0
-    line = int(time.maximum_tension.values.argmax())
-    bound = time.maximum_tension_bound_of_realisation.values[:, line]
-    assert np.all(bound >= time.maximum_tension_of_realisation.values[:, line])
+    line = int(time.line_tension_maximum.values.argmax())
+    bound = time.line_tension_bound_of_realisation.values[:, line]
+    assert np.all(bound >= time.line_tension_maximum_of_realisation.values[:, line])
     # the factor is that of dynamic analysis
     factors = {item.criterion.analysis: item for item in result.verdict.judgements if item.criterion.as_factor}
     assert 1.0 / factors["dynamic"].criterion.limit == pytest.approx(1.67)

@@ -135,7 +135,7 @@ def test_a_sweep_decides_no_headline():
     assert drag.value < 0.8 * float(statics["total_drag"].values[fastest])
     assert "0.7 m/s" in volume.where and "0.7 m/s" in drag.where
     tension = headline(found, "line_tension")
-    assert tension.value < float(statics["tension_largest"].values[fastest].max())
+    assert tension.value < float(statics["line_tension_maximum"].values[fastest].max())
     # statics by hand: what the anchors hold is the drag, within 2 % the identity of the rest
     assert all(check.passed for check in found.checks)
     # several laws were measured on nets of this solidity, and they differ

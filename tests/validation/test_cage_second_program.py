@@ -184,4 +184,4 @@ def test_both_move_alike(kind, period, height):
     motion = [found.range[0] / height, found.range[1] / height, math.degrees(0.5 * found.range[2])]
     assert motion == pytest.approx(own[:3], rel=0.007)
     if kind == "crossed":
-        assert found.peak_tension[:, 0] == pytest.approx(own[3:], rel=0.01)
+        assert found.line_tension_maximum[:, 0] == pytest.approx(own[3:], rel=0.01)

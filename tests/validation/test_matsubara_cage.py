@@ -74,7 +74,7 @@ def numbers(kind, period, height, reach=0.3, stiffness=2000.0, pull=0.011, drag=
     wave = regular_wave(height, period, 0.0, water, 0.0, 30)
     found = run_wave(replace(case, settings=settings), moored, rest, water, wave).numbers
     turn = math.degrees(np.angle(np.exp(1j * (found.first_phase[0] - found.first_phase[1]))))
-    peaks = found.peak_tension[:, 0] / GRAM if moored else np.zeros(2)
+    peaks = found.line_tension_maximum[:, 0] / GRAM if moored else np.zeros(2)
     return {
         "sway": found.range[0] / height,
         "heave": found.range[1] / height,
@@ -82,7 +82,7 @@ def numbers(kind, period, height, reach=0.3, stiffness=2000.0, pull=0.011, drag=
         "offshore": float(peaks[0]),
         "shore": float(peaks[1]),
         "phase": turn,
-        "least": float(found.minimum_tension.min()) if moored else 0.0,
+        "least": float(found.line_tension_minimum.min()) if moored else 0.0,
     }
 
 

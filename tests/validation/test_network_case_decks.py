@@ -32,7 +32,7 @@ def test_the_peak_says_what_it_is_worth():
     error = float(summary["discretisation_error"][0])
     assert error < 2e-3
     # the converged reference lies within what the run says of itself
-    assert abs(float(summary["peak"][0, 0]) / 102.36e3 - 1.0) < max(2.0 * error, 1e-3)
+    assert abs(float(summary["line_tension_maximum"][0, 0]) / 102.36e3 - 1.0) < max(2.0 * error, 1e-3)
 
 
 def test_a_net_at_rest_bears_its_weight_and_drag():

@@ -188,5 +188,5 @@ def test_a_rigid_cage_moves_as_plain_steps_take_it():
     ranges, turned, peaks = plain_march(9, 180, 2)
     assert sea["range_ratio"].values[0] == pytest.approx(ranges, rel=0.02)
     assert float(sea["range"].sel(mode="roll")[0]) == pytest.approx(turned, rel=0.02)
-    found = sea["peak_tension"].sel(line=["shore line", "offshore line"]).values[0].max(axis=-1)
+    found = sea["line_tension_maximum"].sel(line=["shore line", "offshore line"]).values[0].max(axis=-1)
     assert found == pytest.approx(peaks, rel=0.04)

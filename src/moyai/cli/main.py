@@ -47,6 +47,8 @@ if TYPE_CHECKING:
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
+COMPILING = "compiling numerical kernels, once after an installation: about a minute"
+
 app = typer.Typer(
     name="moyai",
     no_args_is_help=True,
@@ -195,6 +197,7 @@ def run(
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
+        from moyai.core.compiled import when_compiling
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
@@ -205,22 +208,23 @@ def run(
             count = len(case.warnings)
             if count:
                 tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
-        with progress_bars(quiet) as progress:
+        with progress_bars(quiet) as progress, when_compiling(lambda: None if quiet else tell(COMPILING)):
             result = run_case(case, progress, keep=folder / "coefficients")
-        files = [result.write(folder / "results.nc")]
+        files, document = [result.write(folder / "results.nc")], None
         if report:
-            from moyai.report.writer import write_report
+            from moyai.report.writer import compose_document, write_report
 
             with progress_bars(quiet) as progress:
                 progress("report", 0, 1)
-                files += write_report(result, folder, pdf=pdf)
+                document = compose_document(result)
+                files += write_report(result, folder, pdf=pdf, document=document)
         seconds = time.perf_counter() - started
         from moyai.cli.tables import key_figures, print_summary
 
         if as_json:
-            print_json(_run_record(case, result, files, seconds, key_figures(result)))
+            print_json(_run_record(case, result, files, seconds, key_figures(result, document)))
         elif not quiet:
-            print_summary(rich_console(), result, files, seconds)
+            print_summary(rich_console(), result, files, seconds, document)
         else:
             if result.status != "converged":
                 tell(f"{result.status}: {result.message}")

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from moyai.cli.validation import Outcome
     from moyai.core.headline import Criterion
     from moyai.core.results import Result
+    from moyai.report.document import Document
 
 
 def _table(*columns: tuple[str, str]) -> Table:
@@ -43,13 +44,13 @@ def print_derived(console: Console, title: str, numbers: Sequence[Number]) -> No
         console.print(table)
 
 
-def key_figures(result: Result) -> list[Any]:
-    """Return the governing numbers as the report's first page shows them."""
+def key_figures(result: Result, document: Document | None = None) -> list[Any]:
+    """Return the governing numbers as the report's first page shows them, from its document where there is one."""
     from moyai.report.document import KeyFigures
     from moyai.report.writer import compose_document
 
     try:
-        document = compose_document(result)
+        document = document or compose_document(result)
     except Exception:
         # An interrupted result may hold too little for a summary; its files are written all the same
         if result.status != "interrupted":
@@ -59,12 +60,14 @@ def key_figures(result: Result) -> list[Any]:
     return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
 
 
-def print_summary(console: Console, result: Result, files: Sequence[Path], seconds: float) -> None:
+def print_summary(
+    console: Console, result: Result, files: Sequence[Path], seconds: float, document: Document | None = None
+) -> None:
     """Print what a run gave: numbers, criteria, what limits them (each kind once), both badges, files."""
     from moyai.report.first_page import badges
     from moyai.report.notices import first_page_notices, grouped
 
-    figures = key_figures(result)
+    figures = key_figures(result, document)
     if figures:
         table = _table(("", "left"), ("", "right"), ("", "left"))
         for item in figures:

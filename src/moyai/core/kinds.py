@@ -8,6 +8,7 @@ found by the entry-point group ``moyai.structures``: name of the kind = "package
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -18,6 +19,8 @@ from typing import TYPE_CHECKING, Any
 from moyai.core.errors import InputError
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from moyai.core.progress import Progress
     from moyai.core.results import Result
     from moyai.core.vocabulary import Vocabulary
@@ -48,6 +51,10 @@ class Kind(ABC):
     def vocabulary(self) -> Vocabulary | None:
         """Return the names that results of this kind may carry; None where the user's file makes them."""
         return None
+
+    def vocabulary_of(self, root: Mapping[Any, Any]) -> Vocabulary | None:
+        """Return the names that one result may carry, by its root attributes, where the kind has several models."""
+        return self.vocabulary()
 
     @abstractmethod
     def compose(self, result: Result) -> Any:
@@ -150,6 +157,19 @@ def kind_of_result(name: str) -> Kind | None:
         kind: Kind = import_module(_FURTHER[name]).KIND
         return kind
     return structure_kind(name) if name in structure_kinds() else None
+
+
+def vocabulary_of(tree: xr.DataTree) -> Vocabulary | None:
+    """Return the vocabulary of a result by its root; None for a result of no known kind."""
+    kind = kind_of_result(str(tree.attrs.get("structure", "")))
+    return None if kind is None else kind.vocabulary_of(tree.attrs)
+
+
+def groups_of(tree: xr.DataTree) -> dict[str, xr.Dataset]:
+    """Return the groups of a result by their path, with unit and words of its vocabulary on every variable."""
+    groups = {node.path: node.to_dataset() for node in tree.subtree}
+    own = vocabulary_of(tree)
+    return groups if own is None else own.described(groups)[0]
 
 
 def templates() -> dict[str, Kind]:

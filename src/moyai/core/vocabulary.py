@@ -60,12 +60,14 @@ LINE_TENSION_MEAN = Variable("line_tension_mean", "N", "mean tension of the line
 LINE_TENSION_PEAK_SINCE_ROW = Variable(
     "line_tension_peak_since_row", "N", "highest tension of the line since the row before", ("line",)
 )
+BREAKING_LOAD = Variable("breaking_load", "N", "breaking load of the line", ("line",))
 
 _QUANTITIES = (
     LINE_TENSION_MAXIMUM,
     LINE_TENSION_MINIMUM,
     LINE_TENSION_MEAN,
     LINE_TENSION_PEAK_SINCE_ROW,
+    BREAKING_LOAD,
     Variable("time", "s", "time"),
     Variable("wavelength", "m", "wave length L"),
     Variable("wave_number", "1/m", "wave number k"),
@@ -89,6 +91,24 @@ _LABELS = (
 #: Concepts and labels that several kinds of result share.
 COMMON: Mapping[str, Variable] = {variable.name: variable for variable in (*_QUANTITIES, *_LABELS)}
 
+#: Names of earlier versions and what they are called, for users who ask for them.
+FORMER: Mapping[str, str] = {
+    **dict.fromkeys(
+        ("maximum_tension", "peak_tension", "tension_largest", "tension_maximum"), LINE_TENSION_MAXIMUM.name
+    ),
+    **dict.fromkeys(("minimum_tension", "tension_minimum", "line_least_tension"), LINE_TENSION_MINIMUM.name),
+    **dict.fromkeys(("mean_tension", "tension_mean"), LINE_TENSION_MEAN.name),
+    **dict.fromkeys(("tension_peak", "line_tension"), LINE_TENSION_PEAK_SINCE_ROW.name),
+    **dict.fromkeys(("peak", "line_peak"), f"{LINE_TENSION_MAXIMUM.name} or {LINE_TENSION_PEAK_SINCE_ROW.name}"),
+    "worst_tension": f"worst_{LINE_TENSION_MAXIMUM.name}",
+    "line_breaking_load": BREAKING_LOAD.name,
+}
+
+
+def former(name: str) -> str:
+    """Say what a variable of an earlier version is called; empty where it was none."""
+    return f"'{name}' of earlier versions is called {FORMER[name]}" if name in FORMER else ""
+
 
 @dataclass(frozen=True)
 class Vocabulary:
@@ -108,7 +128,7 @@ class Vocabulary:
     open_groups : tuple of str
         Paths of groups whose variables the user's file names.
     always : mapping
-        Names that a group holds whenever its analysis was run, by a regular expression of its path.
+        Names that a group holds whenever its analysis was run to its end, by a regular expression of its path.
     """
 
     kind: str
@@ -181,18 +201,26 @@ class Vocabulary:
         if Strictness.names and name not in self:
             raise VocabularyError(f"results of kind '{self.kind}' have no variable '{name}': it is not declared")
 
-    def absent(self, path: str, names: Iterable[object]) -> tuple[str, ...]:
+    def absent(self, path: str, held: xr.Dataset | xr.DataTree) -> tuple[str, ...]:
         """Return what a group must hold and does not.
+
+        Nothing is missed in a run that did not converge, and nothing of lines where there are none.
 
         Parameters
         ----------
         path : str
-        names : iterable
-            What it holds.
+        held : Dataset or DataTree
+            The group.
         """
-        place, held = f"/{path.strip('/')}", set(map(str, names))
+        place = f"/{path.strip('/')}"
+        if not held.data_vars or held.attrs.get("status", "converged") != "converged":
+            return ()
         wanted = [name for pattern, own in self.always.items() if re.fullmatch(pattern, place) for name in own]
-        return tuple(name for name in dict.fromkeys(wanted) if name not in held)
+        return tuple(
+            name
+            for name in dict.fromkeys(wanted)
+            if name not in held.variables and all(held.sizes.get(dim) for dim in self.variables[name].dims)
+        )
 
     def describe(self, dataset: xr.Dataset) -> xr.Dataset:
         """Return the dataset with ``units`` and ``long_name`` on every declared variable.
@@ -219,9 +247,7 @@ class Vocabulary:
         """
         owners = {path: self.at(path) for path in groups}
         faults = [fault for path, own in owners.items() if own for fault in own._faults(path, groups[path])]
-        faults += [
-            f"{path}: '{name}' is absent" for path in groups for name in self.absent(path, groups[path].variables)
-        ]
+        faults += [f"{path}: '{name}' is absent" for path, group in groups.items() for name in self.absent(path, group)]
         out = {path: own.describe(groups[path]) if own else groups[path] for path, own in owners.items()}
         return out, tuple(faults)
 

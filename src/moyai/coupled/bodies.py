@@ -130,6 +130,13 @@ class BodyLog:
             )
         )  # fmt: skip
 
+    def keep_march(self, carrier: PlanarCarrier, motion: Array, force: Array) -> None:
+        """Add rows of a planar body: motions and their rates (2, k, 3), forces on its points (k, points, 3)."""
+        place, turn, speed, arms, kinetic = carrier.rows(motion[0], motion[1])
+        pull = force * carrier.copies[:, None]
+        total = np.concatenate([pull.sum(axis=1), np.cross(arms, pull).sum(axis=1)], axis=1)
+        self.rows.extend(zip(place, turn, speed, total, force, kinetic, strict=True))
+
     def history(self, size: int) -> BodyHistory:
         """Return the first ``size`` rows."""
         place, turn, speed, total, force, kinetic = (np.array(column) for column in zip(*self.rows[:size], strict=True))

@@ -45,26 +45,22 @@ class Joint:
         count = int(sum(self.sizes))
         self.reaction, self.before, self.carry = np.zeros((2, count, 3)), np.zeros((2, count, 3)), np.zeros((count, 3))
         self.largest, self.passes, self.steps = least, 0, 0
-        self._length = 0.0
-        self._work, self._lost, self._impulse = 0.0, 0.0, 0.0
-        self._oldest, self._slips = np.zeros((2, count, 3)), np.zeros(2)
-        self._moved: list[Array] = []
-        self._change: list[Array] = []
+        self.length = 0.0
+        #: Work exchanged at the points, all of it positive, work given and not taken [J], impulse owed [N s]
+        self.work, self.lost, self.impulse = 0.0, 0.0, 0.0
+        self.oldest, self.slips = np.zeros((2, count, 3)), np.zeros(2)
+        #: How guesses moved and misses changed in the last passes, the newest in the last row, and how many are known
+        self.differences, self.known = np.zeros((2, MEMORY, 6 * count)), 0
 
     @property
     def lost_impulse(self) -> float:
         """Impulse that is owed at the end, over the largest reaction times a step."""
-        return self._impulse / max(self.largest * self._length, 1e-300)
-
-    @property
-    def work(self) -> float:
-        """Sum of the work exchanged at the points, all of it positive [J]."""
-        return self._work
+        return self.impulse / max(self.largest * self.length, 1e-300)
 
     @property
     def lost_work(self) -> float:
         """Work that was given and not taken at the points, over the work exchanged."""
-        return abs(self._lost) / max(self._work, 1e-300)
+        return abs(self.lost) / max(self.work, 1e-300)
 
     def _bodies_try(self, end: float, reaction: Array) -> tuple[Array, Array]:
         moved = []
@@ -107,11 +103,11 @@ class Joint:
         """Try one step; accept it and return whether both sides agree."""
         guess = self.reaction.copy()
         forecasts: list[Array] = []
-        if self._length > 0.0:
+        if self.length > 0.0:
             forecasts = self._forecasts(length)
-            guess[0] = forecasts[int(np.argmin(self._slips))]
-            guess[1] *= length / self._length
-            owed = self.carry * self._length / length
+            guess[0] = forecasts[int(np.argmin(self.slips))]
+            guess[1] *= length / self.length
+            owed = self.carry * self.length / length
         else:
             owed = np.zeros_like(self.carry)
         start = self.places()
@@ -140,34 +136,34 @@ class Joint:
         if forecasts:
             # which forecast was better of late: smooth reactions like the curved one, ringing ones the straight one
             slips = np.array([float(np.max(np.abs(answer[0] - item), initial=0.0)) for item in forecasts])
-            self._slips = 0.7 * self._slips + 0.3 * slips
+            self.slips = 0.7 * self.slips + 0.3 * slips
         self._remember(inputs, misses, guess, miss)
         self._book(start, (place, speed), given, answer, length)
-        self._impulse = float(np.max(np.abs(miss[0]), initial=0.0)) * length
+        self.impulse = float(np.max(np.abs(miss[0]), initial=0.0)) * length
         for carrier in self.carriers:
             carrier.accept()
         self.network.accept()
-        self._oldest, previous, self.reaction = self.before, self.reaction, answer
-        self.before = previous if self._length > 0.0 else answer.copy()
-        if self._length == 0.0:
-            self._oldest = answer.copy()
+        self.oldest, previous, self.reaction = self.before, self.reaction, answer
+        self.before = previous if self.length > 0.0 else answer.copy()
+        if self.length == 0.0:
+            self.oldest = answer.copy()
         self.carry = miss[0]
-        self.largest, self._length, self.steps = max(self.largest, size), length, self.steps + 1
+        self.largest, self.length, self.steps = max(self.largest, size), length, self.steps + 1
         return True
 
     def _forecasts(self, length: float) -> list[Array]:
         """Return means of the reaction continued straight and along a parabola."""
-        last, before, oldest = self.reaction[0], self.before[0], self._oldest[0]
-        share = length / self._length
+        last, before, oldest = self.reaction[0], self.before[0], self.oldest[0]
+        share = length / self.length
         straight = last + (last - before) * 0.5 * (1.0 + share)
         return [straight, straight + (last - 2.0 * before + oldest) * 0.5 * (1.0 + share) * share]
 
     def _remember(self, inputs: list[Array], misses: list[Array], guess: Array, miss: Array) -> None:
         """Keep how the misses answered to the guesses of this step, for the next one."""
-        inputs, misses = [*inputs, guess.ravel().copy()], [*misses, miss.ravel().copy()]
-        self._moved += [b - a for a, b in itertools.pairwise(inputs)]
-        self._change += [b - a for a, b in itertools.pairwise(misses)]
-        del self._moved[:-MEMORY], self._change[:-MEMORY]
+        found = np.array([[*inputs, guess.ravel()], [*misses, miss.ravel()]])
+        steps = np.diff(found, axis=1)
+        self.differences = np.concatenate([self.differences, steps], axis=1)[:, -MEMORY:]
+        self.known = min(self.known + steps.shape[1], MEMORY)
 
     def _better(self, inputs: list[Array], misses: list[Array]) -> Array:
         """Return the next guess: the step that would cancel the miss if misses were linear, as far as known."""
@@ -175,7 +171,8 @@ class Joint:
         change = [b - a for a, b in itertools.pairwise(misses)]
         if len(inputs) < 4:
             # what earlier steps taught, until this one has taught enough
-            moved, change = [*self._moved, *moved], [*self._change, *change]
+            known = self.differences[:, MEMORY - self.known :]
+            moved, change = [*known[0], *moved], [*known[1], *change]
         if not moved:
             return inputs[-1] + misses[-1]
         steps, answers = np.stack(moved[-MEMORY:], axis=1), np.stack(change[-MEMORY:], axis=1)
@@ -189,5 +186,5 @@ class Joint:
         moved, turned = end[0] - start[0], length / 6.0 * (end[1] - start[1])
         taken = np.sum(given[0] * moved + given[1] * turned)
         offered = np.sum(answer[0] * moved + answer[1] * turned)
-        self._lost += float(offered - taken)
-        self._work += 0.5 * float(np.sum(np.abs(answer[0] * moved)))
+        self.lost += float(offered - taken)
+        self.work += 0.5 * float(np.sum(np.abs(answer[0] * moved)))

@@ -7,23 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.coupled import planar_kernel as step_kernel
 from moyai.flexible.flow import Flow
-from moyai.floating import kernel
 from moyai.floating.forcing import Forcing
+from moyai.floating.kernel import run_state_space
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, exponential_weights, packed_lines
 from moyai.sea.water import Water
 
 #: Places of the force's table in its shortest period; a cubic between them keeps 1e-7.
 SAMPLES_PER_PERIOD = 160
-#: Start, middle and end of a step, for the tilt of the reaction.
-_STAGES = np.array([-1.0, 0.0, 1.0])[:, None, None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,10 +102,9 @@ class PlanarBody:
 
 def _places(q: Array, v: Array, arms: Array, centre: Array) -> tuple[Array, Array]:
     """Return place and velocity of points at a planar motion."""
-    c, s = np.cos(q[2]), np.sin(q[2])
-    x, z = c * arms[:, 0] + s * arms[:, 2], -s * arms[:, 0] + c * arms[:, 2]
-    place = centre + np.stack([q[0] + x, arms[:, 1], q[1] + z], axis=1)
-    return place, np.stack([v[0] + v[2] * z, np.zeros(len(arms)), v[1] - v[2] * x], axis=1)
+    place, speed = np.empty((2, len(arms), 3))
+    step_kernel.place_points(q, v, arms, centre, place, speed)
+    return place, speed
 
 
 class PlanarCarrier:
@@ -135,21 +134,39 @@ class PlanarCarrier:
         at = grid * np.arange(count)
         self._force, self._surface = CubicSpline(at, force), CubicSpline(at, elevation)
         model = body.model
-        self._packed = (
+        constants = (
             np.ascontiguousarray(np.linalg.inv(model.inertia)),
             np.ascontiguousarray(np.asarray(model.linear_damping, dtype=float) + memory.dashpot),
             np.ascontiguousarray(model.stiffness, dtype=float),
             np.zeros((0, 3)) if model.quadratic is None else np.ascontiguousarray(model.quadratic.directions),
             np.zeros(0) if model.quadratic is None else np.ascontiguousarray(model.quadratic.coefficients),
         )
-        self._lines, own, _ = packed_lines(model.mooring, 3)
-        self._at_rest = own + np.asarray(body.reaction_at_rest, dtype=float)
-        self._saved = (np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 0)))
+        lines, own, _ = packed_lines(model.mooring, 3)
+        nothing = (np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 0)))
+        sides = (np.ascontiguousarray(memory.inputs), np.ascontiguousarray(memory.outputs))
+        self._system = (constants, lines, own + np.asarray(body.reaction_at_rest, dtype=float)), (*sides, nothing)
         self._weights: dict[float, tuple[NDArray[np.complex128], ...]] = {}
         self._tried = (self.q.copy(), self.v.copy(), self.z.copy(), time)
-        self._guess: tuple[float, Array, Array] | None = None
+        self._guess: tuple[float, Array] | None = None
         self._outside: tuple[tuple[float, float], Array] = ((np.nan, np.nan), np.zeros((3, 3)))
-        self._rate = np.zeros(3)
+        #: Rate of the velocity over the last step
+        self.rate = np.zeros(3)
+
+    @property
+    def carried(self) -> tuple[Array, Array, Array]:
+        """Carried points from the centre of gravity, how many lines each stands for, the centre at rest."""
+        return self.arms, self.copies, self.rest
+
+    def system(self, step: float) -> tuple[Any, ...]:
+        """Return what the kernels take of the body for a step [s]; see :mod:`moyai.coupled.planar_kernel`."""
+        key = round(step, 14)
+        if key not in self._weights:
+            self._weights[key] = exponential_weights(self._memory.poles, step)
+        return *self._system[0], self._weights[key], *self._system[1]
+
+    def force_at(self, time: Array) -> Array:
+        """Return the force from outside and the motion of the water at times (k,)."""
+        return np.ascontiguousarray(self._force(time))
 
     @property
     def body_mass(self) -> float:
@@ -190,41 +207,36 @@ class PlanarCarrier:
         """Return place [m] and velocity [m/s] of the carried points, (points, 3), in site axes."""
         return _places(self.q, self.v, self.arms, self.rest)
 
-    def modal(self, angles: Array, pulls: Array) -> Array:
-        """Return the force of pulls (k, points, 3) on the points in the three modes, at angles of roll (k,) [rad]."""
-        c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
-        x, z = c * self.arms[:, 0] + s * self.arms[:, 2], -s * self.arms[:, 0] + c * self.arms[:, 2]
-        fx, fz = self.copies * pulls[..., 0], self.copies * pulls[..., 2]
-        return np.stack([fx.sum(axis=1), fz.sum(axis=1), (z * fx - x * fz).sum(axis=1)], axis=1)
+    def rows(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """Return what is kept of motions (k, 3): position, rotation, velocity, points from the centre, energy."""
+        rows = len(q)
+        c, s, one, none = np.cos(q[:, 2]), np.sin(q[:, 2]), np.ones(rows), np.zeros(rows)
+        rotation = np.stack([c, none, s, none, one, none, -s, none, c], axis=1).reshape(rows, 3, 3)
+        velocity = np.stack([v[:, 0], none, v[:, 1], none, v[:, 2], none], axis=1)
+        position = self.rest + np.stack([q[:, 0], none, q[:, 1]], axis=1)
+        energy = 0.5 * np.einsum("ki,ij,kj->k", v, self.body.model.inertia, v)
+        return position, rotation, velocity, np.einsum("kij,pj->kpi", rotation, self.arms), energy
 
     def try_step(self, end: float, reaction: Array) -> tuple[Array, Array]:
         """Move to ``end`` [s] under mean and tilt of the forces on the points; return place and velocity there."""
         h = end - self.time
-        q, v, z = self.q.copy(), self.v.copy(), self.z.copy()
-        last_q, last_v = self.q + h * self.v + 0.5 * h * h * self._rate, self.v + h * self._rate
-        if self._guess is not None and self._guess[0] == end:
-            last_q, last_v = self._guess[1], self._guess[2]
-        angles = np.array([q[2], 0.5 * (q[2] + last_q[2]) + 0.125 * h * (v[2] - last_v[2]), last_q[2]])
+        if self._guess is None or self._guess[0] != end:
+            first = np.stack([self.q + h * self.v + 0.5 * h * h * self.rate, self.v + h * self.rate])
+            self._guess = (end, first)
         if self._outside[0] != (self.time, end):
-            at = np.array([self.time, self.time + 0.5 * h, end])
-            self._outside = ((self.time, end), np.asarray(self._force(at)))
-        force = self._outside[1].copy()
-        pulls = self.modal(angles, reaction[0] + _STAGES * reaction[1])
-        force[:, : pulls.shape[1]] += pulls
-        key = round(h, 14)
-        if key not in self._weights:
-            self._weights[key] = exponential_weights(self._memory.poles, h)
-        kernel.run_state_space(
-            q, v, z, 0, 1, h, force, self._packed, self._lines, self._at_rest,
-            self._weights[key], np.ascontiguousarray(self._memory.inputs), np.ascontiguousarray(self._memory.outputs),
-            np.full(3, 1e30), 1 << 40, self._saved,
+            self._outside = ((self.time, end), self.force_at(np.array([self.time, self.time + 0.5 * h, end])))
+        tried = (np.empty(3), np.empty(3), np.empty_like(self.z))
+        place, speed = np.empty((2, len(self.arms), 3))
+        step_kernel.try_body(
+            run_state_space, self.q, self.v, self.z, self._guess[1], h, np.ascontiguousarray(reaction),
+            self._outside[1], self.carried, self.system(h), tried, place, speed, np.full(3, 1e30),
         )  # fmt: skip
-        self._tried, self._guess = (q, v, z, end), (end, q.copy(), v.copy())
-        return _places(q, v, self.arms, self.rest)
+        self._tried = (*tried, end)
+        return place, speed
 
     def accept(self) -> None:
         """Keep the last tried step."""
         h = self._tried[3] - self.time
         if h > 0.0:
-            self._rate = (self._tried[1] - self.v) / h
+            self.rate = (self._tried[1] - self.v) / h
         self.q, self.v, self.z, self.time = self._tried

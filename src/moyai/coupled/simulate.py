@@ -18,6 +18,7 @@ from moyai.core.validity import IdentityCheck, Notice
 from moyai.coupled.bodies import Body, BodyHistory, BodyLog, BodyState, check_points
 from moyai.coupled.joint import Joint
 from moyai.coupled.pace import choose_body_step, steps_at_the_pace
+from moyai.coupled.planar_march import PlanarMarch
 from moyai.coupled.rigid import RigidCarrier
 from moyai.flexible.explicit import LOAD_STEPS
 from moyai.flexible.flow import Flow
@@ -200,12 +201,17 @@ def _drive(
     for log in logs.values():
         log.keep(joint)
     try:
-        for row in range(1, rows + 1):
-            for part in range(1, per_row + 1):
-                joint.advance(begin + (row - 1) * interval + part * interval / per_row)
-            stepped.keep_row()
-            for log in logs.values():
-                log.keep(joint)
+        march = PlanarMarch.where_possible(joint, stepped, [*logs.values()], interval, rows) if per_row == 1 else None
+        row = 0
+        while row < rows:
+            taken = march.advance(row) if march is not None else 0
+            if taken == 0:
+                for part in range(1, per_row + 1):
+                    joint.advance(begin + row * interval + part * interval / per_row)
+                stepped.keep_row()
+                for log in logs.values():
+                    log.keep(joint)
+            row += max(taken, 1)
             energy = stepped.energy
             kinetic = sum(float(log.rows[-1][5]) for log in logs.values() if log.rows)
             throughput = max(throughput, energy[0] + energy[1], abs(energy[2]), joint.work, kinetic)

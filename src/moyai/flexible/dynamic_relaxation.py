@@ -77,7 +77,7 @@ def relax_network(
         packed.node_rows(kernel.WU, 7)[:] = run.water
         taken, left, worst = relax(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
-            fluid, run._near_surface(), run.nets, run.sheets, level, mass, pace, CHUNK, EVERY, tolerance * reference,
+            fluid, run.near_surface(), run.nets, run.sheets, level, mass, pace, CHUNK, EVERY, tolerance * reference,
             next(keep for begin, keep in reversed(KEEP) if done >= begin),
         )  # fmt: skip
         done += taken

@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import njit
-
+from moyai.core.compiled import njit
 from moyai.flexible.explicit_kernel import (
     FREE_X,
     FX,

@@ -175,7 +175,7 @@ class ExplicitRun:
         water = self.network.water
         kernel.loads(
             self.packed.memory, self.packed.sizes, self.packed.runs, self.arrays.attached, water.density, water.gravity,
-            self._near_surface(), not self.flow.steady, 0.0, self.sheets,
+            self.near_surface(), not self.flow.steady, 0.0, self.sheets,
         )  # fmt: skip
         if self.network.blocks is not None:
             kernel.section_loads(self.packed.memory, self.blocks, not self.flow.steady, self.sheets[2])
@@ -198,7 +198,8 @@ class ExplicitRun:
                 inverse[row, self.blocks[0]] = arrays.node(name)[self.blocks[0]] / self.blocks[6]
         return float(rate), bool(near), inverse
 
-    def _near_surface(self, ahead: float = 0.0) -> bool:
+    def near_surface(self, ahead: float = 0.0) -> bool:
+        """Whether a bar may cross the surface within ``ahead`` seconds."""
         return self._survey(ahead)[1]
 
     def first_row(self, saved: Any) -> None:
@@ -250,6 +251,16 @@ class ExplicitRun:
         per_row, per_load = min(choices, key=lambda choice: choice[0] * (choice[1] + 2.0))
         return row_interval / (per_row * per_load), per_load, per_row
 
+    def prepare(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
+        """Choose as :meth:`choose` does and make the state ready for that step."""
+        step, per_load, per_row = self.choose(row_interval, wanted)
+        if self.ledger[5] > 0.0 and abs(step - self.step) > 1e-12 * step:
+            # velocities stand half an old step before now: bring them to half a new step before now
+            self.kick(0.5 * (self.step - step))
+        self.step, self.per_load = step, per_load
+        self.watch.at_step(step)
+        return step, per_load, per_row
+
     def advance(self, rows: int, first: int, row_interval: float, wanted: float | None, saved: Any) -> int:
         """March ``rows`` rows of the result; return how many were good."""
         begin, done, left = self.time, 0, row_interval
@@ -280,13 +291,8 @@ class ExplicitRun:
         ``watchful``.
         """
         row_interval, before = interval
-        step, per_load, per_row = self.choose(row_interval, wanted)
         packed, arrays = self.packed, self.arrays
-        if self.ledger[5] > 0.0 and abs(step - self.step) > 1e-12 * step:
-            # velocities stand half an old step before now: bring them to half a new step before now
-            self.kick(0.5 * (self.step - step))
-        self.step, self.per_load = step, per_load
-        self.watch.at_step(step)
+        step, per_load, per_row = self.prepare(row_interval, wanted)
         end = self.time + rows * row_interval
         rate = np.zeros_like(self.water)
         if not self.flow.steady:
@@ -298,7 +304,7 @@ class ExplicitRun:
         good = kernel.march(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([self.network.water.density, self.network.water.gravity]),
-            (not self.flow.steady, self._near_surface(rows * row_interval), self.water, rate, self.time),
+            (not self.flow.steady, self.near_surface(rows * row_interval), self.water, rate, self.time),
             self.driving,
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first, before),

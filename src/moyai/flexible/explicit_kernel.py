@@ -17,8 +17,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from moyai.core.compiled import njit
 from moyai.flexible.mass_block_kernel import STALE, block_energy, block_loads, kick_blocks, refresh_inverse, set_frames
 from moyai.flexible.panel_kernel import screen_loads
 from moyai.flexible.ring_kernel import ring_loads

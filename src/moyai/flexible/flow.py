@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -104,6 +104,19 @@ class Flow:
         angle = math.pi * max(time, 0.0) / self.ramp
         return 0.5 * (1.0 - math.cos(angle)), 0.5 * math.pi / self.ramp * math.sin(angle)
 
+    def steady_velocity(self, position: Array) -> Array:
+        """Return what stands of the velocity at nodes (3, n) once it has grown: all but the waves, shape (3, n)."""
+        out = np.repeat(np.asarray(self.velocity)[:, None], position.shape[1], axis=1)
+        if self.current is not None:
+            depth = self.waves.water.depth if self.waves is not None and self.waves.water is not None else math.inf
+            out[:2] += self.current.velocity(np.clip(position[2], -depth, None)).T
+        return out
+
+    @property
+    def summed(self) -> tuple[NDArray[np.float32], float]:
+        """Sea summed beforehand at nodes, (7, nodes, times), and its step [s]; empty here."""
+        return np.zeros((7, 0, 0), dtype=np.float32), 1.0
+
     def at(self, time: float, position: Array) -> Array:
         """Return velocity, acceleration and elevation of the water at nodes, shape (7, n).
 
@@ -117,10 +130,7 @@ class Flow:
         count = position.shape[1]
         out = np.zeros((7, count))
         grown, rate = self.growth(time)
-        out[:3] = np.asarray(self.velocity)[:, None]
-        if self.current is not None:
-            depth = self.waves.water.depth if self.waves is not None and self.waves.water is not None else math.inf
-            out[:2] += self.current.velocity(np.clip(position[2], -depth, None)).T
+        out[:3] = self.steady_velocity(position)
         if self.waves is not None and self.waves.water is not None:
             sea = self.waves
             elevation, velocity, acceleration = np.empty(count), np.empty((count, 3)), np.empty((count, 3))

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from moyai.core.compiled import njit
 from moyai.flexible.force_kernel import turn_part
 
 

@@ -11,7 +11,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from moyai.core.compiled import njit
 
 #: What is known of each node of a block: cosine, sine, root of the stretch, the first length of its cable [m], and what
 #: the own mass was multiplied with for the normal and for the vertical unknown when the inverse was last taken.

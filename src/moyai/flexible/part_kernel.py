@@ -12,8 +12,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from moyai.core.compiled import njit
 from moyai.flexible import sheet_kernel as sheet
 from moyai.flexible.front_kernel import add_elements
 from moyai.flexible.panel_kernel import _on_one, panel_forces

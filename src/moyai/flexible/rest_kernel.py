@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from moyai.core.compiled import njit
 from moyai.flexible.force_kernel import elastic_pull
 
 

@@ -11,7 +11,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from moyai.core.compiled import njit
 
 
 @njit(cache=True, error_model="numpy")

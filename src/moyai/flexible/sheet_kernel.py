@@ -11,7 +11,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from moyai.core.compiled import njit
 
 #: Columns of the constants of triangles: inverse of the unstretched edges (2 x 2), area, stiffness C11, C12, C22, C33,
 #: compliance a0 + a1 cos + a2 cos^2 over twice the angle of the pull, damping time, law, added mass per area across,

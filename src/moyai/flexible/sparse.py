@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import IntArray
+from moyai.core.compiled import njit
 
 #: Nodes that are left together without a further cut.
 _LEAF = 4

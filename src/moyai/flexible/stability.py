@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array, IntArray
+from moyai.core.compiled import njit
 from moyai.flexible.arrays import KernelArrays
 from moyai.flexible.sheet_kernel import sheet_stiffness
 

@@ -233,6 +233,69 @@ class SteppedNetwork:
         self.run.water, self.run.ledger[:] = water.copy(), ledger
         self._fresh = True
 
+    @property
+    def follows_motions(self) -> bool:
+        """Whether points that no body carries follow motions of their own."""
+        return bool(self._others)
+
+    @property
+    def steps_to_choice(self) -> int:
+        """Steps that may be accepted until the network chooses its own step again."""
+        return _CHOSEN_FOR - self._accepted % _CHOSEN_FOR
+
+    def begin_march(self, interval: float) -> tuple[tuple[float, int, int], tuple[Any, ...], tuple[Any, ...]]:
+        """Hand the state over to a kernel that takes several steps of ``interval`` [s].
+
+        Returns
+        -------
+        tuple
+            Step of the network, steps per load interval and load intervals per step; the arguments of
+            :func:`moyai.flexible.explicit_kernel.march` that do not change; the state that was accepted last, which the
+            kernel changes as it goes and :meth:`end_march` takes back.
+        """
+        if not self._fresh:
+            self._restore()
+        run, packed, arrays, bed = self.run, self.run.packed, self.run.arrays, self.network.bed
+        choice = run.prepare(interval, self.wanted)
+        water = self.network.water
+        system = (
+            packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
+            np.array([water.density, water.gravity]), run.driving[0],
+            (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True), run.nets, run.sheets, run.blocks,
+            self.keep_nodes, packed.place[self.keep_bars], run.ledger, *run.watch.system,
+        )  # fmt: skip
+        rows, _, _, now, ledger, (gauges, _, falls), _ = self._snapshot()
+        return choice, system, (rows, ledger, gauges, falls, now)
+
+    @property
+    def carried_system(self) -> tuple[IntArray, IntArray, Array, Array]:
+        """Nodes of the carried points, their places among the driven ones, place and velocity now, driving tables."""
+        return self._nodes, self._rows, np.ascontiguousarray(self._now[:, self._rows]), self._tables
+
+    def end_march(
+        self, count: int, interval: float, kept: tuple[Any, ...], now: Array, rows: tuple[Array, ...]
+    ) -> None:
+        """Take back a state after ``count`` accepted steps, and their rows: positions, tensions, peaks, energies."""
+        run, begin = self.run, self._kept[1]
+        memory, ledger, gauges, falls, water = kept
+        run.time, run.water = begin + count * interval, water
+        seen = (gauges, run.watch.within.copy(), falls)
+        self._kept = (memory, run.time, run.step, water.copy(), ledger, seen, run.sheets[3].copy())
+        self._fresh = True
+        if count == 0:
+            return
+        for row, (places, pulls, peaks, energy) in enumerate(zip(*rows, strict=True)):
+            self._history.append((np.array(begin + (row + 1) * interval), places, pulls, peaks, pulls, energy))
+        self._peak, self._trough = np.full_like(self._peak, -np.inf), np.full_like(self._trough, np.inf)
+        self._now[:, self._rows] = now
+        self._next = self._now.copy()
+        self._energy = np.array(rows[3][-1])
+        self._accepted += count
+        self.steps += count * round(interval / run.step)
+        self.smallest = min(self.smallest, run.step)
+        if self._accepted % _CHOSEN_FOR == 0:
+            run.forget()
+
     def try_step(self, end: float, place: Array, velocity: Array) -> Array:
         """Move to ``end`` [s] while the carried points go to ``place`` [m] with ``velocity`` [m/s] there.
 

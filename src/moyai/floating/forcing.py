@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.floating.arrays import finite, positive

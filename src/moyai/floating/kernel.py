@@ -4,8 +4,7 @@ Method [eq:floating-etd]: the classical fourth-order Runge-Kutta method for posi
 exponential form (Cox and Matthews 2002, ETDRK4) for the states of the memory, so that fast memory poles neither limit
 the step nor lose their steady value.
 
-The pull of the lines comes from :mod:`moyai.mooring.planar_kernel`. The compiler's cache knows this file alone:
-touch it after a change there.
+The pull of the lines comes from :mod:`moyai.mooring.planar_kernel`.
 """
 
 from __future__ import annotations
@@ -13,8 +12,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from moyai.core.compiled import njit
 from moyai.mooring.planar_kernel import planar_line_force
 
 RUNNING, DIVERGED = 0, 1

@@ -9,9 +9,9 @@ in part. Newton steps in a variable that makes the equation almost straight, hel
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array, IntArray
+from moyai.core.compiled import njit
 
 # Regime codes, given back by every solver of this room.
 GROUNDED = 0  # part of the line on the bed, H > 0

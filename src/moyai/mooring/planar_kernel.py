@@ -7,9 +7,9 @@ this file as well, or the cache keeps the old inlined code.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array, IntArray
+from moyai.core.compiled import njit
 from moyai.mooring.kernels import solve_single
 from moyai.mooring.segments import solve_segments
 

@@ -13,9 +13,9 @@ of the clump at its upper end [N] (negative: buoy; not used for the last segment
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array, IntArray
+from moyai.core.compiled import njit
 from moyai.mooring.kernels import (
     BELOW_BED,
     GROUNDED,

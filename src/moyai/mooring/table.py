@@ -8,7 +8,9 @@ points.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -341,7 +343,8 @@ def compile_lines(
         nodes.append(rows.ravel())
         if motion_range is not None and tolerance is not None:
             window = _window(line, motion_range, system.water_depth)
-            table = tabulate_line(line, system.water_depth, *window, tolerance)
+            alone = replace(line, name="line", anchor=(0.0, 0.0, line.anchor[2]), fairlead=(0.0, 0.0, 0.0), count=1)
+            table = _table(alone, system.water_depth, *window, tolerance)
             if table.measured_error > 2.0 * tolerance:
                 continue  # a clump that lifts off bends the force sharply: no smooth table follows that
             tables[-1] = table
@@ -371,4 +374,24 @@ def _window(
         bottom = max(bottom, -depth - line.anchor[2] + 1e-9 * line.length)
     if not (high > low and top > bottom):
         raise InputError("the motion range gives this line no room", path=f"lines.{line.name}")
-    return (low, high), (bottom, top)
+    wide_bottom, wide_top = _outward(bottom, top)
+    floor = -math.inf if line.bed_clearance(depth) < 0.0 else -depth - line.anchor[2] + 1e-9 * line.length
+    return _outward(low, high), (max(wide_bottom, floor), wide_top)
+
+
+def _outward(low: float, high: float) -> tuple[float, float]:
+    """Widen a range by up to an eighth at each end, to round numbers: runs of near motions then share one table."""
+    step = 2.0 ** math.floor(math.log2(high - low)) / 8.0
+    return math.floor(low / step) * step, math.ceil(high / step) * step
+
+
+@lru_cache(maxsize=64)
+def _table(
+    line: Line,
+    water_depth: float,
+    horizontal_range: tuple[float, float],
+    vertical_range: tuple[float, float],
+    tolerance: float,
+) -> TabulatedForce:
+    """Return :func:`tabulate_line` of a line whose name, place and number do not count; the last ones are kept."""
+    return tabulate_line(line, water_depth, horizontal_range, vertical_range, tolerance)

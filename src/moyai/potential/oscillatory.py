@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.compiled import njit
 
 _SMALL_PHASE = 4.0
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)

@@ -20,9 +20,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array, ComplexArray, IntArray
+from moyai.core.compiled import njit
 
 # Sum of the distances of t0 from both ends of [-1, 1] below which a target counts as near: Bernstein ellipse rho ~ 3.2
 _NEAR_ELLIPSE = 3.5

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import ComplexArray
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.potential.state_space import StateSpace
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
-from moyai.core.kinds import kind_of_result
+from moyai.core.kinds import vocabulary_of
 from moyai.core.results import Result
 from moyai.core.vocabulary import Vocabulary
 from moyai.report.formatting import display_unit, largest_magnitude
@@ -42,10 +42,9 @@ def root_of(result: Result) -> Group:
     AbsentError
         When a group lacks what its analysis always writes.
     """
-    kind = kind_of_result(str(result.tree.attrs.get("structure", "")))
-    own = None if kind is None else kind.vocabulary()
-    for node in result.tree.subtree if own is not None else ():
-        missing = own.absent(node.path, node.variables) if own is not None else ()
+    own = vocabulary_of(result.tree)
+    for node in () if own is None else result.tree.subtree:
+        missing = () if own is None else own.absent(node.path, node)
         if missing:
             raise _absent(node.path, *missing)
     return Group("", result.tree, own)

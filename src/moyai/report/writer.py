@@ -37,7 +37,12 @@ def compose_document(result: Result) -> Document:
 
 
 def write_report(
-    result: Result, directory: str | os.PathLike[str], *, pdf: bool = False, name: str = "report"
+    result: Result,
+    directory: str | os.PathLike[str],
+    *,
+    pdf: bool = False,
+    name: str = "report",
+    document: Document | None = None,
 ) -> list[Path]:
     """Write the report of a result.
 
@@ -53,6 +58,8 @@ def write_report(
         Write ``<name>.pdf`` too.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
+    document : Document, optional
+        The result composed before; composed here when left out.
 
     Returns
     -------
@@ -69,7 +76,7 @@ def write_report(
     from moyai.report.html import render_html
 
     folder = Path(directory)
-    document = compose_document(result)
+    document = document or compose_document(result)
     written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
     if pdf:
         from moyai.report.pdf import render_pdf

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.sea import kinematics
 from moyai.sea.kinematics import Stretching

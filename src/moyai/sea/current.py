@@ -19,6 +19,8 @@ from moyai.core.errors import InputError
 from moyai.core.single import plain
 from moyai.sea.water import Water
 
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+
 
 class CurrentProfile(ABC):
     """A steady horizontal current that depends on height only."""
@@ -52,10 +54,9 @@ class CurrentProfile(ABC):
     def _panels(self, z_bottom: float, z_top: float) -> tuple[Array, Array]:
         _check_range(z_bottom, z_top)
         edges = self._breaks(z_bottom, z_top)
-        points, weights = np.polynomial.legendre.leggauss(16)
         half = 0.5 * np.diff(edges)
-        z = (0.5 * (edges[1:] + edges[:-1]))[:, None] + half[:, None] * points
-        return z, half[:, None] * weights / (z_top - z_bottom)
+        z = (0.5 * (edges[1:] + edges[:-1]))[:, None] + half[:, None] * _NODES
+        return z, half[:, None] * _WEIGHTS / (z_top - z_bottom)
 
     def depth_mean(self, z_bottom: float, z_top: float) -> Array:
         """Return the mean velocity (x, y) [m/s] between two heights [m]."""

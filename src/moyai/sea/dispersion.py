@@ -10,10 +10,10 @@ import math
 from typing import Any, overload
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 
 _ITERATIONS = 60

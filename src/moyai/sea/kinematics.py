@@ -11,10 +11,10 @@ import math
 from typing import Literal
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 
 Stretching = Literal["constant", "linear", "wheeler"]

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 from moyai.core.validity import Notice
 from moyai.sea.water import Water
 

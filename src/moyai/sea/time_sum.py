@@ -74,10 +74,12 @@ def _through_fourier(omega: Array, rows: ComplexArray, start: float, steps: int,
     """Sum components at whole multiples of ``step`` on ``period`` points a repeat period, repeated as needed."""
     number = np.rint(omega / step).astype(np.int64)
     turn = np.exp(-1j * omega * start)
-    if window_pays(number, steps, period):
-        return sum_in_window(number, rows * turn, steps, period).real
-    wanted = np.arange(steps) % period
     out = np.zeros((rows.shape[0], steps))
+    if window_pays(number, steps, period):
+        some = rows.any(axis=1)
+        out[some] = sum_in_window(number, rows[some] * turn, steps, period).real
+        return out
+    wanted = np.arange(steps) % period
     half = np.zeros(period // 2 + 1, dtype=np.complex128)
     for row, amplitudes in enumerate(rows):
         if not amplitudes.any():

@@ -1,7 +1,7 @@
 """What all cases say together: lines and anchors against codes, extremes over seeds, return levels over a scatter.
 
-Works on the dataset of the study, whatever the structure: lines are found by their ``maximum_tension``,
-``mean_tension`` and ``breaking_load``, or where the study file says that their tensions stand.
+Works on the dataset of the study, whatever the structure: lines are found by the common names of their
+largest and mean tension and breaking load, or where the study file says that their tensions stand.
 """
 
 from __future__ import annotations

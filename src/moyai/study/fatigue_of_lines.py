@@ -10,10 +10,11 @@ import numpy as np
 from moyai.core.errors import InputError
 from moyai.core.results import Result
 from moyai.core.validity import Notice
+from moyai.core.vocabulary import LINE_TENSION_MEAN
 from moyai.design.long_term import YEAR
 from moyai.study import schema
 from moyai.study.plan import Study
-from moyai.study.tensions import has, variable
+from moyai.study.tensions import breaking_loads
 from moyai.study.tensions import response as response_of
 from moyai.tables.design_codes import EnduranceData, endurance_data
 
@@ -125,12 +126,15 @@ def _of_line(
         bars = 2.0 if "chain" in curve.name else 1.0
         return sums, bars * math.pi / 4.0 * wanted.diameter[line] ** 2 * 1e6, curve.capacity
     level = wanted.response.split("/")[0]
-    if not has(result, f"/{level}/statics", "breaking_load"):
+    strengths = breaking_loads(result, level)
+    if strengths is None:
         raise InputError("the breaking loads of the lines are not known", path="assess.fatigue")
-    breaking = variable(result, f"/{level}/statics", "breaking_load").sel(line=line, drop=True)
+    breaking = strengths.sel(line=line, drop=True)
     if not curve.mean_term:
         return sums, breaking, curve.capacity
-    mean = response_of(result, wanted.response.rsplit("/", 2)[0] + "/mean_tension").sel(line=line, drop=True)
+    mean = response_of(result, wanted.response.rsplit("/", 2)[0] + f"/{LINE_TENSION_MEAN.name}").sel(
+        line=line, drop=True
+    )
     return sums, breaking, curve.capacity * 10.0 ** (-curve.mean_term * mean / breaking)
 
 

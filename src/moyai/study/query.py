@@ -111,7 +111,7 @@ class StudyTable:
         """Return a column by name: an axis, ``case``, ``status``, ``message``, ``verdict``, or a response.
 
         A response may be told by the end of its name, where that is only one, and by labels:
-        ``maximum_tension[line=seaward]``; the largest entry of what is left counts.
+        ``line_tension_maximum[line=seaward]``; the largest entry of what is left counts.
 
         Raises
         ------

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.core.kinds import groups_of
+from moyai.core.vocabulary import LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -51,7 +53,9 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
     """Return the values of a result that a study keeps.
 
     Real and complex scalars, and arrays over labelled dimensions (lines, degrees of freedom, components), are kept by
-    themselves; a complex value is kept by its modulus. Arrays over anything else only as ``wanted`` says.
+    themselves; a complex value is kept by its modulus. The largest tension of every line over whatever has no labels
+    (periods, currents) is kept too, with the mean tension that goes with it. Arrays over anything else only as
+    ``wanted`` says. Unit and words are those of the vocabulary of the result's kind.
 
     Parameters
     ----------
@@ -70,13 +74,52 @@ def kept(tree: xr.DataTree, wanted: Sequence[Wanted] = ()) -> dict[str, Any]:
         When a wanted variable or dimension is not in the result.
     """
     found: dict[str, Any] = {}
-    for node in tree.subtree:
-        for name, variable in node.data_vars.items():
+    groups = groups_of(tree)
+    for path, held in groups.items():
+        for name, variable in held.assign(largest_tensions(held)).data_vars.items():
             if variable.dtype.kind in "fiubc" and variable.size <= _LARGEST and _labelled(variable):
-                found[_key(node.path, str(name))] = _record(variable)
+                found[_key(path, str(name))] = _record(variable)
     for item in wanted:
-        found[item.name] = _reduced(tree, item)
+        found[item.name] = _reduced(groups, item)
     return found
+
+
+def largest_tensions(held: xr.Dataset, keep: Collection[str] | None = None) -> dict[str, xr.DataArray]:
+    """Return the largest tension of every line in a group, and the mean tension of the wave or run that it is from.
+
+    Parameters
+    ----------
+    held : Dataset
+        Group of a result, or of a study.
+    keep : collection of str, optional
+        Dimensions that stay next to ``line``; those with labels when None.
+
+    Returns
+    -------
+    dict
+        By the common names; empty where the group tells no tensions of lines.
+    """
+    largest = held.get(LINE_TENSION_MAXIMUM.name)
+    if largest is None or "line" not in largest.dims:
+        return {}
+    mean = held.get(LINE_TENSION_MEAN.name)
+
+    def over(variable: xr.DataArray) -> list[str]:
+        stays = [dim for dim in variable.dims if _has_labels(variable, dim)] if keep is None else keep
+        return [str(dim) for dim in variable.dims if dim != "line" and dim not in stays]
+
+    if mean is None:
+        return {LINE_TENSION_MAXIMUM.name: largest.max(over(largest)).assign_attrs(largest.attrs)}
+    # what only one of both runs along: the least mean leaves most to the dynamic part, which codes weigh more
+    largest = largest.max([dim for dim in over(largest) if dim not in mean.dims]).assign_attrs(largest.attrs)
+    mean = mean.min([dim for dim in over(mean) if dim not in largest.dims]).assign_attrs(mean.attrs)
+    if shared := over(largest):
+        place = largest.fillna(-np.inf).argmax(shared)
+        largest, mean = (
+            one.isel(place).drop_vars(set(one.coords) - set(one.dims) | set(shared), errors="ignore")
+            for one in (largest, mean)
+        )
+    return {LINE_TENSION_MAXIMUM.name: largest, LINE_TENSION_MEAN.name: mean}
 
 
 def _counted(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
@@ -155,7 +198,7 @@ def find_response(tree: xr.DataTree, name: str) -> xr.DataArray:
         When there is no such variable, dimension or label.
     """
     group, last, labels = split_response(name)
-    return picked(_variable(tree, group, last), labels, name)
+    return picked(_variable(groups_of(tree), group, last), labels, name)
 
 
 def split_response(text: str) -> tuple[str, str, tuple[tuple[str, str], ...]]:
@@ -192,21 +235,19 @@ def picked(variable: xr.DataArray, labels: Sequence[tuple[str, str]], text: str)
     return variable
 
 
-def _variable(tree: xr.DataTree, group: str, name: str) -> xr.DataArray:
+def _variable(groups: Mapping[str, xr.Dataset], group: str, name: str) -> xr.DataArray:
     """Return a variable, or say which there are."""
-    try:
-        node: Any = tree[group] if group else tree
-    except KeyError:
-        node = None
-    if node is None or name not in getattr(node, "data_vars", {}):
-        near = sorted(_key(other.path, str(one)) for other in tree.subtree for one in other.data_vars)
+    held = groups.get(f"/{group.strip('/')}")
+    if held is None or name not in held.data_vars:
+        near = sorted(_key(path, str(one)) for path, other in groups.items() for one in other.data_vars)
         same = [entry for entry in near if entry.rsplit("/", 1)[-1] == name][:6]
         raise InputError(
             f"the result has no variable '{_key(group, name)}'",
             path="responses",
             allowed=", ".join(same) if same else f"one of {len(near)} variables, such as {', '.join(near[:4])}",
+            remedy=former(name),
         )
-    found: xr.DataArray = node[name]
+    found: xr.DataArray = held[name]
     return found
 
 
@@ -215,8 +256,12 @@ def _key(path: str, name: str) -> str:
     return f"{group}/{name}" if group else name
 
 
+def _has_labels(variable: xr.DataArray, dim: Hashable) -> bool:
+    return dim in variable.coords and variable.coords[dim].dtype.kind in "OU"
+
+
 def _labelled(variable: xr.DataArray) -> bool:
-    return all(dim in variable.coords and variable.coords[dim].dtype.kind in "OU" for dim in variable.dims)
+    return all(_has_labels(variable, dim) for dim in variable.dims)
 
 
 def _record(variable: xr.DataArray) -> dict[str, Any]:
@@ -237,9 +282,9 @@ def _record(variable: xr.DataArray) -> dict[str, Any]:
     }
 
 
-def _reduced(tree: xr.DataTree, item: Wanted) -> dict[str, Any]:
+def _reduced(groups: Mapping[str, xr.Dataset], item: Wanted) -> dict[str, Any]:
     group, _, name = item.variable.rpartition("/")
-    variable = _variable(tree, group, name)
+    variable = _variable(groups, group, name)
     if np.iscomplexobj(variable.values):
         variable = abs(variable).assign_attrs(variable.attrs)
     if item.reduce == "all":

@@ -11,15 +11,15 @@ import numpy as np
 
 from moyai.core.errors import InputError
 from moyai.core.results import Result
+from moyai.core.vocabulary import BREAKING_LOAD, LINE_TENSION_MAXIMUM, LINE_TENSION_MEAN, former
 from moyai.study import schema
 from moyai.study.plan import Study
-from moyai.study.responses import picked, split_response
+from moyai.study.responses import largest_tensions, picked, split_response
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_MAXIMA = ("maximum_tension", "most_probable_maximum_tension")
-_UPLIFTS = ("maximum_anchor_vertical_tension", "anchor_vertical_tension")
+_UPLIFT = "maximum_anchor_vertical_tension"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,9 @@ def response(result: Result, text: str) -> xr.DataArray:
         same = sorted(
             f"{node.path.strip('/')}/{one}" for node in result.tree.subtree for one in node.data_vars if one == name
         )
-        raise InputError(f"the study has no response '{text}'", path="assess", allowed=", ".join(same[:6]))
+        raise InputError(
+            f"the study has no response '{text}'", path="assess", allowed=", ".join(same[:6]), remedy=former(name)
+        )
     return picked(variable(result, f"/{group}", name), labels, text)
 
 
@@ -112,22 +114,30 @@ def _largest(found: xr.DataArray, axes: list[str]) -> xr.DataArray:
     return (found.max(rest) if rest else found).transpose(*axes).drop_vars(set(found.coords), errors="ignore")
 
 
+def breaking_loads(result: Result, level: str) -> xr.DataArray | None:
+    """Return the breaking loads of the lines at a water level, wherever the structure tells them."""
+    groups = (node.path for node in result.tree.subtree if node.path.strip("/").split("/")[0] == level)
+    where = next((path for path in groups if has(result, path, BREAKING_LOAD.name)), None)
+    return None if where is None else variable(result, where, BREAKING_LOAD.name)
+
+
 def _told(study: Study, result: Result) -> list[Tensions]:
-    axes = {axis.name for axis in study.axes}
+    axes = [axis.name for axis in study.axes]
     found = []
     for node in result.tree.subtree:
-        held = node.to_dataset()
-        name = next((one for one in _MAXIMA if one in held), None)
-        if node.path.startswith("/assessment") or name is None or "mean_tension" not in held:
+        if node.path.startswith("/assessment"):
             continue
-        maximum = held[name]
-        if "line" not in maximum.dims or not axes.issubset(map(str, maximum.dims)):
+        tensions = largest_tensions(held := node.to_dataset(), axes)
+        if LINE_TENSION_MEAN.name not in tensions or not set(axes).issubset(tensions[LINE_TENSION_MAXIMUM.name].dims):
             continue
-        level = node.path.strip("/").split("/")[0]
-        known = has(result, f"/{level}/statics", "breaking_load")
-        breaking = variable(result, f"/{level}/statics", "breaking_load") if known else maximum * math.nan
-        uplift = next((held[one] for one in _UPLIFTS if one in held), None)
-        found.append(Tensions(node.path.strip("/"), maximum, held["mean_tension"], breaking, uplift))
+        maximum, mean = tensions[LINE_TENSION_MAXIMUM.name], tensions[LINE_TENSION_MEAN.name]
+        breaking = breaking_loads(result, node.path.strip("/").split("/")[0])
+        uplift = held.get(_UPLIFT)
+        if uplift is not None:
+            uplift = uplift.max([dim for dim in uplift.dims if dim not in (*axes, "line")])
+        found.append(
+            Tensions(node.path.strip("/"), maximum, mean, maximum * math.nan if breaking is None else breaking, uplift)
+        )
     if not found:
         raise InputError(
             "no case tells tensions of lines",

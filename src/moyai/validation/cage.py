@@ -51,7 +51,7 @@ def _rotation(kind: str, period: float, height: float = 0.03) -> float:
 
 def _peak(stiffness: float) -> float:
     found = _run("outward", 1.1, 0.03, 0.5, stiffness, 0.012)
-    return float(found.numbers.peak_tension.max()) / _GRAM
+    return float(found.numbers.line_tension_maximum.max()) / _GRAM
 
 
 def _heave_period() -> float:

@@ -112,12 +112,12 @@ def test_run_tells_both_kinds_of_line_and_its_steps(run) -> None:
     assert run.status == "converged"
     sea = run.tree["/SWL/time/one"].to_dataset()
     series = run.tree["/SWL/time/one/T1p2"].to_dataset()
-    still, moving = sea.maximum_tension_lines_at_rest.values[0], sea.maximum_tension.values[0]
+    still, moving = sea.line_tension_maximum_lines_at_rest.values[0], sea.line_tension_maximum.values[0]
     assert np.all(np.isfinite(still)) and np.all(moving > 0.0)
     # at 1.2 s inertia and drag of this light chain matter, and lower its peak
     assert np.all(np.abs(moving / still - 1.0) > 0.02)
-    assert series.tension_peak.shape == series.tension.shape
-    assert np.all(series.tension_peak.values >= series.tension.values - 1e-12)
+    assert series.line_tension_peak_since_row.shape == series.tension.shape
+    assert np.all(series.line_tension_peak_since_row.values >= series.tension.values - 1e-12)
     assert series.sizes["line_node"] == 21
     assert series.attrs["network_passes"] < 4.0
     assert np.all(sea.maximum_uplift.values <= 1e-2 * moving)

@@ -70,3 +70,9 @@ def test_rows_of_tables_say_what_they_hold():
     assert breakwater_reading.SNAP_RATIO == responses.SNAP_RATIO
     assert range_words(np.nan) == "" and range_words(7.0) == "OUT OF RANGE: 7.0 times the mean"
     assert sway_words("time", False) == "waves and slow drift" and sway_words("frequency", False) == "waves alone"
+
+
+def test_without_uplift_the_line_that_leaves_least_on_the_bed_is_named():
+    calm = replace(GOVERNS, level="LWL", sea="operation", vertical=-0.5, grounded=40.0)
+    uplift = headline(anchor_headlines({}, [], [calm, GOVERNS]), "anchor_uplift")
+    assert uplift.where == GOVERNS.where and uplift.detail.startswith("5 m of line stays on the bed")

@@ -30,7 +30,9 @@ def search(monkeypatch, realisations, in_motion, floor=0.0):
         return SimpleNamespace(simulation=SimpleNamespace(status="converged"), tension=in_motion(still))
 
     monkeypatch.setattr(line_search, "run_event", rerun)
-    monkeypatch.setattr(line_search, "event_numbers", lambda model, run: {"maximum_tension": np.array([run.tension])})
+    monkeypatch.setattr(
+        line_search, "event_numbers", lambda model, run: {"line_tension_maximum": np.array([run.tension])}
+    )
     members = [
         SimpleNamespace(run=SimpleNamespace(simulation=record(peaks)), forcing=None,
                         around=SimpleNamespace(begin=0.0))
@@ -53,7 +55,7 @@ def test_events_come_in_order_and_apart():
 def test_the_largest_in_motion_is_found_behind_a_larger_one_at_rest(monkeypatch):
     # the highest event at rest loses its shock to drag, the second gains
     (found,), called = search(monkeypatch, [[800.0, 600.0, 100.0]], {800.0: 400.0, 600.0: 660.0, 100.0: 90.0}.get)
-    assert found.numbers["maximum_tension"][0] == 660.0
+    assert found.numbers["line_tension_maximum"][0] == 660.0
     # 100 times 1.1 cannot pass 660: not rerun, and nothing is left open
     assert called == [800.0, 600.0] and found.count == 2 and found.bound == 660.0
 
@@ -63,7 +65,7 @@ def test_a_ratio_of_one_realisation_holds_for_all(monkeypatch):
     tensions = {600.0: 510.0, 500.0: 480.0, 200.0: 300.0, 90.0: 80.0}
     found, called = search(monkeypatch, [[600.0, 500.0], [200.0, 90.0]], tensions.get)
     assert 500.0 in called and 90.0 not in called
-    assert [item.numbers["maximum_tension"][0] for item in found] == [510.0, 300.0]
+    assert [item.numbers["line_tension_maximum"][0] for item in found] == [510.0, 300.0]
 
 
 def test_what_the_limit_on_events_leaves_open_is_a_bound(monkeypatch):
@@ -71,9 +73,9 @@ def test_what_the_limit_on_events_leaves_open_is_a_bound(monkeypatch):
     (found,), called = search(monkeypatch, [peaks], lambda still: 0.5 * still)
     assert len(called) == MOST_EVENTS
     assert found.bound == pytest.approx(900.0 - MOST_EVENTS)
-    assert found.numbers["maximum_tension"][0] == 450.0
+    assert found.numbers["line_tension_maximum"][0] == 450.0
 
 
 def test_a_line_that_cannot_govern_is_rerun_once(monkeypatch):
     (found,), called = search(monkeypatch, [[300.0, 290.0, 280.0]], lambda still: 0.5 * still, floor=1000.0)
-    assert called == [300.0] and found.numbers["maximum_tension"][0] == 150.0
+    assert called == [300.0] and found.numbers["line_tension_maximum"][0] == 150.0

@@ -164,7 +164,7 @@ def test_a_case_runs_to_its_report(tmp_path):
     assert float(statics["total_drag"][2]) > 3.0 * float(statics["total_drag"][1])
     # the worst of all currents stands over labels alone: a study keeps it
     for name, key in (
-        ("tension", "tension_largest"),
+        ("line_tension_maximum", "line_tension_maximum"),
         ("anchor_pull", "anchor_pull"),
         ("collar_stress", "collar_stress_largest"),
     ):
@@ -174,7 +174,7 @@ def test_a_case_runs_to_its_report(tmp_path):
     assert float(statics["worst_volume_share"][0]) == share.min()
     assert float(statics["worst_drag"]) == float(statics["total_drag"].max())
     sea = result.tree["SWL/time/regular/wave 1"].ds
-    assert np.isfinite(sea["line_tension"].values).all() and float(sea["tension_maximum"].max()) > 1e3
+    assert np.isfinite(sea["line_tension"].values).all() and float(sea["line_tension_maximum"].max()) > 1e3
     for group in (statics, sea, result.tree["SWL/cage"].ds):
         for name in group.data_vars:
             assert "units" in group[name].attrs or name.endswith("_node"), name

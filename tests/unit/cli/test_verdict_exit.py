@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import time
 
 import pytest
+from click.testing import Result
+from typer.testing import CliRunner
 
 from moyai.cli import console
 from moyai.cli.console import FAILED, NOT_HELD, OK
-from moyai.cli.main import exit_code
+from moyai.cli.main import app, exit_code
 from moyai.core.collected import Collected
 from moyai.core.headline import Criterion, Headline
 from moyai.core.validity import IdentityCheck, Notice
@@ -62,11 +65,7 @@ def test_quiet_gets_none(capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_run_and_check_say_verdict_and_criteria(tmp_path):
-    import json
-    import subprocess
-    import sys
-
+def test_run_and_check_say_verdict_and_criteria(tmp_path, monkeypatch):
     text = """\
 moyai: 1
 title: Pontoon
@@ -83,9 +82,10 @@ analyses: [statics]
 """
     (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
 
-    def moyai(*arguments: str) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "moyai.cli.main", *arguments]
-        return subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=300, check=False)
+    monkeypatch.chdir(tmp_path)
+
+    def moyai(*arguments: str) -> Result:
+        return CliRunner().invoke(app, list(arguments))
 
     told = json.loads(moyai("check", "case.yaml", "--json").stdout)
     limits = {item["name"]: item["limit"] for item in told["criteria"]}
@@ -95,5 +95,5 @@ analyses: [statics]
     record = json.loads(done.stdout)
     # whatever of it is found: a freeboard of 1.5 m never holds against 2 m
     assert record["status"] == "converged" and record["verdict"]["outcome"] != "holds"
-    assert done.returncode == NOT_HELD
-    assert moyai("run", "case.yaml", "--no-report", "--quiet").returncode == OK
+    assert done.exit_code == NOT_HELD
+    assert moyai("run", "case.yaml", "--no-report", "--quiet").exit_code == OK

@@ -320,7 +320,7 @@ def test_current_dies_down_to_the_statics_of_the_same_case(tmp_path: Path) -> No
     rest = result.tree["/SWL/statics"].to_dataset().sel(drag_case="given")
     run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
     late = run.isel(time=run["time"].values > 50.0)
-    ends = late["tension_peak"].mean("time").values
+    ends = late["line_tension_peak_since_row"].mean("time").values
     assert float(late["both_tension"].std()) < 0.01 * float(late["both_tension"].mean())
     assert ends[0] == pytest.approx(float(rest["upper_tension"]), rel=0.06)
     assert ends[1] == pytest.approx(float(rest["lower_tension"]), rel=0.06)
@@ -629,7 +629,7 @@ def test_a_run_that_had_to_stop_gives_no_peak(tmp_path: Path, monkeypatch: pytes
     result = moyai.run(moyai.load_case(write(tmp_path, changed(CASE, STRONG))))
     table = result.tree["/SWL/dynamic"].to_dataset()
     run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
-    assert np.isnan(table["both_peak"]).all() and np.isnan(run["line_peak"]).all()
+    assert np.isnan(table["both_peak"]).all() and np.isnan(run["line_tension_maximum"]).all()
     assert float(run["both_tension"].max()) > 0.0
     assert np.isnan(result.tree["/SWL/loads"].to_dataset()["utilisation"]).sum() >= 6
     assert any("no peak of it is given" in notice.message for notice in result.notices)
@@ -676,4 +676,4 @@ def test_cables_that_stretch_as_no_rope_are_told(tmp_path: Path) -> None:
     result = moyai.run(moyai.load_case(write(tmp_path, text)))
     told = [notice for notice in result.notices if notice.code == "dynamic-stretched"]
     run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
-    assert len(told) == 1 and told[0].value == pytest.approx(float(run["line_peak"].max()) / 400.0)
+    assert len(told) == 1 and told[0].value == pytest.approx(float(run["line_tension_maximum"].max()) / 400.0)

@@ -54,6 +54,22 @@ def curtains(seed, count):
         )
 
 
+@pytest.mark.parametrize("at_rest", [0.5, 2.0])
+def test_the_first_crossing_alone_is_that_of_the_whole_search(at_rest):
+    looked: list[float] = []
+
+    def worst(x):
+        looked.append(x)
+        return (at_rest if x == 0.0 else 0.5 + x**2 if x <= 0.9 else 0.2), "part"
+
+    first = search(worst, 1.2, first_only=True)
+    assert max(looked) < 0.8
+    whole = search(worst, 1.2)
+    assert max(looked) == 1.2 and len(whole.crossings) > 1
+    assert (first.value, first.governing, first.ratio) == (whole.value, whole.governing, whole.ratio)
+    assert first.crossings == whole.crossings[:1] or at_rest > 1.0
+
+
 def test_smallest_of_several_crossings_is_the_limit():
     """Halving the range looks at 0.5, which holds, and ends at 0.7."""
     found = search(lambda x: (0.5 if x <= 0.3 or 0.45 <= x <= 0.7 else 2.0, "part"), 1.0)

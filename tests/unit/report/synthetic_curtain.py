@@ -13,6 +13,8 @@ import xarray as xr
 from moyai.core.results import Result, make_provenance
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.structures.curtain.headlines import curtain_headlines
+from moyai.structures.curtain.statics.steady_load import QUANTITIES
+from moyai.structures.curtain.variables import VOCABULARY
 
 DRAG = ["low", "given", "high"]
 COMPONENTS = ["upper cable", "lower cable", "skirt", "joint", "float", "anchor line", "anchor"]
@@ -58,8 +60,14 @@ def statics(factor: float) -> xr.Dataset:
         "end_anchor_force": (2500 * spread, "N"), "anchor_line_tension": (5100 * spread, "N"),
         "float_reserve": (400 - 150 * spread, "N/m"), "float_reserve_ratio": (0.5 - 0.2 * spread, "1"),
     }  # fmt: skip
+    steady = {
+        f"steady_{name}{end}": v((), 1e3 * share * factor if unit != "1" else 0.3, unit)
+        for name, unit, _ in QUANTITIES
+        for end, share in (("", 1.0), ("_low", 0.8), ("_high", 1.3))
+    }
     return xr.Dataset(
         {
+            **steady,
             **{name: v((), value, unit, name.replace("_", " ")) for name, (value, unit) in scalars.items()},
             **{name: v("drag_case", value, unit, name.replace("_", " ")) for name, (value, unit) in cases.items()},
             "planning_load": v("planning_formula", [8200.0, 31400.0, 9000.0], "N"),
@@ -198,6 +206,8 @@ def waves(factor: float) -> dict[str, xr.Dataset]:
         {
             "velocity_amplitude": v("period", 0.1 * period, "m/s"), "excursion": v("period", 0.032 * period**2, "m"),
             "threshold_excursion": v("period", 10.2 + 0 * period, "m"), "maximum_tension": v("period", peak, "N"),
+            "maximum_tension_low": v("period", peak, "N"), "maximum_tension_high": v("period", peak, "N"),
+            "mean_tension": v("period", 0.1 * peak, "N"),
             "first_contact_tension": v("period", 0.98 * peak, "N"),
             "later_contact_tension": v("period", 0.4 * peak, "N"),
             "largest_contact_speed": v("period", 0.1 * period, "m/s"), "contact_count": v("period", [0, 30, 25, 19]),
@@ -216,6 +226,8 @@ def waves(factor: float) -> dict[str, xr.Dataset]:
     irregular = xr.Dataset(
         {
             "significant_height": v((), 1.2, "m"), "maximum_tension": v((), tension.max(), "N"),
+            "maximum_tension_low": v((), 0.9 * tension.max(), "N"), "mean_tension": v((), tension.mean(), "N"),
+            "maximum_tension_high": v((), 1.1 * tension.max(), "N"),
             "contact_count": v((), 60), "first_contact_count": v((), 41), "contacts_per_hour": v((), 360.0, "1/h"),
             "most_probable_maximum": v((), 26e3 * factor, "N"), "taut_share": v((), 0.1),
             "snaps_per_hour": v((), 360.0, "1/h"), "weibull_shape": v((), 1.6),
@@ -377,7 +389,7 @@ def build(*, anchored: bool = True) -> Result:
         for part, data in parts.items():
             tree[f"/{name}/{part}"] = data
     return Result(
-        tree=xr.DataTree.from_dict(tree),
+        tree=xr.DataTree.from_dict(VOCABULARY.close(tree)),
         checks=(IdentityCheck("force balance of the plan", 1e-9, 1e-6, "pull of the ends equals the load"),),
         notices=(
             Notice("curtain-class", "class C does not allow 0.3 m/s", 0.3, 0.1, "warning", "take class B", "SEPTA"),

@@ -6,7 +6,7 @@ import html
 import json
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,10 +16,12 @@ from typer.testing import CliRunner
 
 from moyai.case.templates import template
 from moyai.cli.main import app
+from moyai.core.errors import InputError
 from moyai.core.headline import Headline
 from moyai.core.results import Result, read_result
 from moyai.report.first_page import largest_by_unit
 from moyai.report.headlines import headline_text
+from moyai.report.writer import compose_document
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -35,7 +37,7 @@ class Journey:
 
 def _breakwater(tables: Tables) -> float:
     """Return the largest tension of the frequency domain over all levels and periods."""
-    return max(float(table["maximum_tension"].max()) for path, table in tables.items() if "/frequency/" in path)
+    return max(float(table["line_tension_maximum"].max()) for path, table in tables.items() if "/frequency/" in path)
 
 
 def _curtain(tables: Tables) -> float:
@@ -54,12 +56,12 @@ def _cage(tables: Tables) -> float:
 
 def _rigid_cage(tables: Tables) -> float:
     """Return the highest tension of any line in any wave."""
-    return float(tables["/SWL/waves/regular"]["peak_tension"].max())
+    return float(tables["/SWL/waves/regular"]["line_tension_maximum"].max())
 
 
 def _network(tables: Tables) -> float:
     """Return the highest peak of any line in any run."""
-    return float(tables["/SWL/dynamic"]["peak"].max())
+    return float(tables["/SWL/dynamic"]["line_tension_maximum"].max())
 
 
 def _member(tables: Tables) -> float:
@@ -211,3 +213,29 @@ def test_what_governs_stands_first(travelled: tuple[Journey, Journal]) -> None:
 
 def text_of(result: Result, headline: Headline) -> str:
     return headline_text(headline, largest_by_unit(result).get(headline.unit, 0.0))
+
+
+GOVERNING = {
+    "breakwater": ("frequency/operation", "line_tension_maximum"),
+    "curtain": ("loads", "governing_load"),
+    "cage": ("statics", "volume_share"),
+    "rigid_cage": ("waves/regular", "line_tension_maximum"),
+    "network": ("dynamic", "line_tension_maximum"),
+    "member": ("waves/regular", "maximum_total_force"),
+}
+
+
+@pytest.mark.parametrize("change", ["dropped", "renamed"])
+def test_a_result_without_its_governing_number_has_no_report(
+    travelled: tuple[Journey, Journal], change: str, request: pytest.FixtureRequest
+) -> None:
+    """What was run and is absent is an error that names group and variable, never a blank page."""
+    _, journal = travelled
+    group, name = GOVERNING[request.node.callspec.params["travelled"]]
+    path = next(path for path in journal.tables if path.endswith(f"/{group}"))
+    groups = {node.path: node.to_dataset(inherit=False) for node in journal.result.tree.subtree}
+    held = groups[path]
+    groups[path] = held.drop_vars(name) if change == "dropped" else held.rename({name: f"{name}_of_old"})
+    tree = xr.DataTree.from_dict(groups)
+    with pytest.raises(InputError, match=f"'{path.strip('/')}' of the result lacks .*'{name}'"):
+        compose_document(replace(journal.result, tree=tree))

@@ -144,8 +144,8 @@ def gumbel_case(case, progress):
     names = [line.name for line in case.model.lines]
     count = len(names)
     tensions = {
-        "maximum_tension": (("line",), [largest] * count, {"units": "N", "long_name": "largest tension"}),
-        "mean_tension": (("line",), [0.3 * largest] * count, {"units": "N", "long_name": "mean tension"}),
+        "line_tension_maximum": (("line",), [largest] * count, {"units": "N", "long_name": "largest tension"}),
+        "line_tension_mean": (("line",), [0.3 * largest] * count, {"units": "N", "long_name": "mean tension"}),
         "maximum_anchor_vertical_tension": (("line",), [0.1 * largest] * count, {"units": "N"}),
         "worst": ((), largest, {"units": "N", "long_name": "worst tension"}),
     }

@@ -31,7 +31,7 @@ def test_lines_are_held_against_intact_and_damaged_factors(tmp_path):
         tmp_path, GRID + "- lines_lost: true", "{lines: {codes: {name: API RP 2SK, analysis: dynamic}}}"
     )
     used = result.tree["assessment/lines"]["utilisation"].squeeze("code").squeeze("sea")
-    tension = result.tree["SWL/time/storm"]["maximum_tension"]
+    tension = result.tree["SWL/time/storm"]["line_tension_maximum"]
     factor = np.array([1.67, 1.25, 1.25])[None, :, None]
     expected = tension.transpose("significant_height", "lost_line", "line").values * factor / 1e6
     assert np.allclose(
@@ -47,7 +47,7 @@ def test_lines_of_any_structure_are_told_by_their_responses(tmp_path):
     study, result = assessed(
         tmp_path,
         GRID,
-        "{tensions: {rope: {maximum: SWL/time/storm/worst, mean: 'SWL/time/storm/mean_tension[line=seaward]',"
+        "{tensions: {rope: {maximum: SWL/time/storm/worst, mean: 'SWL/time/storm/line_tension_mean[line=seaward]',"
         " uplift: SWL/time/storm/maximum_anchor_vertical_tension, breaking_load: 400 kN}},"
         " lines: {codes: {name: DNV-OS-E301, analysis: dynamic, consequence: '2'}},"
         " anchors: {rope: {kind: sinker, weight: 900 kN, coefficient: 0.6, safety_factor: 1.2}}}",
@@ -87,7 +87,7 @@ def test_own_factors_and_corrosion(tmp_path):
         " diameter: {seaward: 68 mm, shoreward: 80 mm}}}",
     )
     used = result.tree["assessment/lines"]["utilisation"].squeeze()
-    tension = result.tree["SWL/time/storm"]["maximum_tension"]
+    tension = result.tree["SWL/time/storm"]["line_tension_maximum"]
     for line, diameter in (("seaward", 0.068), ("shoreward", 0.080)):
         expected = tension.sel(line=line).values * 3.0 / (1e6 * (1 - 0.008 / diameter) ** 2)
         assert np.allclose(used.sel(line=line).values, expected, rtol=1e-12)
@@ -103,7 +103,7 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
     )
     assert result.status == "outside_validity"
     used = result.tree["assessment/anchors"]["utilisation"]
-    pull = result.tree["SWL/time/storm"]["maximum_tension"].sel(line="seaward").values
+    pull = result.tree["SWL/time/storm"]["line_tension_maximum"].sel(line="seaward").values
     up = 0.1 * pull
     side = np.sqrt(pull**2 - up**2)
     slide = 1.2 * side / (0.5 * (1e5 - 1.2 * up))
@@ -151,7 +151,7 @@ def test_return_levels_over_a_scatter_diagram(tmp_path):
         ("{extremes: {response: SWL/time/storm/none}}", "no response"),
         ("{extremes: {response: SWL/time/storm/worst}}", "no axis 'seed'"),
         ("{lines: {codes: {name: none, analysis: dynamic}}}", "API RP 2SK"),
-        ("{extremes: {response: 'SWL/time/storm/mean_tension[line=east]'}}", "no line 'east'"),
+        ("{extremes: {response: 'SWL/time/storm/line_tension_mean[line=east]'}}", "no line 'east'"),
         (
             "{tensions: {rope: {maximum: SWL/none, breaking_load: 1 kN}}, lines: {codes: {name: API RP 2SK,"
             " analysis: dynamic}}}",

@@ -13,10 +13,11 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.kinds import groups_of
 from moyai.core.results import Result, make_provenance
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
-from moyai.core.vocabulary import NO_UNIT, Vocabulary
+from moyai.core.vocabulary import NO_UNIT, Vocabulary, former
 from moyai.records.comparison.model import Agreement, agreement_by_state, overlay
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.record import Record
@@ -188,10 +189,10 @@ def _is_number(text: str) -> bool:
 
 def _variables(result: Result) -> dict[str, Any]:
     out = {}
-    for node in result.tree.subtree:
-        for name, variable in node.to_dataset(inherit=False).data_vars.items():
+    for path, group in groups_of(result.tree).items():
+        for name, variable in group.data_vars.items():
             if variable.ndim >= 1 and variable.dtype.kind in "fiuc":
-                out[f"{node.path.rstrip('/')}/{name}"] = (variable, node)
+                out[f"{path.rstrip('/')}/{name}"] = (variable, group)
     return out
 
 
@@ -225,11 +226,12 @@ def _find(wanted: str, variables: Mapping[str, Any]) -> str:
             f"'{wanted}' stands in {len(fitting)} groups", path="variable", allowed=", ".join(fitting[:20])
         )
     near = difflib.get_close_matches(wanted, list(variables), n=3, cutoff=0.4)
+    renamed = former(wanted.rsplit("/", 1)[-1])
     raise InputError(
         f"the result has no variable '{wanted}'",
         path="variable",
         allowed=", ".join(list(variables)[:40]),
-        remedy=f"did you mean {' or '.join(near)}?" if near else "",
+        remedy=renamed or (f"did you mean {' or '.join(near)}?" if near else ""),
     )
 
 

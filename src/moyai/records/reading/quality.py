@@ -12,10 +12,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.records.reading import record as bits

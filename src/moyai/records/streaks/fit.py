@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from moyai.core.compiled import njit
 
 PARAMETERS = 7
 """Of one streak: column and row of both ends, bow, amplitude, logarithm of the blur."""

@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array, ComplexArray
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 

@@ -33,10 +33,10 @@ def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArr
     planar, count = unit.mooring.planar, len(moving)
     kinds = len(unit.lines)
     names = (
-        "mean_tension",
+        "line_tension_mean",
         "tension_amplitude",
-        "maximum_tension",
-        "minimum_tension",
+        "line_tension_maximum",
+        "line_tension_minimum",
         "maximum_anchor_vertical_tension",
     )
     out = {name: np.zeros((count, kinds)) for name in names}
@@ -51,14 +51,14 @@ def line_tensions(unit: FloatingUnit, solved: DriftedMotions, moving: ComplexArr
         )
         for column, state in enumerate(states.values()):
             pull = state.tension_fairlead
-            out["mean_tension"][index, column] = pull[0]
+            out["line_tension_mean"][index, column] = pull[0]
             # The linear amplitude from small steps along the two quadratures of the orbit
             out["tension_amplitude"][index, column] = 1e3 * abs(complex(pull[-2] - pull[0], pull[-1] - pull[0]))
-            out["maximum_tension"][index, column] = pull[: PHASES + 1].max()
-            out["minimum_tension"][index, column] = pull[: PHASES + 1].min()
+            out["line_tension_maximum"][index, column] = pull[: PHASES + 1].max()
+            out["line_tension_minimum"][index, column] = pull[: PHASES + 1].min()
             out["maximum_anchor_vertical_tension"][index, column] = state.vertical_tension_anchor[: PHASES + 1].max()
     load = np.array([line.breaking_load for line in unit.lines])
-    out["maximum_utilisation"] = np.where(np.isfinite(load), out["maximum_tension"] / load, np.nan)
+    out["maximum_utilisation"] = np.where(np.isfinite(load), out["line_tension_maximum"] / load, np.nan)
     return out
 
 

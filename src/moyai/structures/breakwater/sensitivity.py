@@ -28,7 +28,7 @@ SHOWN = (
     "drift_coefficient",
     "mean_offset",
     "mooring_stiffness",
-    "maximum_tension",
+    "line_tension_maximum",
 )
 
 

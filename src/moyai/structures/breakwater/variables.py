@@ -75,10 +75,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "motion_amplitude": ("m", "amplitude of motion (roll: rad)"),
     "motion_ratio": ("1", "sway, heave over H/2; roll theta B/H"),
     "mean_offset": ("m", "mean offset (roll: rad)"),
-    "mean_tension": ("N", "mean tension at the fairlead"),
+    "line_tension_mean": ("N", "mean tension at the fairlead"),
     "tension_amplitude": ("N", "amplitude of the tension at the fairlead, linear"),
-    "maximum_tension": ("N", "largest tension at the fairlead"),
-    "minimum_tension": ("N", "smallest tension at the fairlead"),
+    "line_tension_maximum": ("N", "largest tension at the fairlead"),
+    "line_tension_minimum": ("N", "smallest tension at the fairlead"),
     "maximum_anchor_vertical_tension": ("N", "largest vertical tension at the anchor"),
     "maximum_utilisation": ("1", "largest tension over breaking load"),
     "relative_elevation": ("m", "amplitude of the water surface relative to the seaward deck edge"),
@@ -108,7 +108,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "maximum_anchor_horizontal_tension": ("N", "largest horizontal tension at the anchor"),
     "lines_in_motion": ("1", "whether the largest tension is that of a line in motion"),
     "seed_of_realisation": ("1", "seed of the realisation"),
-    "maximum_tension_of_realisation": ("N", "largest tension at the fairlead in each realisation"),
+    "line_tension_maximum_of_realisation": ("N", "largest tension at the fairlead in each realisation"),
     "maximum_anchor_vertical_tension_of_realisation": ("N", "largest uplift at the anchor in each realisation"),
     "maximum_anchor_horizontal_tension_of_realisation": (
         "N",
@@ -133,7 +133,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "damping_fraction": ("1", "damping as a fraction of critical"),
     "line_slack": ("m", "length of line beyond the chord"),
     "number_of_lines": ("1", "number of lines in all"),
-    "tension_peak": ("N", "highest tension at the fairlead since the row before"),
+    "line_tension_peak_since_row": ("N", "highest tension at the fairlead since the row before"),
     "anchor_tension_history": ("N", "tension at the anchor of a line in motion"),
     "anchor_uplift": ("N", "vertical tension at the anchor of a line in motion"),
     "grounded_length_history": ("m", "length of a line in motion that touches the bed"),
@@ -143,12 +143,12 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "position_lines_at_rest": ("m", "position with lines at rest at every instant (roll: rad)"),
     "tension_lines_at_rest": ("N", "tension at the fairlead with lines at rest at every instant"),
     "events_in_motion": ("1", "events of a realisation that were rerun with lines in motion, mean over realisations"),
-    "maximum_tension_bound": (
+    "line_tension_bound": (
         "N",
         "tension that no event passes, by the largest ratio of motion over rest that was found",
     ),
-    "maximum_tension_bound_of_realisation": ("N", "the same of each realisation"),
-    "maximum_tension_lines_at_rest": ("N", "largest tension at the fairlead with lines at rest at every instant"),
+    "line_tension_bound_of_realisation": ("N", "the same of each realisation"),
+    "line_tension_maximum_lines_at_rest": ("N", "largest tension at the fairlead with lines at rest at every instant"),
     "maximum_uplift": ("N", "largest vertical tension at the anchor of a line in motion"),
     "maximum_anchor_tension": ("N", "largest tension at the anchor of a line in motion"),
     "least_grounded_length": ("m", "shortest length on the bed"),
@@ -177,11 +177,21 @@ LABELS: dict[str, str] = {
     "mode": "natural mode",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("draught", "metacentric_height", "natural_period", "breaking_load"),
+    "/[^/]+/mooring": ("restoring_force", "vertical_force"),
+    "/[^/]+/rao": ("rao",),
+    "/[^/]+/frequency/[^/]+": ("line_tension_maximum", "line_tension_mean", "mean_offset", "mean_drift_force"),
+    "/[^/]+/time/[^/]+": ("line_tension_maximum", "line_tension_mean"),
+}
+
 VOCABULARY = Vocabulary.of(
     "breakwater",
     VARIABLES,
     labels=LABELS,
     parts={".*/hydrodynamics(_oblique)?": POTENTIAL},
     open_groups=("/measured",),
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -60,15 +61,22 @@ class CageKind(StructureKind):
         return run(problem, progress)
 
     def vocabulary(self) -> Vocabulary:
-        from moyai.structures.cage.flexible.variables import VOCABULARY as FLEXIBLE
-        from moyai.structures.cage.rigid.variables import VOCABULARY as RIGID
+        return joined("cage", _vocabularies().values())
 
-        return joined("cage", (RIGID, FLEXIBLE))
+    def vocabulary_of(self, root: Mapping[Any, Any]) -> Vocabulary:
+        return _vocabularies().get(str(root.get("cage_model", "")), self.vocabulary())
 
     def compose(self, result: Result) -> Any:
         from moyai.structures.cage.report.page import compose
 
         return compose(result)
+
+
+def _vocabularies() -> dict[str, Vocabulary]:
+    from moyai.structures.cage.flexible.variables import VOCABULARY as FLEXIBLE
+    from moyai.structures.cage.rigid.variables import VOCABULARY as RIGID
+
+    return {"rigid": RIGID, "flexible": FLEXIBLE}
 
 
 KIND = CageKind()

@@ -182,11 +182,11 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
         if not used.size:
             continue
         line = int(np.argmax(used))
-        value = float(state.statics["tension_largest"].values[state.row, line])
+        value = float(state.statics["line_tension_maximum"].values[state.row, line])
         name = str(state.statics["line"].values[line])
         item = Headline(
             "line_tension", "tension of the governing line", value, "N", f"{name}, {state.where}", STATICS,
-            state.band("tension"), detail="no sea was run: waves are not in it",
+            state.band("line_tension_maximum"), detail="no sea was run: waves are not in it",
         )  # fmt: skip
         found.append((float(used[line]), value, item, state))
     if not found:
@@ -205,10 +205,10 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
 
 def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | None) -> Headline:
     """Return the highest tension of a run with its band: chance of the seed, and the law of the net."""
-    value = float(run["tension_maximum"].values[line])
+    value = float(run["line_tension_maximum"].values[line])
     low = high = value
     words, details = [], []
-    everything = run["tension_maximum"].values
+    everything = run["line_tension_maximum"].values
     if float(everything.max()) > 1.01 * value:
         name = str(run["line"].values[int(np.argmax(everything))])
         details.append(f"most of its breaking load; {name} bears {float(everything.max()) / 1e3:.3g} kN")
@@ -218,7 +218,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
         )
         late = run["time"].values >= float(run.attrs["ramp"])
         chance = maximum_of(
-            run["time"].values[late], run["line_peak"].values[late, line], float(run.attrs["period"])
+            run["time"].values[late], run["line_tension_peak_since_row"].values[late, line], float(run.attrs["period"])
         )  # fmt: skip
         if chance is not None:
             low, high = min(value, chance.mean - chance.deviation), max(value, chance.mean + chance.deviation)
@@ -229,7 +229,7 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
         else:
             details.append("one seed, too short to tell the scatter of its maximum")
     if state is not None:
-        low, high, text = state.moved("tension", low, high)
+        low, high, text = state.moved("line_tension_maximum", low, high)
         words += [text] if text else []
     name = str(run["line"].values[line])
     band = Band(max(low, 0.0), high, "; ".join(words)) if words else None
@@ -263,12 +263,12 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
     found: list[tuple[float, str, str, str, Band | None]] = []
     by_level = {state.level: state for state in states}
     for level, where, run in runs:
-        if "tension_maximum_lower" not in run:
+        if "line_tension_maximum_lower" not in run:
             continue
         names = [str(name) for name in run["line"].values]
         anchors = [k for k, name in enumerate(names) if "anchor" in name]
         if anchors:
-            pulls = run["tension_maximum_lower"].values[anchors]
+            pulls = run["line_tension_maximum_lower"].values[anchors]
             at = int(np.argmax(pulls))
             pull = float(pulls[at])
             band = None if level not in by_level else by_level[level].band_in_sea("anchor_pull", pull)
@@ -328,7 +328,7 @@ Seas = list[tuple[str, str, "xr.Dataset"]]
 def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     best: tuple[float, str, str, int, int, xr.Dataset] | None = None
     for level, name, sea in seas:
-        values = sea["peak_tension"].values
+        values = sea["line_tension_maximum"].values
         if values.size and (best is None or float(values.max()) > best[0]):
             at = np.unravel_index(int(np.argmax(values)), values.shape)
             best = (float(values.max()), level, name, int(at[0]), int(at[1]), sea)
@@ -339,7 +339,7 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     where = ", ".join(part for part in (line_name, name, "" if label == "sea" else label, level) if part)
     laws, band, details = groups.get(f"/{level}/laws"), None, []
     if laws is not None and laws.sizes["law"] > 1 and laws.attrs["sea"] == name:
-        peaks = laws["law_peak_tension"].values
+        peaks = laws["law_line_tension_maximum"].values
         band = Band(float(peaks.min()), float(peaks.max()), _laws_text(laws))
     elif laws is not None:
         details.append("no second net law is valid for this net: no band")
@@ -367,7 +367,7 @@ def _rigid_chance(run: xr.Dataset, line: int) -> list[str]:
         f"realised Hs {4.0 * float(run['surface_elevation'].values[late].std()):.3g} m of "
         f"{float(run.attrs['wave_height']):.3g} m asked"
     ]
-    chance = maximum_of(time, run["tension_peak"].values[late, line], float(run.attrs["period"]))
+    chance = maximum_of(time, run["line_tension_peak_since_row"].values[late, line], float(run.attrs["period"]))
     if chance is not None:
         said.append(
             f"one seed: largest of others about {chance.mean:.3g} ± {chance.deviation:.2g} N, from {chance.blocks} "

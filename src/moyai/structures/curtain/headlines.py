@@ -232,7 +232,7 @@ def _band(groups: Groups, load: _Load) -> Band | None:
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
     """Return the change with mesh and step of the run, where these runs were made, else the scatter of its periods."""
     run = groups.get(f"/{load.level}/dynamic/{load.words('dynamic_source')}")
-    if run is None or "line_peak" not in run:
+    if run is None or "line_tension_maximum" not in run:
         return None
     if "run_of" in groups[f"/{load.level}/dynamic"]:
         return _mesh_band(groups[f"/{load.level}/dynamic"], load, value)
@@ -241,8 +241,8 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
     mine = [row for row, name in enumerate(run["line"].values) if str(name).startswith(line)]
     if not mine:
         return None
-    row = max(mine, key=lambda number: float(run["line_peak"].values[number]))
-    factor = value / float(run["line_peak"].values[row])
+    row = max(mine, key=lambda number: float(run["line_tension_maximum"].values[number]))
+    factor = value / float(run["line_tension_maximum"].values[row])
     others = [factor * float(run[name].values[row]) for name in ("line_half_mesh", "line_half_step")]
     known = [other for other in others if math.isfinite(other)]
     if known:
@@ -292,7 +292,7 @@ def _period_peaks(run: xr.Dataset, row: int) -> NDArray[np.float64]:
     time, period = run["time"].values, float(run.attrs["period"])
     number = np.floor((time - float(run.attrs["counted_from"])) / period * (1.0 + 1e-9)).astype(int)
     count = round((float(time[-1]) - float(run.attrs["counted_from"])) / period)
-    values = run["tension_peak"].values[row]
+    values = run["line_tension_peak_since_row"].values[row]
     return np.array([values[number == one].max() for one in range(count) if np.any(number == one)])
 
 
@@ -420,6 +420,10 @@ def _beside(name: str, statics: xr.Dataset, value: float) -> str:
     )
 
 
+#: Parts that an impact loads
+_STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
+
+
 def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
     """Return up to which current without waves, and up to which wave height in its own current, a curtain holds."""
     for name, label, unit, where, value, key in (
@@ -446,6 +450,8 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         details = [said or f"{governing} sets it"]
         if limit > 0.0 and governing != "not reached" and said:
             details.insert(0, f"{governing} sets it")
+        if key == "speed_limit" and table.attrs.get("with_impact") and governing in _STRUCK:
+            details.append("with the impact when the current draws the curtain taut")
         if bound == "at most":
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:

@@ -286,7 +286,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "safety_factor": ("1", "safety factor asked"),
     "utilisation": ("1", "governing load times safety factor over strength"),
     # the whole span through time
-    "tension_peak": ("N", "highest tension of each cable over the span and of each anchor line since the row before"),
+    "line_tension_peak_since_row": (
+        "N",
+        "highest tension of each cable over the span and of each anchor line since the row before",
+    ),
     "both_tension": ("N", "sum of the highest tensions of both cables"),
     "kinetic_energy": ("J", "kinetic energy of the span and of the water that it moves"),
     "elastic_energy": ("J", "elastic energy of cables, skirt and lines"),
@@ -294,7 +297,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "mid_span_x": ("m", "mid-span of the upper edge, downstream"),
     "mid_toe_x": ("m", "mid-span of the toe, downstream"),
     "mid_toe_z": ("m", "mid-span of the toe, height"),
-    "line_peak": ("N", "highest tension"),
+    "line_tension_maximum": ("N", "highest tension"),
     "line_peak_time": ("s", "when the tension is highest"),
     "slack_share": ("1", "part of the time that the line is slack"),
     "line_contacts": ("1", "times that the slack line comes taut"),
@@ -358,9 +361,22 @@ LABELS: dict[str, str] = {
     "direction_rule": "rule of the direction",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("steady_line_load", "steady_cable_tension", "cable_tension", "effective_depth", "float_reserve"),
+    "/[^/]+/loads": ("governing_load", "governing", "load_unit", "capacity", "utilisation"),
+    "/[^/]+/impact": ("impact_tension", "design_tension"),
+    "/[^/]+/waves/[^/]+": ("maximum_tension", "maximum_tension_low", "maximum_tension_high", "mean_tension"),
+    "/[^/]+/anchor_loads": ("rope_tension", "total_rope_tension"),
+    "/[^/]+/limits": ("limit_height", "speed_limit"),
+    "/[^/]+/dynamic": ("both_peak", "upper_peak", "lower_peak", "anchor_peak", "skirt_peak"),
+    "/[^/]+/dynamic/[^/]+": ("line_tension_maximum", "line_tension_peak_since_row"),
+}
+
 VOCABULARY = Vocabulary.of(
     "curtain",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

@@ -73,9 +73,16 @@ LABELS: dict[str, str] = {
     "component": "component of the force",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/waves/[^/]+": ("maximum_force", "maximum_total_force", "maximum_end_force", "keulegan_carpenter"),
+    "/[^/]+/time/[^/]+/[^/]+": ("force", "inertia_force", "drag_force"),
+}
+
 VOCABULARY = Vocabulary.of(
     "member",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

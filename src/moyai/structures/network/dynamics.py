@@ -244,7 +244,7 @@ def _governing(series: xr.Dataset) -> str:
     """Return the line or net with the highest tension of all rows that count, those of an earlier run among them."""
     counted = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
     best, highest = "", -np.inf
-    for key, names in (("line_tension", "line"), ("net_tension", "net")):
+    for key, names in (("line_tension_peak_since_row", "line"), ("net_tension", "net")):
         if key not in series or not counted.any() or not series.sizes[names]:
             continue
         values = np.nan_to_num(series[key].values[counted], nan=-np.inf).max(axis=0)

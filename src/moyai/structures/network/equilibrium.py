@@ -113,8 +113,8 @@ def line_numbers(assembly: Assembly, tension: Array) -> dict[str, Array]:
     strands = list(assembly.lines.values())
     return (
         {
-            "line_tension": np.stack([tension[:, s.bars].max(axis=1) for s in strands], axis=1),
-            "line_least_tension": np.stack([tension[:, s.bars].min(axis=1) for s in strands], axis=1),
+            "line_tension_maximum": np.stack([tension[:, s.bars].max(axis=1) for s in strands], axis=1),
+            "line_tension_minimum": np.stack([tension[:, s.bars].min(axis=1) for s in strands], axis=1),
             "start_tension": np.stack([tension[:, s.bars[0]] for s in strands], axis=1),
             "end_tension": np.stack([tension[:, s.bars[-1]] for s in strands], axis=1),
         }

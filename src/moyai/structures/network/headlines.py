@@ -70,8 +70,10 @@ def _peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
     """Yield the highest tension of every line and net in every run."""
     for level, summary in _levels(groups, "dynamic"):
         for run in (str(name) for name in summary["run"].values):
-            for line in (str(name) for name in summary["line"].values) if "peak" in summary else ():
-                value, time = (float(summary[key].sel(run=run, line=line)) for key in ("peak", "peak_time"))
+            for line in (str(name) for name in summary["line"].values) if "line_tension_maximum" in summary else ():
+                value, time = (
+                    float(summary[key].sel(run=run, line=line)) for key in ("line_tension_maximum", "peak_time")
+                )
                 if math.isfinite(value):
                     yield _Peak(value, line, level, run, time, DYNAMIC)
             series = groups.get(f"/{level}/time/{run}")
@@ -87,11 +89,11 @@ def _peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
 
 def _rest_peaks(groups: Mapping[str, xr.Dataset]) -> Iterator[_Peak]:
     for level, rest in _levels(groups, "statics"):
-        if "line_tension" not in rest or not rest["line_tension"].size:
+        if "line_tension_maximum" not in rest or not rest["line_tension_maximum"].size:
             continue
         for condition in (str(name) for name in rest["condition"].values):
             for line in (str(name) for name in rest["line"].values):
-                value = float(rest["line_tension"].sel(condition=condition, line=line))
+                value = float(rest["line_tension_maximum"].sel(condition=condition, line=line))
                 if math.isfinite(value):
                     yield _Peak(value, line, level, condition, math.nan, REST)
 
@@ -155,7 +157,9 @@ def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[str]:
     if "surface_elevation" in late:
         realised = 4.0 * float(late["surface_elevation"].values.std())
         said.append(f"realised Hs {realised:.2f} m of {series.attrs['wave_height']:.2f} m, seed {series.attrs['seed']}")
-    key, axis = ("line_tension", "line") if peak.line in series["line"].values else ("net_tension", "net")
+    key, axis = (
+        ("line_tension_peak_since_row", "line") if peak.line in series["line"].values else ("net_tension", "net")
+    )
     found: Maximum | None = maximum_of(
         late["time"].values, late[key].sel({axis: peak.line}).values, float(series.attrs["period"])
     )

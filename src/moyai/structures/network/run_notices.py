@@ -109,7 +109,7 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
         return []
     time = series["time"].values
     own = series.sel(line=name).isel(time=time >= time[0] + series.attrs["skip"])
-    peak = float(np.nanmax(own["line_tension"]))
+    peak = float(np.nanmax(own["line_tension_peak_since_row"]))
     ends = [float(np.nanmax(own[key])) for key in ("start_highest", "end_highest")]
     if not peak > INSIDE * max(ends):
         return []

@@ -69,7 +69,8 @@ def series_of(assembly: Assembly, plan: RunPlan, history: History) -> xr.Dataset
     numbers = line_numbers(assembly, history.tension)
     if numbers:
         strands = list(assembly.lines.values())
-        numbers["line_tension"] = np.stack([highest[:, s.bars].max(axis=1) for s in strands], axis=1)
+        del numbers["line_tension_maximum"]  # of the rows alone
+        numbers["line_tension_peak_since_row"] = np.stack([highest[:, s.bars].max(axis=1) for s in strands], axis=1)
         numbers["start_highest"] = np.stack([highest[:, s.bars[0]] for s in strands], axis=1)
         numbers["end_highest"] = np.stack([highest[:, s.bars[-1]] for s in strands], axis=1)
     for key, values in numbers.items():
@@ -177,7 +178,7 @@ def with_bodies(series: xr.Dataset, frames: xr.Dataset, coupled: CoupledRun) -> 
 
 def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecord]:
     """Find slack and snaps of every line from its least and its highest tension."""
-    if "line_tension" not in series:
+    if "line_tension_peak_since_row" not in series:
         return {}
     settings, found = problem.settings, {}
     time = series["time"].values
@@ -185,7 +186,7 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
     if chosen.sum() < 2:
         return {}
     for name in series["line"].values:
-        highest = series["line_tension"].sel(line=name).values[chosen]
+        highest = series["line_tension_peak_since_row"].sel(line=name).values[chosen]
         # the more loaded end tells whether the line is slack; the other one may lie on the bed
         ends = [series[key].sel(line=name).values[chosen] for key in ("start_tension", "end_tension")]
         record = max(ends, key=lambda values: float(np.nanmean(values)))

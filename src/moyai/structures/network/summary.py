@@ -80,13 +80,15 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
     chosen = _counted(problem, item)
     breaking = {line.name: line.breaking_load for line in problem.lines}
     keys = (
-        "peak", "peak_time", "start_peak", "end_peak", "mean", "deviation", "utilisation", "slack_time", "slack_share",
-        "contacts", "snaps", "snap_threshold", "largest_snap", "shortest_rise",
+        "line_tension_maximum", "peak_time", "start_peak", "end_peak", "line_tension_mean", "deviation", "utilisation",
+        "slack_time", "slack_share", "contacts", "snaps", "snap_threshold", "largest_snap", "shortest_rise",
     )  # fmt: skip
     out: dict[str, list[float]] = {key: [] for key in keys}
     time = item.series["time"].values[chosen]
     for name in lines:
-        record = item.series["line_tension"].sel(line=name).values[chosen] if chosen.any() else np.zeros(0)
+        record = (
+            item.series["line_tension_peak_since_row"].sel(line=name).values[chosen] if chosen.any() else np.zeros(0)
+        )
         snaps = item.snaps.get(name)
         if record.size == 0 or not np.isfinite(record).any():
             for key in keys:
@@ -97,9 +99,9 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
         pull = max(ends, key=lambda values: float(np.nanmean(values)))
         most = {key: item.series[key].sel(line=name).values[chosen] for key in ("start_highest", "end_highest")}
         values = {
-            "peak": float(record[at]), "peak_time": float(time[at]),
+            "line_tension_maximum": float(record[at]), "peak_time": float(time[at]),
             "start_peak": float(np.nanmax(most["start_highest"])), "end_peak": float(np.nanmax(most["end_highest"])),
-            "mean": float(np.nanmean(pull)), "deviation": float(np.nanstd(pull)),
+            "line_tension_mean": float(np.nanmean(pull)), "deviation": float(np.nanstd(pull)),
             "utilisation": float(record[at]) / breaking[name],
         }  # fmt: skip
         if snaps is not None:

@@ -28,8 +28,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "velocity": ("m/s", "velocity of the node"),
     "tension": ("N", "tension of the bar"),
     "sheet_tension": ("N/m", "higher principal tension of the sheet, 0 where it is slack"),
-    "line_tension": ("N", "highest tension along the line since the row before"),
-    "line_least_tension": ("N", "lowest tension along the line"),
+    "line_tension_peak_since_row": ("N", "highest tension along the line since the row before"),
+    "line_tension_minimum": ("N", "lowest tension along the line"),
     "start_tension": ("N", "tension at the start of the line"),
     "end_tension": ("N", "tension at the end of the line"),
     "point_position": ("m", "place of the point, z above still water"),
@@ -49,11 +49,11 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "mode_frequency": ("rad/s", "natural angular frequency, added mass included"),
     "mode_period": ("s", "natural period, added mass included"),
     "mode_shape": ("1", "shape of the mode, largest component 1"),
-    "peak": ("N", "highest tension of the run"),
+    "line_tension_maximum": ("N", "highest tension along the line"),
     "peak_time": ("s", "time of the highest tension"),
     "start_peak": ("N", "highest tension at the start of the line"),
     "end_peak": ("N", "highest tension at the end of the line"),
-    "mean": ("N", "mean tension at the line's most loaded end"),
+    "line_tension_mean": ("N", "mean tension at the line's most loaded end"),
     "deviation": ("N", "standard deviation of the tension at the line's most loaded end"),
     "utilisation": ("1", "highest tension over the breaking load"),
     "slack_time": ("s", "time that the line is slack"),
@@ -130,9 +130,17 @@ LABELS: dict[str, str] = {
     "left": "body of the last state",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("position", "tension", "line_tension_maximum"),
+    "/[^/]+/dynamic": ("line_tension_maximum", "line_tension_mean"),
+    "/[^/]+/time/[^/]+": ("line_tension_peak_since_row", "kinetic_energy", "work"),
+}
+
 VOCABULARY = Vocabulary.of(
     "network",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

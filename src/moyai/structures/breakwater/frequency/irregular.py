@@ -83,7 +83,7 @@ def irregular_sea(
         "mean_zero_crossing_period": ("dof", statistics.mean_zero_crossing_period),
         "mean_drift_force": ((), settled.force),
         "mean_offset": ("dof", offset),
-        "mean_tension": ("line", tension[1]),
+        "line_tension_mean": ("line", tension[1]),
         "significant_tension": ("line", tension_statistics.significant),
         "most_probable_maximum_tension": ("line", tension[1] + tension_statistics.most_probable_maximum(duration)),
     }
@@ -113,7 +113,7 @@ def irregular_sea(
     )
     load = np.array([line.breaking_load for line in unit.lines])
     out |= {
-        "maximum_tension": ("line", extremes.tension),
+        "line_tension_maximum": ("line", extremes.tension),
         "maximum_anchor_vertical_tension": ("line", extremes.anchor_vertical),
         "maximum_anchor_horizontal_tension": ("line", extremes.anchor_horizontal),
         "least_grounded_length": ("line", extremes.grounded),

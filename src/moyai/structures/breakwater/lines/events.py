@@ -172,7 +172,7 @@ def event_numbers(model: FrequencyModel, run: TimeRun) -> dict[str, Array]:
     anchor, uplift = run.lines.anchor[window], run.lines.uplift[window]
     level = np.sqrt(np.maximum(anchor**2 - uplift**2, 0.0))
     return {
-        "maximum_tension": run.peaks[window].max(axis=0),
+        "line_tension_maximum": run.peaks[window].max(axis=0),
         "maximum_anchor_vertical_tension": uplift.max(axis=0),
         "maximum_anchor_horizontal_tension": level.max(axis=0),
         **motion_summary(unit, run, window, begin),

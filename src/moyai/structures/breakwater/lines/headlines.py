@@ -89,7 +89,7 @@ def seas_of(groups: Mapping[str, xr.Dataset], level: str) -> tuple[str, ...]:
 def governing_group(groups: Mapping[str, xr.Dataset], level: str, sea: str) -> tuple[str, xr.Dataset] | None:
     """Return the domain and numbers that govern a sea: the time domain where it came to an end."""
     time, frequency = groups.get(f"/{level}/time/{sea}"), groups.get(f"/{level}/frequency/{sea}")
-    if time is not None and time.attrs.get("status") == "converged" and "maximum_tension" in time:
+    if time is not None and time.attrs.get("status") == "converged" and "line_tension_maximum" in time:
         return "time", time
     return None if frequency is None else ("frequency", frequency)
 
@@ -100,7 +100,12 @@ def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
     statics = groups.get(f"/{level}/statics")
     for sea in seas_of(groups, level):
         chosen = governing_group(groups, level, sea)
-        if chosen is None or statics is None or "breaking_load" not in statics or "maximum_tension" not in chosen[1]:
+        if (
+            chosen is None
+            or statics is None
+            or "breaking_load" not in statics
+            or "line_tension_maximum" not in chosen[1]
+        ):
             continue
         domain, data = chosen
         for number, line in enumerate(data["line"].values):
@@ -115,7 +120,7 @@ def line_peaks(groups: Mapping[str, xr.Dataset], level: str) -> list[LinePeak]:
 def _line_peak(
     domain: str, data: xr.Dataset, level: str, sea: str, line: str, number: int, load: float, chain: bool
 ) -> LinePeak | None:
-    table = np.atleast_2d(data["maximum_tension"].values)[:, number]
+    table = np.atleast_2d(data["line_tension_maximum"].values)[:, number]
     if not np.isfinite(table).any():
         return None
     row = int(np.nanargmax(table))
@@ -130,9 +135,9 @@ def _line_peak(
         name = f"{name}_of_realisation"
         return np.asarray(data[name].values[:, number], dtype=float) if name in data else np.zeros(0)
 
-    scatter = scatter_of("maximum_tension")
+    scatter = scatter_of("line_tension_maximum")
     model = (FIRST_ORDER if regular else FREQUENCY) if domain == "frequency" else (IN_MOTION if moving else AT_REST)
-    mean = of("mean_tension")
+    mean = of("line_tension_mean")
     highest = float(np.nanmax(scatter)) if scatter.size else float(table[row])
     # A spring is linear at any tension; a chain at rest at every instant says nothing beyond the range
     known = moving or not chain or highest <= SNAP_RATIO * mean
@@ -141,7 +146,7 @@ def _line_peak(
         of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),
-        scatter_of("maximum_tension_bound") if moving else scatter,
+        scatter_of("line_tension_bound") if moving else scatter,
     )  # fmt: skip
 
 
@@ -234,7 +239,8 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     if not pulled:
         return []
     bare = _bare_lines(groups, levels)
-    lifted = max(pulled, key=lambda peak: peak.vertical)
+    # where no anchor is lifted, the line that leaves least on the bed comes nearest to it
+    lifted = max(pulled, key=lambda peak: (max(peak.vertical, 0.0), -peak.grounded))
     hardest = max(pulled, key=lambda peak: peak.horizontal + max(peak.vertical, 0.0))
     if not (hardest.known and lifted.known):
         text = "not known"

@@ -88,7 +88,7 @@ class LinesInMotion:
     def variables(self, unit: FloatingUnit, every: int) -> dict[str, Any]:
         """Return what goes into the time series of the run."""
         out: dict[str, Any] = {
-            "tension_peak": (("time", "line"), _thinned_peaks(self.peak, every)),
+            "line_tension_peak_since_row": (("time", "line"), _thinned_peaks(self.peak, every)),
             "anchor_tension_history": (("time", "line"), self.anchor[::every]),
             "anchor_uplift": (("time", "line"), self.uplift[::every]),
             "grounded_length_history": (("time", "line"), self.grounded[::every]),

@@ -175,7 +175,7 @@ def _rerun(given: EventSettings, search: _Search, line: int, progress: Progress)
     numbers = event_numbers(given.model, run)
     search.runs.append(run)
     search.numbers.append(numbers)
-    search.tensions.append(float(numbers["maximum_tension"][line]))
+    search.tensions.append(float(numbers["line_tension_maximum"][line]))
 
 
 def _answer(search: _Search, ratio: float) -> EventsInMotion:

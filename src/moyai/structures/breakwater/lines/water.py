@@ -55,6 +55,11 @@ class TabulatedFlow(Flow):
         """Time between two evaluations [s]."""
         return self.table_step
 
+    @property
+    def summed(self) -> tuple[NDArray[np.float32], float]:
+        """The table and its step [s]."""
+        return super().summed if self.table is None else (self.table, self.table_step)
+
     def at(self, time: float, position: Array) -> Array:
         """Return velocity, acceleration and elevation at the nodes, shape (7, n)."""
         out = super().at(time, position)

@@ -18,10 +18,10 @@ BINS = 300
 
 #: Columns of the table: variable, words, unit.
 COLUMNS = (
-    ("maximum_tension", "Largest tension", "N"),
-    ("maximum_tension_lines_at_rest", "The same, lines at rest", "N"),
-    ("mean_tension", "Mean", "N"),
-    ("minimum_tension", "Smallest", "N"),
+    ("line_tension_maximum", "Largest tension", "N"),
+    ("line_tension_maximum_lines_at_rest", "The same, lines at rest", "N"),
+    ("line_tension_mean", "Mean", "N"),
+    ("line_tension_minimum", "Smallest", "N"),
     ("maximum_uplift", "Uplift at anchor", "N"),
     ("least_grounded_length", "Least length on bed", "m"),
     ("slack_time", "Time slack", "s"),
@@ -123,7 +123,10 @@ def _words(run: Group) -> str:
 
 def _figure(level: Level, sea: Sea, run: Group, window: tuple[float, float], line: int) -> Figure | None:
     time = run.real("time", "time")
-    moving, still = run.real("tension_peak", "time", "line"), run.real("tension_lines_at_rest", "time", "line")
+    moving, still = (
+        run.real("line_tension_peak_since_row", "time", "line"),
+        run.real("tension_lines_at_rest", "time", "line"),
+    )
     if time is None or moving is None or still is None:
         return None
     names = run.labels("line")

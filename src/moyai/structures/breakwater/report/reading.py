@@ -136,7 +136,7 @@ class SeaNumbers:
         return f"{self.level}, {self.sea}, {DOMAIN_WORDS.get(self.domain, self.domain)}"
 
 
-_TENSION_NAMES = ("maximum_tension", "most_probable_maximum_tension")
+_TENSION_NAMES = ("line_tension_maximum", "most_probable_maximum_tension")
 _UPLIFT_NAMES = ("maximum_anchor_vertical_tension",)
 
 
@@ -173,7 +173,7 @@ def sea_numbers(level: Level, sea: Sea, domain: str) -> SeaNumbers | None:
 
 def ratios_beyond_range(level: Level, group: Group, domain: str) -> Array | None:
     """Return largest over mean tension ((periods,) lines) where lines at rest pass their range, NaN elsewhere."""
-    largest, mean = group.variable("maximum_tension"), group.variable("mean_tension")
+    largest, mean = group.variable("line_tension_maximum"), group.variable("line_tension_mean")
     if largest is None or mean is None:
         return None
     length = level.group.child("statics").real("unstretched_length", "line")

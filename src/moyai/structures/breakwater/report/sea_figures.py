@@ -218,7 +218,7 @@ def regular_tension(level: Level, sea: Sea) -> Figure | None:
     axes: tuple[Abscissa, ...] = ()
     tables = []
     for words, group, these, values in _both_domains(level, sea):
-        names = ("maximum_tension",)
+        names = ("line_tension_maximum",)
         found = next((e for name in names if (e := group.real(name, "period", "line")) is not None), None)
         if found is not None:
             tables.append((words, group, values, found))
@@ -307,7 +307,7 @@ def tension_bars(level: Level) -> Figure | None:
             group = sea.domain(domain)
             lines = lines or group.labels("line")
             found = None
-            for variable in ("maximum_tension", "most_probable_maximum_tension"):
+            for variable in ("line_tension_maximum", "most_probable_maximum_tension"):
                 found = group.real(variable, "period", "line")
                 found = np.fmax.reduce(found, axis=0) if found is not None else group.real(variable, "line")
                 if found is not None:
@@ -358,15 +358,15 @@ def sensitivity(level: Level, group: Group) -> Figure | None:
     unit = {"line_slack": " m"}.get(dim, "")
     panels, series = [], []
     wanted = [("motion_ratio", {"dof": mode}, RATIO_LABELS[mode]) for mode in MODES]
-    wanted += [("transmission_coefficient", {}, "transmission K_T"), ("maximum_tension", {}, "largest tension")]
+    wanted += [("transmission_coefficient", {}, "transmission K_T"), ("line_tension_maximum", {}, "largest tension")]
     for name, choice, label in wanted:
         found = group.real(name, dim, "period", **choice)
-        if found is None and name == "maximum_tension":
+        if found is None and name == "line_tension_maximum":
             by_line = group.real(name, dim, "period", "line")
             found = None if by_line is None else by_line.max(axis=2)
         if found is None or not np.isfinite(found).any():
             continue
-        factor, shown = common_scale(group.unit(name), found) if name == "maximum_tension" else (1.0, "")
+        factor, shown = common_scale(group.unit(name), found) if name == "line_tension_maximum" else (1.0, "")
         panels.append(Panel(label, shown, from_zero=True))
         for number, step in enumerate(steps):
             x, y = within(values, found[number] * factor)

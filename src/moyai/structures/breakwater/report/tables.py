@@ -308,7 +308,7 @@ def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table
         *(_period_column(group, "motion_amplitude", mode, _turn(mode, "m", "rad"), dof=mode) for mode in MODES),
         _period_column(group, "mean_offset", "Mean offset", "m", dof="sway"),
     ]
-    for name in ("maximum_tension",):
+    for name in ("line_tension_maximum",):
         found = group.real(name, "period", "line")
         if found is not None:
             columns += [
@@ -401,7 +401,7 @@ def irregular_tensions(level: Level, sea: Sea) -> Table | None:
     for number, words, group in rows:
         ratios = ratios_beyond_range(level, group, words)
         outside.append(range_words(math.nan if ratios is None else float(np.ravel(ratios)[number])))
-    probable, largest = values("most_probable_maximum_tension"), values("maximum_tension")
+    probable, largest = values("most_probable_maximum_tension"), values("line_tension_maximum")
     loads = breaking_loads(level)
     broken = [loads.get(names[number], math.nan) for number, _, _ in rows]
     decisive = [most if math.isfinite(most) else likely for likely, most in zip(probable, largest, strict=True)]
@@ -411,7 +411,7 @@ def irregular_tensions(level: Level, sea: Sea) -> Table | None:
         [
             Column("Line", [names[number] for number, _, _ in rows]),
             Column("Domain", [words for _, words, _ in rows]),
-            Column("Mean", values("mean_tension"), "N"),
+            Column("Mean", values("line_tension_mean"), "N"),
             Column("Significant, double amplitude", values("significant_tension"), "N"),
             Column("Most probable maximum, waves alone", probable, "N"),
             Column("Largest", largest, "N"),

@@ -78,7 +78,11 @@ def read_record(level: Level, run: Group) -> Record | None:
     if not set(MODES) <= set(names):
         return None
     pose = pose[:, [names.index(mode) for mode in MODES]]
-    tension = run.real("tension_peak", "time", "line") if in_motion(run) else run.real("tension", "time", "line")
+    tension = (
+        run.real("line_tension_peak_since_row", "time", "line")
+        if in_motion(run)
+        else run.real("tension", "time", "line")
+    )
     tension = np.zeros((time.size, 0)) if tension is None else tension
     elevation = run.real("surface_elevation", "time")
     good = np.isfinite(pose).all(axis=1)

@@ -101,7 +101,9 @@ def irregular_sea(
             status = {"diverged": "not_converged", "interrupted": "interrupted"}[ended]
             break
     progress(f"realisations, {unit.name}, {sea.name}", wanted, wanted)
-    good = [one for one in members if "maximum_tension" in one.summary and one.run.simulation.status == "converged"]
+    good = [
+        one for one in members if "line_tension_maximum" in one.summary and one.run.simulation.status == "converged"
+    ]
     notices = [*members[0].run.simulation.notices, *notices]
     events: list[TimeRun] = []
     moved = np.zeros(len(unit.lines), dtype=bool)
@@ -210,8 +212,8 @@ def _lines_in_motion(
     each realisation is rerun, and more only where they could govern.
     """
     unit, moved = shared.model.unit, np.zeros(len(shared.model.unit.lines), dtype=bool)
-    tension = np.array([one.summary.maximum_tension.values for one in members])
-    passing = out_of_range(unit, tension, np.array([one.summary.mean_tension.values for one in members]))
+    tension = np.array([one.summary.line_tension_maximum.values for one in members])
+    passing = out_of_range(unit, tension, np.array([one.summary.line_tension_mean.values for one in members]))
     if not (passing & movable(unit)).any() or shared.settings.lines.mode != "auto":
         return members, [], moved, ()
     if not isinstance(shared.cummins.memory, StateSpaceMemory):
@@ -234,7 +236,7 @@ def _lines_in_motion(
         moved[line] = True
         members = [_with_events(shared.model, one, item, int(line)) for one, item in zip(members, found, strict=True)]
         counts += [item.count for item in found]
-        highest = [max(float(item.numbers["maximum_tension"][line]), max(best, 0.0) * load) for item in found]
+        highest = [max(float(item.numbers["line_tension_maximum"][line]), max(best, 0.0) * load) for item in found]
         still_open += sum(item.bound > value for item, value in zip(found, highest, strict=True))
         now = float(np.mean([item.bound for item in found]))
         value = now / load
@@ -265,7 +267,7 @@ def _with_events(model: FrequencyModel, one: Realisation, found: EventsInMotion,
     data, numbers = one.summary.copy(), dict(found.numbers)
     count = len(model.unit.lines)
     numbers["events_in_motion"] = np.full(count, float(found.count))
-    numbers["maximum_tension_bound"] = np.full(count, found.bound)
+    numbers["line_tension_bound"] = np.full(count, found.bound)
     for name, values in numbers.items():
         given = data[name].values.copy() if name in data else np.full(values.shape, np.nan)
         given[line] = values[line]
@@ -273,7 +275,7 @@ def _with_events(model: FrequencyModel, one: Realisation, found: EventsInMotion,
     load = model.unit.lines[line].breaking_load
     if math.isfinite(load):
         share = data["maximum_utilisation"].values.copy()
-        share[line] = numbers["maximum_tension"][line] / load
+        share[line] = numbers["line_tension_maximum"][line] / load
         data["maximum_utilisation"] = ("line", share)
     return replace(one, summary=data)
 
@@ -287,9 +289,9 @@ def _gathered(unit: FloatingUnit, members: list[Realisation], moved: NDArray[np.
     import xarray as xr
 
     data = xr.concat([one.summary for one in members], dim="member")
-    if "maximum_tension" not in data:
+    if "line_tension_maximum" not in data:
         return members[0].summary, 0
-    tension = data.maximum_tension.values
+    tension = data.line_tension_maximum.values
     excursion = data.maximum_excursion.values
     followed = excursion[:, 0]
     if tension.shape[1]:
@@ -305,12 +307,12 @@ def _gathered(unit: FloatingUnit, members: list[Realisation], moved: NDArray[np.
         if name in data:
             out[name] = data[name].isel(member=shown)
     still = lines_at_rest(unit) & ~moved
-    names = ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension", "maximum_tension_bound")
+    names = ("maximum_anchor_vertical_tension", "maximum_anchor_horizontal_tension", "line_tension_bound")
     for name in names:
         if name in data:
             out[f"{name}_of_realisation"] = (("member", "line"), data[name].values)
     return out.assign(
-        maximum_tension_of_realisation=(("member", "line"), tension),
+        line_tension_maximum_of_realisation=(("member", "line"), tension),
         maximum_excursion_of_realisation=(("member", "dof"), excursion),
         seed_of_realisation=("member", np.array([one.seed for one in members], dtype=np.int64)),
         lines_in_motion=("line", (~still).astype(np.int8)),
@@ -322,11 +324,11 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
     unit, sea = shared.model.unit, shared.sea
     out: list[Notice] = []
     where = f"{unit.name}, {sea.name}"
-    if "maximum_tension" in data and len(unit.lines):
+    if "line_tension_maximum" in data and len(unit.lines):
         kept = lines_at_rest(unit) & ~moved
         names = [line.name for line, rests in zip(unit.lines, kept, strict=True) if rests]
-        largest = data.maximum_tension_of_realisation.values[:, kept]
-        mean = np.broadcast_to(data.mean_tension.values[kept], largest.shape)
+        largest = data.line_tension_maximum_of_realisation.values[:, kept]
+        mean = np.broadcast_to(data.line_tension_mean.values[kept], largest.shape)
         out.extend(snap_notices(f"{where}, time domain", names, largest, mean))
     if "slow_sway_period" not in frequency:
         return tuple(out)
@@ -415,8 +417,8 @@ def _irregular_summary(
             "maximum_motion": ("dof", np.max(np.abs(position - mean), axis=0)),
             "maximum_excursion": ("dof", np.max(np.abs(position), axis=0)),
             "significant_motion": ("dof", _significant(run.time[keep], position)),
-            "mean_tension": ("line", tension.mean(axis=0)),
-            "maximum_tension": ("line", whole.peaks[keep].max(axis=0) if len(unit.lines) else np.zeros(0)),
+            "line_tension_mean": ("line", tension.mean(axis=0)),
+            "line_tension_maximum": ("line", whole.peaks[keep].max(axis=0) if len(unit.lines) else np.zeros(0)),
             "significant_tension": ("line", _significant(run.time[keep], tension)),
             "maximum_anchor_vertical_tension": ("line", vertical),
             "maximum_anchor_horizontal_tension": ("line", horizontal),
@@ -433,7 +435,10 @@ def _irregular_summary(
             out["maximum_anchor_vertical_tension"] = ("line", np.where(still, vertical, found["maximum_uplift"]))
             out["maximum_anchor_horizontal_tension"] = ("line", np.where(still, horizontal, level))
         load = np.array([line.breaking_load for line in unit.lines])
-        out["maximum_utilisation"] = ("line", np.where(np.isfinite(load), out["maximum_tension"][1] / load, np.nan))
+        out["maximum_utilisation"] = (
+            "line",
+            np.where(np.isfinite(load), out["line_tension_maximum"][1] / load, np.nan),
+        )
     return xr.Dataset(out, coords={"dof": list(MODES), "line": [line.name for line in unit.lines]})
 
 

@@ -33,7 +33,7 @@ def lines_at_rest(unit: FloatingUnit) -> NDArray[np.bool_]:
 
 def motion_names(dynamics: LineDynamics) -> tuple[str, ...]:
     """Return the variables that lines in motion add to a summary."""
-    own = ("maximum_tension_lines_at_rest", "maximum_uplift", "maximum_anchor_tension", "least_grounded_length")
+    own = ("line_tension_maximum_lines_at_rest", "maximum_uplift", "maximum_anchor_tension", "least_grounded_length")
     return (*own, *STATISTICS, *(SENSITIVITIES.values() if dynamics.sensitivity else ()))
 
 
@@ -58,7 +58,7 @@ def motion_summary(unit: FloatingUnit, run: TimeRun, window: NDArray[np.bool_], 
         same = other.time >= begin
         rest = other.tension[same].max(axis=0) if same.any() else rest
     out = {
-        "maximum_tension_lines_at_rest": rest,
+        "line_tension_maximum_lines_at_rest": rest,
         "maximum_uplift": lines.uplift[window].max(axis=0),
         "maximum_anchor_tension": lines.anchor[window].max(axis=0),
         "least_grounded_length": lines.grounded[window].min(axis=0),

@@ -82,9 +82,9 @@ def regular_sea(
         "motion_amplitude",
         "mean_offset",
         "maximum_motion",
-        "maximum_tension",
-        "minimum_tension",
-        "mean_tension",
+        "line_tension_maximum",
+        "line_tension_minimum",
+        "line_tension_mean",
         "maximum_anchor_vertical_tension",
         "maximum_anchor_horizontal_tension",
         "least_grounded_length",
@@ -134,7 +134,7 @@ def regular_sea(
             if name in frequency:
                 out[name] = ("period", frequency[name].sel(period=done).values)
         load = np.array([line.breaking_load for line in unit.lines])
-        largest = np.array(rows["maximum_tension"])
+        largest = np.array(rows["line_tension_maximum"])
         out["maximum_utilisation"] = (("period", "line"), np.where(np.isfinite(load), largest / load, np.nan))
     data = xr.Dataset(out, coords={"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines]})
     if len(done):
@@ -142,8 +142,8 @@ def regular_sea(
         where = f"{unit.name}, {sea.name}, time domain"
         # Peaks of lines in motion are none of lines at rest
         still = np.array(rows["lines_in_motion"]) == 0.0
-        largest_at_rest = np.where(still, np.array(rows["maximum_tension"]), 0.0)
-        notices.extend(snap_notices(where, names_of_lines, largest_at_rest, np.array(rows["mean_tension"])))
+        largest_at_rest = np.where(still, np.array(rows["line_tension_maximum"]), 0.0)
+        notices.extend(snap_notices(where, names_of_lines, largest_at_rest, np.array(rows["line_tension_mean"])))
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
@@ -260,8 +260,8 @@ def _summary(
     kinds = run.tension.shape[1]
     out = {
         "motion_amplitude": blank, "mean_offset": blank, "maximum_motion": blank,
-        "maximum_tension": np.full(kinds, np.nan), "minimum_tension": np.full(kinds, np.nan),
-        "mean_tension": np.full(kinds, np.nan), "reflection_coefficient": np.array(np.nan),
+        "line_tension_maximum": np.full(kinds, np.nan), "line_tension_minimum": np.full(kinds, np.nan),
+        "line_tension_mean": np.full(kinds, np.nan), "reflection_coefficient": np.array(np.nan),
         "transmission_coefficient": np.array(np.nan), "dissipation": np.array(np.nan),
         "maximum_anchor_vertical_tension": np.full(kinds, np.nan),
         "maximum_anchor_horizontal_tension": np.full(kinds, np.nan),
@@ -276,9 +276,9 @@ def _summary(
         "motion_amplitude": np.abs(found.first),
         "mean_offset": found.mean,
         "maximum_motion": np.max(np.abs(run.position[window]), axis=0),
-        "maximum_tension": whole.peaks[window].max(axis=0),
-        "minimum_tension": run.tension[window].min(axis=0),
-        "mean_tension": run.tension[window].mean(axis=0),
+        "line_tension_maximum": whole.peaks[window].max(axis=0),
+        "line_tension_minimum": run.tension[window].min(axis=0),
+        "line_tension_mean": run.tension[window].mean(axis=0),
         "maximum_anchor_vertical_tension": vertical,
         "maximum_anchor_horizontal_tension": horizontal,
         "least_grounded_length": grounded,

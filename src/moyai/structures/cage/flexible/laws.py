@@ -95,7 +95,7 @@ def _numbers(model: FlexibleCage, rest: CageRest, calm: CageRest, heading: float
     return {
         "volume_share": min(float(cage.volume(position)) / cage.rest_volume for cage in built.cages),
         "drag": float(split.sum(axis=0) @ along),
-        "tension": max(lines, default=math.nan),
+        "line_tension_maximum": max(lines, default=math.nan),
         "utilisation": max(used, default=math.nan),
         "offset": offset,
         "anchor_pull": float(np.linalg.norm(pulls, axis=1).max()) if built.anchors.size else math.nan,

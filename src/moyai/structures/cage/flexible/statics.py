@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _WORST = {
     "worst_volume_share": "volume_share",
     "worst_net_deflection": "net_deflection",
-    "worst_tension": "tension_largest",
+    "worst_line_tension_maximum": "line_tension_maximum",
     "worst_utilisation": "utilisation",
     "worst_anchor_pull": "anchor_pull",
     "worst_anchor_uplift": "anchor_uplift",
@@ -66,7 +66,7 @@ def cage_dataset(model: FlexibleCage, built: CageNetwork) -> xr.Dataset:
                 "submerged_weight": weight,
                 "reserve_buoyancy": spare,
                 "solidity": model.design.net.net.solidity,
-                "line_breaking_load": ("line", np.array([part.breaking_load for part in built.lines])),
+                "breaking_load": ("line", np.array([part.breaking_load for part in built.lines])),
                 "anchor_node": ("anchor", built.anchors),
                 "buoy_node": ("buoy", built.buoys),
                 "sinker_node": ("sinker", built.sinkers),
@@ -95,7 +95,7 @@ def line_numbers(built: CageNetwork, tension: np.ndarray) -> dict[str, np.ndarra
     return {
         "tension_lower": np.array([float(tension[own[0]]) for own in bars]),
         "tension_upper": np.array([float(tension[own[-1]]) for own in bars]),
-        "tension_largest": largest,
+        "line_tension_maximum": largest,
         "utilisation": largest / broken if len(bars) else largest,
     }
 
@@ -166,7 +166,8 @@ def statics_dataset(model: FlexibleCage, speeds: list[float], heading: float, re
         "volume_share": ("cage",), "drag": ("part", "horizontal"), "drag_along": ("part",), "pull": ("axis",),
         "collar_place": ("cage", "axis"), "collar_ovality": ("cage",), "collar_warp": ("cage",),
         "net_deflection": ("cage",), "bottom_lift": ("cage",), "position": ("node", "axis"), "tension": ("bar",),
-        "tension_lower": ("line",), "tension_upper": ("line",), "tension_largest": ("line",), "utilisation": ("line",),
+        "tension_lower": ("line",), "tension_upper": ("line",), "line_tension_maximum": ("line",),
+        "utilisation": ("line",),
         "anchor_pull": ("anchor",), "anchor_uplift": ("anchor",), "collar_stress_largest": ("cage",),
         **{
             f"collar_{key}": ("cage", "ring", "around")

@@ -19,7 +19,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "submerged_weight": ("N", "weight in water of net and weights of one cage"),
     "reserve_buoyancy": ("N", "what the collar bears wholly immersed beyond its own weight"),
     "solidity": ("1", "geometric solidity of the net"),
-    "line_breaking_load": ("N", "breaking load of the weakest segment"),
+    "breaking_load": ("N", "breaking load of the weakest segment"),
     "current_speed": ("m/s", "speed of the current at the surface"),
     "volume_share": ("1", "volume inside the net over that as built"),
     "drag": ("N", "drag of the water on each part, along x and y"),
@@ -30,7 +30,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "residual": ("1", "largest force left on a node over the largest tension"),
     "tension_lower": ("N", "tension at the lower end of the line"),
     "tension_upper": ("N", "tension at the upper end of the line"),
-    "tension_largest": ("N", "largest tension in the line"),
+    "line_tension_maximum": ("N", "largest tension along the line"),
     "utilisation": ("1", "largest tension over breaking load"),
     "anchor_pull": ("N", "pull on each anchor"),
     "anchor_uplift": ("N", "upward pull on each anchor"),
@@ -50,7 +50,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "worst_volume_share": ("1", "smallest volume over that as built, of all currents"),
     "worst_drag": ("N", "largest drag of all parts along the current, of all currents"),
     "worst_net_deflection": ("m", "largest displacement of a knot of the net, of all currents"),
-    "worst_tension": ("N", "largest tension in the line, of all currents"),
+    "worst_line_tension_maximum": ("N", "largest tension in the line, of all currents"),
     "worst_utilisation": ("1", "largest tension over breaking load, of all currents"),
     "worst_anchor_pull": ("N", "largest pull on each anchor, of all currents"),
     "worst_anchor_uplift": ("N", "largest upward pull on each anchor, of all currents"),
@@ -58,7 +58,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
     "law_volume_share": ("1", "smallest volume over that as built, in the current of the site"),
     "law_drag": ("N", "drag of all parts along the current of the site"),
-    "law_tension": ("N", "largest tension of all lines in the current of the site"),
+    "law_line_tension_maximum": ("N", "largest tension of all lines in the current of the site"),
     "law_utilisation": ("1", "largest tension over breaking load in the current of the site"),
     "law_offset": ("m", "largest offset of a collar in the current of the site"),
     "law_anchor_pull": ("N", "largest pull on an anchor in the current of the site"),
@@ -69,11 +69,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "tension": ("N", "tension of the bars"),
     "line_tension": ("N", "tension at the upper end of the line"),
     "line_tension_lower": ("N", "tension at the lower end of the line: of anchor lines at the anchor"),
-    "tension_maximum_lower": ("N", "highest tension at the lower end of the line: of anchor lines at the anchor"),
-    "line_peak": ("N", "highest tension in the line since the row before"),
-    "tension_mean": ("N", "mean tension at the upper end"),
-    "tension_minimum": ("N", "smallest tension at the upper end"),
-    "tension_maximum": ("N", "highest tension in the line"),
+    "line_tension_maximum_lower": ("N", "highest tension at the lower end of the line: of anchor lines at the anchor"),
+    "line_tension_peak_since_row": ("N", "highest tension in the line since the row before"),
+    "line_tension_mean": ("N", "mean tension at the upper end"),
+    "line_tension_minimum": ("N", "smallest tension at the upper end"),
     "snaps": ("1", "number of snaps"),
     "snap_peak": ("N", "highest snap"),
     "wave_elevation": ("m", "water surface over the middle of the cages"),
@@ -101,9 +100,22 @@ LABELS: dict[str, str] = {
     "value": "value of the quantity",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("volume_share", "total_drag", "net_deflection", "line_tension_maximum"),
+    "/[^/]+/laws": ("law_volume_share", "law_drag", "law_line_tension_maximum"),
+    "/[^/]+/time/[^/]+/[^/]+": (
+        "volume_minimum",
+        "line_tension_maximum",
+        "line_tension_mean",
+        "line_tension_peak_since_row",
+    ),
+}
+
 VOCABULARY = Vocabulary.of(
     "flexible cage",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 described = VOCABULARY.describe

@@ -148,7 +148,7 @@ def run_figures(level: Level, sea: str, run: Group) -> list[Figure]:
         panels.append(Panel("wave", unit))
     if pull is not None and pull.shape[1]:
         factor, unit = common_scale("N", pull)
-        lines, maximum = run.labels("line"), run.real("tension_maximum", "line")
+        lines, maximum = run.labels("line"), run.real("line_tension_maximum", "line")
         order = np.argsort(-(maximum if maximum is not None else pull.max(axis=0)))[:5]
         for tone, k in enumerate(order):
             series.append(Series(lines[int(k)], x, factor * pull[:, int(k)], len(panels), tone + 1))

@@ -152,8 +152,8 @@ def run_view(level: Level, sea: str, run: Group) -> Animation | None:
 
 
 def _traces(level: Level, run: Group, names: tuple[str, ...]) -> tuple[Trace, ...]:
-    time, peak = run.real("time", "time"), run.array("line_peak", "time", "line")
-    broken = level.part("cage").real("line_breaking_load", "line")
+    time, peak = run.real("time", "time"), run.array("line_tension_peak_since_row", "time", "line")
+    broken = level.part("cage").real("breaking_load", "line")
     if time is None or peak is None:
         return ()
     return tuple(

@@ -78,7 +78,7 @@ def law_table(level: Level) -> Table | None:
     columns = [Column("Law", list(names))]
     for name, label, factor, unit in (
         ("normal_drag_coefficient", "C_D, normal flow", 1.0, ""), ("law_volume_share", "volume left", 100.0, "%"),
-        ("law_drag", "drag", 1.0, "N"), ("law_tension", "largest tension", 1.0, "N"),
+        ("law_drag", "drag", 1.0, "N"), ("law_line_tension_maximum", "largest tension", 1.0, "N"),
         ("law_offset", "offset", 1.0, "m"), ("law_anchor_pull", "largest anchor pull", 1.0, "N"),
     ):  # fmt: skip
         values = laws.real(name, "law")
@@ -140,10 +140,10 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
     values = {
         name: run.real(name, "line")
         for name in (
-            "tension_mean",
-            "tension_minimum",
-            "tension_maximum",
-            "tension_maximum_lower",
+            "line_tension_mean",
+            "line_tension_minimum",
+            "line_tension_maximum",
+            "line_tension_maximum_lower",
             "utilisation",
             "slack_share",
             "snaps",
@@ -154,10 +154,10 @@ def run_table(level: Level, sea: str, run: Group) -> Table | None:
     got = {name: np.asarray(value) for name, value in values.items()}
     columns = (
         Column("Line", list(names)),
-        Column("mean", list(got["tension_mean"]), "N"),
-        Column("smallest", list(got["tension_minimum"]), "N"),
-        Column("highest", list(got["tension_maximum"]), "N"),
-        Column("highest, lower end", list(got["tension_maximum_lower"]), "N"),
+        Column("mean", list(got["line_tension_mean"]), "N"),
+        Column("smallest", list(got["line_tension_minimum"]), "N"),
+        Column("highest", list(got["line_tension_maximum"]), "N"),
+        Column("highest, lower end", list(got["line_tension_maximum_lower"]), "N"),
         Column("of its breaking load", list(100.0 * got["utilisation"]), "%"),
         Column("slack, of the time", list(100.0 * got["slack_share"]), "%"),
         Column("snaps", [int(value) for value in got["snaps"]]),

@@ -23,7 +23,7 @@ def response_figure(level: Level, sea: Group) -> Figure | None:
     group_values = heights if over_period else periods
     abscissa = Abscissa("period", "wave period T", "s") if over_period else Abscissa("height", "wave height H", unit)
     series: list[Series] = []
-    peak = sea.array("peak_tension", "wave", "line", "end")
+    peak = sea.array("line_tension_maximum", "wave", "line", "end")
     lines = sea.labels("line")
     scale, force = common_scale("N", peak) if peak is not None else (1.0, "N")
     water = sea.array("orbit_ratio", "wave")
@@ -64,7 +64,7 @@ def response_figure(level: Level, sea: Group) -> Figure | None:
 def sensitivity_blocks(level: Level, sea: Group) -> tuple[Figure | Table, ...]:
     """Return peaks and motions over line stiffness, as figure and table."""
     stiffness = sea.real("varied_stiffness", "varied_stiffness")
-    peak = sea.array("peak_tension", "varied_stiffness", "line")
+    peak = sea.array("line_tension_maximum", "varied_stiffness", "line")
     motion = sea.array("range", "varied_stiffness", "mode")
     if stiffness is None or peak is None or motion is None:
         return ()

@@ -107,7 +107,7 @@ def read_record(run: Group) -> Record | None:
         return None
     pose = np.column_stack([np.asarray(item, dtype=float) for item in motion if item is not None])
     tension = run.array("tension", "time", "line", "end")
-    peak = run.array("tension_peak", "time", "line")
+    peak = run.array("line_tension_peak_since_row", "time", "line")
     if tension is None or peak is None:
         tension, peak = np.zeros((time.size, 0, 2)), np.zeros((time.size, 0))
     period = float(run.attributes.get("period", math.nan))

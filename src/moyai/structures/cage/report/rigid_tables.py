@@ -195,7 +195,7 @@ def motion_table(level: Level, sea: Group) -> Table | None:
 
 def tension_table(level: Level, sea: Group) -> Table | None:
     """Return the tensions of every wave and line at both ends."""
-    peak = sea.array("peak_tension", "wave", "line", "end")
+    peak = sea.array("line_tension_maximum", "wave", "line", "end")
     if peak is None or peak.shape[1] == 0:
         return None
     lines, size = sea.labels("line"), peak.shape[0]
@@ -207,12 +207,16 @@ def tension_table(level: Level, sea: Group) -> Table | None:
     columns.append(Column("Line", [lines[n] for _, n in at]))
     parted = not np.allclose(peak[:, :, 0], peak[:, :, 1])
     for e, end in enumerate(ENDS if parted else ENDS[:1]):
-        for name, words in (("minimum_tension", "min"), ("mean_tension", "mean"), ("peak_tension", "peak")):
+        for name, words in (
+            ("line_tension_minimum", "min"),
+            ("line_tension_mean", "mean"),
+            ("line_tension_maximum", "peak"),
+        ):
             values = sea.array(name, "wave", "line", "end")
             if values is not None:
                 label = f"{words} at the {end}" if parted else words
                 columns.append(Column(label, [float(values[w, n, e]) for w, n in at], "N"))
-    tops, slack = sea.array("mean_peak_tension", "wave", "line", "end"), sea.array("slack_share", "wave", "line")
+    tops, slack = sea.array("line_tension_mean_peak", "wave", "line", "end"), sea.array("slack_share", "wave", "line")
     if tops is not None:
         columns.append(Column("mean peak", [float(tops[w, n, 0]) for w, n in at], "N"))
     if slack is not None:

@@ -137,7 +137,10 @@ def sea_dataset(problem: RigidCageProblem, water: Water, runs: list[Run], lines:
         "first_phase": modal("first_phase"),
         "range_ratio": (("wave", "translation"), ranges[:, :2] / height[:, None]),
         "drift_velocity": ("wave", np.array([run.numbers.drift_velocity for run in runs])),
-        **{name: pulls(name) for name in ("minimum_tension", "mean_tension", "peak_tension", "mean_peak_tension")},
+        **{
+            name: pulls(name)
+            for name in ("line_tension_minimum", "line_tension_mean", "line_tension_maximum", "line_tension_mean_peak")
+        },
         "slack_share": (("wave", "line"), np.array([run.numbers.slack_share for run in runs])),
         "steps_per_period": ("wave", np.array([run.march.steps * run.wave.period / run.wave.duration for run in runs])),
     }
@@ -178,7 +181,7 @@ def time_dataset(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...
                 "heave": ("time", motion[:, 1]),
                 "roll": ("time", motion[:, 2]),
                 "tension": (("time", "line", "end"), run.ends),
-                "tension_peak": (("time", "line"), run.march.tension_peak),
+                "line_tension_peak_since_row": (("time", "line"), run.march.tension_peak),
             },
             coords={"time": run.march.time, "line": [line.name for line in lines], "end": ENDS},
             attrs={

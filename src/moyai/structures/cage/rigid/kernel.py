@@ -10,10 +10,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 
 
 class Packed(NamedTuple):

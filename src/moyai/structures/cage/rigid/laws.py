@@ -70,14 +70,14 @@ def laws_dataset(
                 other.cage, lines, water, problem.kinematic_viscosity, problem.environment.current
             )  # fmt: skip
         numbers = run_wave(other, lines, begin, water, wave).numbers
-        peaks.append(float(np.max(numbers.peak_tension)))
+        peaks.append(float(np.max(numbers.line_tension_maximum)))
     progress("laws of nets", len(laws), len(laws))
     coefficients = [float(law.coefficients(0.0, speed, cage.net, problem.kinematic_viscosity)[0]) for law in laws]
     found = labelled(
         xr.Dataset(
             {
                 "normal_drag_coefficient": ("law", np.array(coefficients)),
-                "law_peak_tension": ("law", np.array(peaks)),
+                "law_line_tension_maximum": ("law", np.array(peaks)),
             },
             coords={"law": [law.name for law in laws]},
             attrs={"wave": wave.name, "speed": speed, "valid": choice.named, "reynolds": choice.reynolds},

@@ -27,10 +27,10 @@ class Numbers:
     first_harmonic: Array
     first_phase: Array
     drift_velocity: float
-    minimum_tension: Array
-    mean_tension: Array
-    peak_tension: Array
-    mean_peak_tension: Array
+    line_tension_minimum: Array
+    line_tension_mean: Array
+    line_tension_maximum: Array
+    line_tension_mean_peak: Array
     slack_share: Array
 
 
@@ -79,10 +79,10 @@ def numbers_of(found: March, rest: Array, ends: Array, peak_at_ends: Array, peri
         first_harmonic=harmonic,
         first_phase=phase,
         drift_velocity=float((motion[used][-1, 0] - motion[used][0, 0]) / max(time[used][-1] - time[used][0], 1e-300)),
-        minimum_tension=pulls.min(axis=0),
-        mean_tension=pulls.mean(axis=0),
-        peak_tension=peaks.max(axis=0),
-        mean_peak_tension=np.array(tops).mean(axis=0),
+        line_tension_minimum=pulls.min(axis=0),
+        line_tension_mean=pulls.mean(axis=0),
+        line_tension_maximum=peaks.max(axis=0),
+        line_tension_mean_peak=np.array(tops).mean(axis=0),
         slack_share=(pulls[:, :, 0] <= 0.0).mean(axis=0) if pulls.shape[1] else np.zeros(0),
     )
 

@@ -125,9 +125,9 @@ def _law_steps(
     best: tuple[float, CageSea, int] | None = None
     for sea in problem.seas:
         known = collected.groups.get(f"{root}/waves/{sea.name}")
-        if known is None or not known["peak_tension"].size:
+        if known is None or not known["line_tension_maximum"].size:
             continue
-        peaks = known["peak_tension"].values.reshape(known.sizes["wave"], -1).max(axis=1)
+        peaks = known["line_tension_maximum"].values.reshape(known.sizes["wave"], -1).max(axis=1)
         if best is None or float(peaks.max()) > best[0]:
             best = (float(peaks.max()), sea, int(np.argmax(peaks)))
     if best is None:
@@ -188,8 +188,8 @@ def _sensitivity_steps(
     waves = waves_of(problem, sea, water)
     at = len(waves) - 1
     known = collected.groups.get(f"{root}/waves/{sea.name}")
-    if known is not None and known["peak_tension"].size:
-        at = int(np.argmax(known["peak_tension"].values.reshape(len(known["wave"]), -1).max(axis=1)))
+    if known is not None and known["line_tension_maximum"].size:
+        at = int(np.argmax(known["line_tension_maximum"].values.reshape(len(known["wave"]), -1).max(axis=1)))
     wave = waves[at]
     if not isinstance(sea, RegularWaves):
         wave = replace(wave, duration=min(wave.duration, 100.0 * wave.period))

@@ -72,10 +72,13 @@ def sensitivity_dataset(
     return labelled(
         xr.Dataset(
             {
-                "peak_tension": (("varied_stiffness", "line"), np.array([n.peak_tension[:, 0] for _, n in rows])),
-                "mean_peak_tension": (
+                "line_tension_maximum": (
                     ("varied_stiffness", "line"),
-                    np.array([n.mean_peak_tension[:, 0] for _, n in rows]),
+                    np.array([n.line_tension_maximum[:, 0] for _, n in rows]),
+                ),
+                "line_tension_mean_peak": (
+                    ("varied_stiffness", "line"),
+                    np.array([n.line_tension_mean_peak[:, 0] for _, n in rows]),
                 ),
                 "range": (("varied_stiffness", "mode"), np.array([n.range for _, n in rows])),
             },

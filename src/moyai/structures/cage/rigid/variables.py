@@ -56,19 +56,19 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "first_harmonic": ("m", "amplitude of the first harmonic (roll in rad)"),
     "first_phase": ("rad", "phase of the first harmonic after the crest at x = 0"),
     "drift_velocity": ("m/s", "mean velocity of the cage along x"),
-    "minimum_tension": ("N", "smallest tension"),
-    "mean_tension": ("N", "mean tension"),
-    "peak_tension": ("N", "largest tension"),
-    "mean_peak_tension": ("N", "mean of the largest tension in each wave period"),
+    "line_tension_minimum": ("N", "smallest tension"),
+    "line_tension_mean": ("N", "mean tension"),
+    "line_tension_maximum": ("N", "largest tension"),
+    "line_tension_mean_peak": ("N", "mean of the largest tension in each wave period"),
     "steps_per_period": ("1", "time steps in a wave period"),
     "surface_elevation": ("m", "surface at x = 0"),
     "sway": ("m", "centre of gravity from rest, along x"),
     "heave": ("m", "centre of gravity from rest, upwards"),
     "roll": ("rad", "rotation from rest, positive with the top towards +x"),
     "tension": ("N", "tension of the line at either end"),
-    "tension_peak": ("N", "largest tension around the row, at the cage"),
+    "line_tension_peak_since_row": ("N", "largest tension around the row, at the cage"),
     "normal_drag_coefficient": ("1", "drag coefficient of the net at normal flow, on its outline area"),
-    "law_peak_tension": ("N", "largest tension of all lines in the wave of the highest tension"),
+    "law_line_tension_maximum": ("N", "largest tension of all lines in the wave of the highest tension"),
     "varied_stiffness": ("N/m", "stiffness of the lines"),
 }
 
@@ -80,9 +80,17 @@ LABELS: dict[str, str] = {
     "translation": "degree of freedom along an axis",
 }
 
+# Names that a group holds whenever its analysis was run
+ALWAYS: dict[str, tuple[str, ...]] = {
+    "/[^/]+/statics": ("rest_x", "rest_z", "tension_at_rest"),
+    "/[^/]+/waves/[^/]+": ("range", "line_tension_maximum", "line_tension_mean", "slack_share"),
+    "/[^/]+/time/[^/]+/[^/]+": ("sway", "heave", "roll", "line_tension_peak_since_row"),
+}
+
 VOCABULARY = Vocabulary.of(
     "rigid cage",
     VARIABLES,
     labels=LABELS,
+    always=ALWAYS,
 )
 labelled = VOCABULARY.describe

@@ -32,7 +32,7 @@ def run_dataset(
     names = list(run.names)
     peaks = np.stack([run.tension(name) for name in names])
     data: dict[str, Any] = {
-        "tension_peak": (("line", "time"), peaks),
+        "line_tension_peak_since_row": (("line", "time"), peaks),
         "both_tension": ("time", run.both),
         "kinetic_energy": ("time", history.kinetic_energy),
         "elastic_energy": ("time", history.elastic_energy),
@@ -43,7 +43,7 @@ def run_dataset(
     data["mid_toe_x"] = ("time", history.position[:, middle[-1], 0])
     data["mid_toe_z"] = ("time", history.position[:, middle[-1], 2])
     highest = [run.peak(name) for name in names]
-    data["line_peak"] = ("line", [value for value, _ in highest])
+    data["line_tension_maximum"] = ("line", [value for value, _ in highest])
     data["line_peak_time"] = ("line", [when for _, when in highest])
     stats = [run.snaps(name, settings.slack_level, settings.threshold) for name in names]
     length = max(float(history.time[-1] - run.from_time), 1e-300)
@@ -76,7 +76,7 @@ def run_dataset(
     if history.status == "not_converged":
         # the last instants of a run that had to stop are no motion of the span: nobody shall design with them
         summary = dict.fromkeys(summary, math.nan)
-        for name in ("line_peak", "line_peak_time"):
+        for name in ("line_tension_maximum", "line_peak_time"):
             data[name] = ("line", [math.nan] * len(names))
     attributes = {
         "status": history.status, "time_step": history.step, "steps": history.steps, "counted_from": run.from_time,

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _TIME_NODES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(32)

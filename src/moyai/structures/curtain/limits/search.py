@@ -44,7 +44,9 @@ class Limit:
         return self.governing != NOT_REACHED
 
 
-def search(worst: Callable[[float], tuple[float, str]], high: float, *, start: float = 0.0) -> Limit:
+def search(
+    worst: Callable[[float], tuple[float, str]], high: float, *, start: float = 0.0, first_only: bool = False
+) -> Limit:
     """Return up to where a utilisation is at most 1, with every crossing of the range [eq:curtain-limit-search].
 
     Nothing is taken to rise: the range is looked at in even steps, then each step over whose ends the outcome changes
@@ -58,11 +60,16 @@ def search(worst: Callable[[float], tuple[float, str]], high: float, *, start: f
         End of the range.
     start : float
         Where it begins: just above 0 where there is no state at 0.
+    first_only : bool
+        End at the first crossing, for which nothing beyond it counts.
     """
     places = [start + (high - start) * k / _PLACES for k in range(_PLACES + 1)]
-    found = [worst(place) for place in places]
+    found = [worst(places[0])]
     ends: list[tuple[float, str, float]] = []
     for k in range(_PLACES):
+        if first_only and (ends or found[0][0] > 1.0):
+            break
+        found.append(worst(places[k + 1]))
         if (found[k][0] <= 1.0) != (found[k + 1][0] <= 1.0):
             holds, fails = (k, k + 1) if found[k][0] <= 1.0 else (k + 1, k)
             ends.append(_close_in(worst, places[holds], places[fails], found[holds][0], *found[fails]))

@@ -364,7 +364,7 @@ def drowning_speed(curtain: HangingCurtain, site: Site, *, highest: float) -> fl
         except (InputError, ConvergenceError):
             return math.inf, "no equilibrium"
 
-    limit = search(worst, highest, start=_LEAST * highest)
+    limit = search(worst, highest, start=_LEAST * highest, first_only=True)
     return limit.value if limit.reached else math.inf
 
 

@@ -30,7 +30,7 @@ from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
 _BINS, _PERIODS_SHOWN, _WHOLE = 900, 4.0, 6.0
 #: Columns of the table of what peaks are worth: heading, name in the table of runs, name of each line in its run.
 _TRIALS = (
-    ("As run", "both_peak", "line_peak"),
+    ("As run", "both_peak", "line_tension_maximum"),
     ("Half the step", "half_step_peak", "line_half_step"),
     ("Half the cells", "half_mesh_peak", "line_half_mesh"),
     ("Extrapolated", "extrapolated_peak", "line_extrapolated"),
@@ -140,7 +140,7 @@ def snap_table(level: CurtainLevel, run: Group) -> Table | None:
     columns = [
         Column(label, [float(value) for value in values], unit)
         for name, label, unit in (
-            ("line_peak", "Peak", "N"),
+            ("line_tension_maximum", "Peak", "N"),
             ("line_peak_time", "At time", "s"),
             ("slack_share", "Slack share of time", ""),
             ("line_contacts", "Times taut again", ""),
@@ -164,7 +164,7 @@ def tension_figure(level: CurtainLevel, run: Group) -> Figure | None:
     time, both = run.real("time", "time"), run.real("both_tension", "time")
     if time is None or both is None or time.size < 3 or not np.isfinite(both).any():
         return None
-    lines = {name: run.real("tension_peak", "time", line=name) for name in run.labels("line")}
+    lines = {name: run.real("line_tension_peak_since_row", "time", line=name) for name in run.labels("line")}
     known = {name: values for name, values in lines.items() if values is not None}
     factor, unit = common_scale("N", both, *known.values())
     late = np.nan_to_num(both) * (time >= attribute(run, "counted_from") - 1e-9)
@@ -252,7 +252,7 @@ def span_animation(level: CurtainLevel, run: Group) -> Animation | None:
             markers.append(Marker(int(bars[number][0]), "support", "float"))
     record, traces = run.real("time", "time"), []
     for name in run.labels("line"):
-        values = run.real("tension_peak", "time", line=name)
+        values = run.real("line_tension_peak_since_row", "time", line=name)
         if record is not None and values is not None:
             traces.append(Trace(name, record, np.nan_to_num(values), names.index(name) if name in names else -1))
     depth = level.depth

@@ -11,10 +11,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 
 _ITERATIONS = 200

@@ -25,6 +25,7 @@ _WIDEST = math.radians(85.0)
 # sixteen points in each of twelve pieces of (-1, 1): the curve of sections is smooth in pieces only
 _PIECES = 12
 _INNER, _SHARES = np.polynomial.legendre.leggauss(16)
+_PIECE_NODES, _PIECE_WEIGHTS = np.polynomial.legendre.leggauss(8)
 _POINTS = ((np.arange(_PIECES)[:, None] * 2.0 + 1.0 + _INNER) / _PIECES - 1.0).ravel()
 _WEIGHTS = np.tile(_SHARES / _PIECES, _PIECES)
 
@@ -280,10 +281,9 @@ def _draw(
 ) -> PlanShape:
     """Integrate the shape piece by piece and turn it from the frame of the flow into that of the span."""
     edges = np.linspace(middle + width, middle - width, intervals + 1)
-    points, weights = np.polynomial.legendre.leggauss(8)
     half = 0.5 * (edges[:-1] - edges[1:])
-    v = 0.5 * (edges[:-1] + edges[1:])[:, None] + half[:, None] * points
-    weight = tension / load.across * half[:, None] * weights / load.factor(v)
+    v = 0.5 * (edges[:-1] + edges[1:])[:, None] + half[:, None] * _PIECE_NODES
+    weight = tension / load.across * half[:, None] * _PIECE_WEIGHTS / load.factor(v)
 
     def along(values: Array) -> Array:
         return np.concatenate([[0.0], np.cumsum(np.sum(weight * values, axis=1))])

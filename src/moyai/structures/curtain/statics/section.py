@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numba import njit
 
 from moyai.core.arrays import Array
+from moyai.core.compiled import njit
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.options import checks_words
 from moyai.sea.current import CurrentProfile

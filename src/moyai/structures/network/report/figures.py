@@ -30,7 +30,7 @@ def tension_figure(level: NetworkLevel, run: Group) -> Figure | None:
         return None
     span = _window(run, time, found.time)
     series: list[Series] = []
-    records = [(line, run.real("line_tension", "time", line=line)) for line in run.labels("line")]
+    records = [(line, run.real("line_tension_peak_since_row", "time", line=line)) for line in run.labels("line")]
     records += [(net, run.real("net_tension", "time", net=net)) for net in run.labels("net")]
     known = [(name, values) for name, values in records if values is not None and np.isfinite(values).any()]
     known.sort(key=lambda item: -float(np.nanmax(item[1])))

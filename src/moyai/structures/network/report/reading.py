@@ -81,7 +81,7 @@ def peak_of_run(level: NetworkLevel, run: Group) -> Governing | None:
     if time is None:
         return None
     for line in summary.labels("line"):
-        peak, when = (summary.value(key, run=run.name, line=line) for key in ("peak", "peak_time"))
+        peak, when = (summary.value(key, run=run.name, line=line) for key in ("line_tension_maximum", "peak_time"))
         if math.isfinite(peak) and (best is None or peak > best.peak):
             best = Governing(level, run, line, peak, when)
     skip = attribute(run, "skip")

@@ -202,7 +202,7 @@ def _traces(level: NetworkLevel, run: Group, pairs: IntArray, names: tuple[str, 
     found = []
     breaking = level.network.real("breaking_load", "line")
     for number, line in enumerate(run.labels("line")):
-        record = run.real("line_tension", "time", line=line)
+        record = run.real("line_tension_peak_since_row", "time", line=line)
         if record is not None and np.isfinite(record).any():
             load = float(breaking[number]) if breaking is not None else math.nan
             bar = names.index(line) if line in names else -1

@@ -71,8 +71,8 @@ def rest_tables(level: NetworkLevel) -> list[Table | None]:
                     Column("Line", list(rest.labels("line"))),
                     _column("At its start", of("start_tension", "line"), "N"),
                     _column("At its end", of("end_tension", "line"), "N"),
-                    _column("Highest", of("line_tension", "line"), "N"),
-                    _column("Lowest", of("line_least_tension", "line"), "N"),
+                    _column("Highest", of("line_tension_maximum", "line"), "N"),
+                    _column("Lowest", of("line_tension_minimum", "line"), "N"),
                 ],
             )
         )
@@ -141,7 +141,7 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
         return dynamic.real(name, "line", run=run.name)
 
     lines = list(dynamic.labels("line"))
-    peak = of("peak")
+    peak = of("line_tension_maximum")
     governs = (int(np.nanargmax(peak)),) if peak is not None and np.isfinite(peak).any() and len(lines) > 1 else ()
     use = of("utilisation")
     return _table(
@@ -153,7 +153,7 @@ def peaks_table(level: NetworkLevel, run: Group) -> Table | None:
             _column("at", of("peak_time"), "s", digits=4),
             _column("at its start", of("start_peak"), "N"),
             _column("at its end", of("end_peak"), "N"),
-            _column("Mean", of("mean"), "N"),
+            _column("Mean", of("line_tension_mean"), "N"),
             _column("Standard deviation", of("deviation"), "N"),
             _column("of breaking load", None if use is None else 100.0 * use, "%"),
             _column("Slack for", None if (v := of("slack_share")) is None else 100.0 * v, "% of time"),

@@ -1,0 +1,107 @@
+"""The modules of the package, each parsed once for all rules on their text."""
+
+from __future__ import annotations
+
+import ast
+import functools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2] / "src" / "moyai"
+FILES = sorted(SOURCE.rglob("*.py"))
+FORBIDDEN_IN_KERNELS = {"print", "open", "input", "read_text", "write_text", "warn", "savefig", "to_netcdf"}
+COMPILED = {"njit", "jit", "vectorize", "guvectorize"}
+# Packages whose business is to talk to files or people
+TALKERS = {"cli", "app"}
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What one module imports, and where it breaks a rule: lines with what stands there."""
+
+    imports: tuple[tuple[str, int], ...]
+    kernels_that_talk: tuple[str, ...]
+    prints: tuple[str, ...]
+    mutable_dataclasses: tuple[str, ...]
+    mutable_models: tuple[str, ...]
+    bare_excepts: tuple[str, ...]
+
+
+def called_name(node: ast.expr) -> str:
+    node = node.func if isinstance(node, ast.Call) else node
+    return node.attr if isinstance(node, ast.Attribute) else getattr(node, "id", "")
+
+
+def _calls(nodes: list[ast.AST], names: set[str]) -> Iterator[str]:
+    for node in nodes:
+        if isinstance(node, ast.Call) and called_name(node) in names:
+            yield f"line {node.lineno}: {called_name(node)}()"
+
+
+def _frozen(decorator: ast.expr) -> bool:
+    return isinstance(decorator, ast.Call) and any(
+        keyword.arg == "frozen" and isinstance(keyword.value, ast.Constant) and keyword.value.value is True
+        for keyword in decorator.keywords
+    )
+
+
+def _imports(nodes: list[ast.AST], package: list[str]) -> Iterator[tuple[str, int]]:
+    """Give all modules that a file imports, wherever the statement stands, with their line."""
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield alias.name, node.lineno
+        elif isinstance(node, ast.ImportFrom):
+            if node.level:
+                base = package[: len(package) - node.level + 1]
+                module = ".".join([*base, *([node.module] if node.module else [])])
+            else:
+                module = node.module or ""
+            yield module, node.lineno
+            if module == "moyai":
+                for alias in node.names:
+                    yield f"moyai.{alias.name}", node.lineno
+        elif (
+            isinstance(node, ast.Call)
+            and called_name(node) in ("import_module", "__import__")
+            and node.args
+            and isinstance(node.args[0], ast.Constant)
+        ):
+            yield str(node.args[0].value), node.lineno
+
+
+def findings_of_text(text: str, parts: tuple[str, ...]) -> Findings:
+    """Examine one module; ``parts`` is its path below the package.
+
+    A dataclass whose name starts with an underscore, a private record that a reader fills while it reads, may change.
+    Pydantic models inherit ``frozen`` from the base of the schema; that base must say so.
+    """
+    nodes = list(ast.walk(ast.parse(text)))
+    kernels: list[str] = []
+    dataclasses: list[str] = []
+    models: list[str] = []
+    bare: list[str] = []
+    for node in nodes:
+        if isinstance(node, ast.FunctionDef):
+            if COMPILED & {called_name(decorator) for decorator in node.decorator_list}:
+                kernels += _calls(list(ast.walk(node)), FORBIDDEN_IN_KERNELS)
+        elif isinstance(node, ast.ClassDef):
+            if not node.name.startswith("_"):
+                for decorator in node.decorator_list:
+                    if called_name(decorator) == "dataclass" and not _frozen(decorator):
+                        dataclasses.append(f"line {node.lineno}: {node.name}")
+            of_schema = any(getattr(base, "id", "") == "BaseModel" for base in node.bases)
+            if of_schema and "frozen=True" not in ast.unparse(node):
+                models.append(f"line {node.lineno}: {node.name}")
+        elif isinstance(node, ast.ExceptHandler) and node.type is None:
+            bare.append(f"line {node.lineno}")
+    prints = () if parts[0] in TALKERS else tuple(_calls(nodes, {"print", "breakpoint", "set_trace"}))
+    imports = tuple(_imports(nodes, ["moyai", *parts[:-1]]))
+    return Findings(imports, tuple(kernels), prints, tuple(dataclasses), tuple(models), tuple(bare))
+
+
+@functools.cache
+def findings() -> dict[Path, Findings]:
+    """Examine every module of the package."""
+    return {path: findings_of_text(path.read_text(encoding="utf-8"), path.relative_to(SOURCE).parts) for path in FILES}

@@ -1,0 +1,84 @@
+"""One declaration a concept: what is missed, what is described, and what earlier names are called."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from moyai.core.errors import InputError
+from moyai.core.kinds import groups_of, kind_of_result, structure_kinds
+from moyai.core.results import Result
+from moyai.core.vocabulary import COMMON, FORMER, Vocabulary, VocabularyError
+from moyai.records.comparison.run import Pairing, compare_result
+from moyai.study.responses import find_response
+
+TENSION = np.array([1.0e5, 2.0e5])
+
+
+def plain(name: str = "line_tension_maximum", **attributes: str) -> xr.DataTree:
+    """Return a result of a breakwater whose variable carries neither unit nor words."""
+    held = xr.Dataset(
+        {name: (("period", "line"), np.stack([TENSION, 2.0 * TENSION], axis=1))},
+        {"period": [4.0, 5.0], "line": ["sea", "lee"]},
+        attributes,
+    )
+    tree = xr.DataTree.from_dict({"/SWL/frequency/swell": held})
+    tree.attrs["structure"] = "breakwater"
+    return tree
+
+
+def test_what_an_analysis_always_writes_is_missed() -> None:
+    own = Vocabulary.of("test", {"a": ("m", "a")}, always={"/[^/]+/run": ("a", "line_tension_maximum")})
+    full = xr.Dataset({"a": 1.0, "line_tension_maximum": ("line", [1.0])}, {"line": ["sea"]})
+    assert own.absent("/SWL/run", full) == ()
+    assert own.absent("/SWL/run", full.drop_vars(["a", "line_tension_maximum"]).assign(b=1.0)) == (
+        "a",
+        "line_tension_maximum",
+    )
+    # not run, run without lines, run that did not converge, another group
+    assert own.absent("/SWL/run", xr.Dataset()) == ()
+    assert own.absent("/SWL/run", xr.Dataset({"a": 1.0})) == ()
+    assert own.absent("/SWL/run", xr.Dataset({"b": 1.0}, attrs={"status": "not_converged"})) == ()
+    assert own.absent("/SWL/run/frames", xr.Dataset({"b": 1.0})) == ()
+    with pytest.raises(VocabularyError, match="'a' is absent"):
+        own.close({"/SWL/run": xr.Dataset({"line_tension_maximum": ("line", [1.0])}, {"line": ["sea"]})})
+    with pytest.raises(ValueError, match="b must always"):
+        Vocabulary.of("test", {}, always={"/run": ("b",)})
+
+
+def test_every_structure_says_what_it_always_writes() -> None:
+    for name in structure_kinds():
+        kind = kind_of_result(name)
+        own = kind.vocabulary() if kind is not None else None
+        assert own is None or own.always, name
+
+
+def test_studies_and_comparisons_take_unit_and_words_from_the_vocabulary(tmp_path: Path) -> None:
+    tree = plain()
+    (found,) = [group for path, group in groups_of(tree).items() if path.endswith("swell")]
+    assert found["line_tension_maximum"].attrs == {"units": "N", "long_name": "largest tension at the fairlead"}
+    assert find_response(tree, "SWL/frequency/swell/line_tension_maximum[line=lee]").attrs["units"] == "N"
+    record = tmp_path / "record.csv"
+    record.write_text("period [s],pull [kN]\n4,100\n4.5,150\n5,200\n", encoding="utf-8")
+    pairing = Pairing("line_tension_maximum", "pull")
+    compared = compare_result(Result(tree), record, [pairing], coordinate="period", select={"line": "sea"})
+    (group,) = compared.tree.children.values()
+    assert group["model"].attrs["units"] == "N"
+    np.testing.assert_allclose(group["model"], group["observed"], rtol=1e-12)
+
+
+def test_a_name_of_earlier_versions_is_answered_by_what_it_is_called(tmp_path: Path) -> None:
+    assert not set(FORMER) & set(COMMON)
+    for called in FORMER.values():
+        assert all(name.removeprefix("worst_") in COMMON for name in called.split(" or "))
+    with pytest.raises(InputError) as caught:
+        find_response(plain(), "SWL/frequency/swell/maximum_tension")
+    assert "'maximum_tension' of earlier versions is called line_tension_maximum" in caught.value.fault.remedy
+    record = tmp_path / "record.csv"
+    record.write_text("period,pull\n4,100\n5,200\n", encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        compare_result(Result(plain()), record, [Pairing("maximum_tension", "pull")])
+    assert "is called line_tension_maximum" in caught.value.fault.remedy
