@@ -290,7 +290,11 @@ def validate(
     ] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Compute every published or exact case again: value, reference, error, tolerance."""
+    """Compute every case with a reference again: value, reference, error, and where the reference is from.
+
+    A reference is exact (closed form, identity, planted value), published, measured, of another program, or of a second
+    program of our own; each row says which. Rows come as the cases end.
+    """
     with guard(as_json):
         if paper is not None:
             from moyai.cli.reproduce import print_statements
@@ -300,14 +304,19 @@ def validate(
         from moyai.cli.validation import choose, compute
 
         with progress_bars(quiet) as progress:
-            outcomes = compute(choose(only or ()), progress)
+            from moyai.cli.tables import outcome_line, print_outcome_count
+
+            def ended(outcome: Any) -> None:
+                if not as_json and not (quiet and outcome.passed):
+                    say(outcome_line(outcome))
+                    sys.stdout.flush()
+
+            outcomes = compute(choose(only or ()), progress, ended)
         passed = all(outcome.passed for outcome in outcomes)
         if as_json:
             print_json({"cases": [outcome.as_dict() for outcome in outcomes]})
         else:
-            from moyai.cli.tables import print_outcomes
-
-            print_outcomes(rich_console(), outcomes, quiet=quiet)
+            print_outcome_count(outcomes)
         raise typer.Exit(OK if passed else FAILED)
 
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
+
+from moyai.cli.console import say
+from moyai.core.validation import ReferenceKind
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -123,35 +126,26 @@ def print_criteria(console: Console, criteria: Sequence[Criterion]) -> None:
     console.print(table)
 
 
-def print_outcomes(console: Console, outcomes: Sequence[Outcome], *, quiet: bool) -> None:
-    """Print the cases of ``moyai validate``; only the failed ones when ``quiet``."""
-    table = _table(
-        ("case", "left"),
-        ("value", "right"),
-        ("reference", "right"),
-        ("error", "right"),
-        ("allowed", "right"),
-        ("", "left"),
+def outcome_line(outcome: Outcome) -> str:
+    """Return a case of ``moyai validate`` as one line: verdict, numbers, kind of the reference and its source."""
+    case = outcome.case
+    numbers = (
+        f"{_number(outcome.value)} against {_number(case.reference)}, error "
+        f"{_error(outcome.error, case.relative)} of {_error(case.tolerance, case.relative)} allowed"
     )
-    for outcome in outcomes:
-        if quiet and outcome.passed:
-            continue
-        case = outcome.case
-        table.add_row(
-            case.name,
-            _number(outcome.value),
-            _number(case.reference),
-            _error(outcome.error, case.relative),
-            _error(case.tolerance, case.relative),
-            "ok" if outcome.passed else "FAILED",
-        )
-    if table.row_count:
-        console.print(table)
-    for outcome in outcomes:
-        if outcome.failure:
-            console.print(f"{outcome.case.name}: {outcome.failure}", markup=False, soft_wrap=True)
+    failure = f" ({outcome.failure})" if outcome.failure else ""
+    verdict = "ok" if outcome.passed else "FAILED"
+    return f"{verdict:6}  {case.name}: {numbers}{failure}  |  {case.kind}  |  {case.source}"
+
+
+def print_outcome_count(outcomes: Sequence[Outcome]) -> None:
+    """Print how many cases passed, in all and by the kind of their reference."""
     good = sum(outcome.passed for outcome in outcomes)
-    console.print(f"{good} of {len(outcomes)} cases passed")
+    say(f"{good} of {len(outcomes)} cases passed")
+    for kind in get_args(ReferenceKind):
+        own = [outcome.passed for outcome in outcomes if outcome.case.kind == kind]
+        if own:
+            say(f"  {kind}: {sum(own)} of {len(own)}")
 
 
 def _number(value: float) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import pkgutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -51,6 +51,7 @@ class Outcome:
         return {
             "name": self.case.name,
             "source": self.case.source,
+            "reference_kind": self.case.kind,
             "value": self.value,
             "reference": self.case.reference,
             "error": self.error,
@@ -91,8 +92,25 @@ def choose(wanted: Iterable[str]) -> list[tuple[str, ValidationCase]]:
     return found
 
 
-def compute(chosen: list[tuple[str, ValidationCase]], progress: Progress = silent) -> list[Outcome]:
-    """Compute every case; one that raises has failed and the others go on."""
+def _nobody(_outcome: Outcome) -> None:
+    """Take an outcome and do nothing."""
+
+
+def compute(
+    chosen: list[tuple[str, ValidationCase]],
+    progress: Progress = silent,
+    ended: Callable[[Outcome], None] = _nobody,
+) -> list[Outcome]:
+    """Compute every case; one that raises has failed and the others go on.
+
+    Parameters
+    ----------
+    chosen : list of (str, ValidationCase)
+        Topic and case.
+    progress : Progress
+    ended : callable
+        Takes each outcome as its case ends.
+    """
     outcomes = []
     for index, (topic, case) in enumerate(chosen):
         progress("validation", index, len(chosen))
@@ -101,5 +119,6 @@ def compute(chosen: list[tuple[str, ValidationCase]], progress: Progress = silen
         except Exception as error:
             # A broken case must not hide the others; its name and reason stand in the table
             outcomes.append(Outcome(topic, case, math.nan, f"{type(error).__name__}: {error}"))
+        ended(outcomes[-1])
     progress("validation", len(chosen), max(len(chosen), 1))
     return outcomes

@@ -13,7 +13,7 @@ from moyai.mooring.planar import PlanarLineSystem
 from moyai.mooring.shoji import solve_shoji
 from moyai.mooring.system import LineSystem
 
-_NAKAMURA = "Nakamura, Ohmori and Ide: chain of the model"
+_NAKAMURA = "Nakamura, Ohmori and Ide: chain of the model, by an independent prototype"
 
 
 def _nakamura() -> PlanarLineSystem:

@@ -42,6 +42,7 @@ def test_records_have_the_agreed_keys(cases):
     assert first == {
         "name": "circle: pi",
         "source": "exact",
+        "reference_kind": "exact",
         "value": 3.1416,
         "reference": math.pi,
         "error": abs(3.1416 - math.pi) / math.pi,
@@ -74,6 +75,40 @@ def test_values_that_are_not_numbers_are_null_in_json(cases):
     assert record["value"] is None
     assert record["error"] is None
     assert record["passed"] is False
+
+
+@pytest.mark.parametrize(
+    ("source", "kind"),
+    [
+        ("identity", "exact"),
+        ("planted, 15 % scatter", "exact"),
+        ("Ursell (1947), closed form; largest error over Kd 0.1 to 4", "published"),
+        ("Arai et al., horizontal cylinders in regular waves at low KC, eq. (8)", "published"),
+        ("Wieselsberger's measurements, as in textbooks", "measured"),
+        (
+            "MoorDyn-C 2.7.2, RK2 and RK4, converged over mesh and step; an independent prototype agrees",
+            "other program",
+        ),
+        ("Nakamura, Ohmori and Ide; number of the specification B.4 (independent prototype)", "own second"),
+        ("Tabata et al., equations (1) to (5), computed independently", "own second"),
+    ],
+)
+def test_a_row_says_where_its_reference_is_from(cases, source, kind):
+    cases(ValidationCase("circle: pi", source, lambda: 3.1416, math.pi, 1e-5))
+    row = runner.invoke(app, ["validate"]).stdout.splitlines()[0]
+    assert row.endswith(f"|  {kind}  |  {source}")
+
+
+def test_a_row_comes_as_its_case_ends():
+    seen = []
+
+    def second():
+        assert [outcome.case.name for outcome in seen] == [GOOD.name]
+        return 0.0
+
+    later = ValidationCase("zero: later", "identity", second, 0.0, 1e-9, relative=False)
+    outcomes = compute([("circle", GOOD), ("circle", later)], ended=seen.append)
+    assert [outcome.passed for outcome in outcomes] == [True, True]
 
 
 def test_progress_is_told():

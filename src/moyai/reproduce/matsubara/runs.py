@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
+from moyai.core.vocabulary import LINE_TENSION_PEAK_SINCE_ROW
 from moyai.morison.net_laws.matsubara import Matsubara
 from moyai.reproduce.inputs import problem_of, run_problem
 from moyai.sea.dispersion import wave_number
@@ -107,7 +108,7 @@ def read(result: Result, sea: str) -> tuple[Wave, ...]:
         period, time = float(waves.period[index]), data.time.values
         last, many = time > time[-1] - 2.0 * period, time > time[-1] - 10.0 * period
         sides = {OFFSHORE if "offshore" in str(name) else SHORE: name for name in data.line.values}
-        phases = waves.first_phase.values[index]
+        phases, peaks = waves.first_phase.values[index], data[LINE_TENSION_PEAK_SINCE_ROW.name]
         found.append(
             Wave(
                 period,
@@ -117,10 +118,7 @@ def read(result: Result, sea: str) -> tuple[Wave, ...]:
                 data.heave.values[last],
                 data["roll"].values[last],
                 {side: data.tension.sel(line=name).values[last, 0] for side, name in sides.items()},
-                {
-                    side: float(data.line_tension_peak_since_row.sel(line=name).values[many].max())
-                    for side, name in sides.items()
-                },
+                {side: float(peaks.sel(line=name).values[many].max()) for side, name in sides.items()},
                 float(np.angle(np.exp(1j * (phases[0] - phases[1])))),
             )
         )
