@@ -168,7 +168,7 @@ def test_orbits_and_wave_heights_of_the_tank(depth, ratio, height):
 @pytest.mark.parametrize("name", ROWS)
 def test_case_files_of_the_three_sections(name):
     """The examples, run as a user runs them: C_M falls like KC^2 of the elliptic orbit in the tank."""
-    case = load_case(ROOT / f"examples/papers/arai/{name}.yaml")
+    case = load_case(ROOT / f"src/moyai/reproduce/cases/arai/{name}.yaml")
     result = run_case(case)
     data = result.tree["/SWL/waves/regular"]
     number = data["keulegan_carpenter"].values

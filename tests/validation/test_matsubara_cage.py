@@ -35,7 +35,7 @@ ROWS = [
 
 @cache
 def problem():
-    return build(load_case(ROOT / "examples" / "papers" / "matsubara" / "taut.yaml"))
+    return build(load_case(ROOT / "src" / "moyai" / "reproduce" / "cases" / "matsubara" / "taut.yaml"))
 
 
 @cache

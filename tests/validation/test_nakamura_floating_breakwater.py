@@ -25,7 +25,7 @@ DATA = Path(__file__).parent / "data"
 @cache
 def problem() -> BreakwaterProblem:
     """Return the case with its chains at rest at every instant, as the prototype has them."""
-    case = build(load_case(ROOT / "examples" / "papers" / "nakamura" / "tank_model.yaml"))
+    case = build(load_case(ROOT / "src" / "moyai" / "reproduce" / "cases" / "nakamura" / "tank_model.yaml"))
     lines = tuple(replace(line, dynamic=False, bar_types=(), drag_width=0.0) for line in case.breakwater.lines)
     return replace(case, breakwater=replace(case.breakwater, lines=lines))
 

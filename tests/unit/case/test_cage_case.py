@@ -115,7 +115,7 @@ def test_each_slip_gives_its_message(slip):
 
 def test_examples_and_template_are_sound():
     for name in ("taut", "slack"):
-        loaded = load_case(ROOT / "examples" / "papers" / "matsubara" / f"{name}.yaml")
+        loaded = load_case(ROOT / "src" / "moyai" / "reproduce" / "cases" / "matsubara" / f"{name}.yaml")
         assert {number.label for number in derived_numbers(loaded)} >= {"mass in air", "natural period 1"}
     numbers = {number.label: number.value for number in derived_numbers(case())}
     assert numbers["middle of the cage, floating freely"] == pytest.approx(-0.109, abs=1e-3)

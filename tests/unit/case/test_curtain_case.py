@@ -232,9 +232,10 @@ def test_derived_numbers(tmp_path):
 def test_template_and_examples_are_sound(tmp_path):
     case = load_case(written(tmp_path, template("curtain")))
     assert case.kind == "curtain"
-    folder = Path(__file__).parents[3] / "examples" / "curtain"
-    files = sorted(folder.glob("*.yaml"))
-    assert len(files) >= 3
+    root = Path(__file__).parents[3]
+    files = sorted((root / "examples" / "curtain").glob("*.yaml"))
+    files += [root / "src/moyai/reproduce/cases" / name for name in ("sawaragi/flume.yaml", "tabata/kansai.yaml")]
+    assert len(files) == 4
     for file in files:
         assert load_case(file).kind == "curtain"
 

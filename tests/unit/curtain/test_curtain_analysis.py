@@ -20,7 +20,7 @@ from moyai.structures.curtain.seas.loads import drag_curve
 from moyai.structures.curtain.statics.steady_load import QUANTITIES
 from moyai.structures.curtain.variables import VARIABLES
 
-PAPERS = Path(__file__).parents[3] / "examples" / "papers"
+PAPERS = Path(__file__).parents[3] / "src" / "moyai" / "reproduce" / "cases"
 SMALL = """moyai: 1
 title: Small curtain
 site: {water_depth: 8 m, density: 1025 kg/m3, gravity: 9.81 m/s2}

@@ -13,7 +13,7 @@ from moyai.study.execute import run_study
 from moyai.study.plan import load_study
 from moyai.study.responses import kept, largest_tensions
 
-CAGE = Path(__file__).parents[3] / "examples" / "cage" / "paper_taut.yaml"
+CAGE = Path(__file__).parents[3] / "src" / "moyai" / "reproduce" / "cases" / "matsubara" / "taut.yaml"
 STUDY = f"""moyai: 1
 study:
   title: Lines of the cage in the flume
