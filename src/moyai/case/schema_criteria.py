@@ -83,5 +83,5 @@ class LineCriteria(Block):
 
 
 NoCriteria = Literal["none"]
-CRITERIA = "What the design has to keep, beside the defaults that 'moyai check' lists; 'none' switches judging off."
+CRITERIA = "What the design has to keep, besides the defaults that 'moyai check' lists; 'none' switches judging off."
 """Description of the key of every structure."""

@@ -29,17 +29,17 @@ _PLAIN: tuple[tuple[str, str, str], ...] = (
     (
         "did not find expected '-' indicator",
         "this line does not continue the list that begins in line {context}",
-        "begin it with '- ' or mend its indentation",
+        "begin it with '- ' or correct its indentation",
     ),
     (
         "did not find expected key",
         "this line does not fit the block that begins in line {context}",
-        "mend its indentation",
+        "correct its indentation",
     ),
     (
         "expected <block end>",
         "this line does not fit the block that begins in line {context}",
-        "mend its indentation",
+        "correct its indentation",
     ),
     ("block sequence entries are not allowed", "a list entry '- ' may not begin here", "put it on its own line"),
     ("found undefined alias", "an alias refers to an anchor that is not defined above", ""),

@@ -29,7 +29,7 @@ def compare(
     shift: Annotated[float, typer.Option("--shift", help="Added to the record's coordinate.")] = 0.0,
     lag: Annotated[float, typer.Option("--lag", help="How far the model may be moved to fit best.")] = 0.0,
     by: Annotated[
-        str, typer.Option("--by", metavar="COLUMN[=EDGES]", help="Sea state whose classes are told: H13=0,1,2,3.")
+        str, typer.Option("--by", metavar="COLUMN[=EDGES]", help="Sea state whose classes are reported: H13=0,1,2,3.")
     ] = "",
     decimal: Annotated[str, typer.Option("--decimal", help="Decimal sign of the record.")] = ".",
     output: Annotated[

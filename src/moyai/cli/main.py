@@ -179,7 +179,7 @@ def run(
         Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
     ] = None,
     as_json: AsJson = False,
-    report: Annotated[bool, typer.Option(help="Write the report and its tables beside results.nc.")] = True,
+    report: Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")] = True,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
     require_hold: Annotated[
         bool, typer.Option("--require-hold", help="Leave with exit code 3 unless the design holds.")

@@ -23,7 +23,7 @@ def nets(
         Path | None, typer.Option("--output", "-o", help="Folder of the results; out/<name of the file> when absent.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
-    report: Annotated[bool, typer.Option(help="Write the report and its tables beside results.nc.")] = True,
+    report: Annotated[bool, typer.Option(help="Write the report and its tables next to results.nc.")] = True,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:

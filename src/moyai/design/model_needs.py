@@ -75,7 +75,7 @@ def model_need(row: ScaledQuantity, value: float, unit: str, scale: Scale, *, li
         lacking = mass_to_add(scale.to_prototype(wanted, symbol), available, scale, symbol)
         remedy = f"add {lacking:.5g} {symbol}" if lacking >= 0.0 else f"too heavy by {-lacking:.5g} {symbol}"
     else:
-        remedy = "no part in series or beside it mends this"
+        remedy = "no part in series or parallel to it repairs this"
     return Need(row.name, row.model, there.from_si(available), row.unit, available / wanted, remedy)
 
 

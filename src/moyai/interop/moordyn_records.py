@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-#: Name that MoorDyn gives the profile of a steady current, beside the deck.
+#: Name that MoorDyn gives the profile of a steady current, next to the deck.
 CURRENT_FILE = "current_profile.txt"
 
 
@@ -19,7 +19,7 @@ class StiffnessTable:
     tension : tuple of float
         Rising from 0 [N].
     file : str
-        Name of the file, beside the deck.
+        Name of the file, next to the deck.
     """
 
     strain: tuple[float, ...]
@@ -48,7 +48,7 @@ class DeckOption:
 
 @dataclass(frozen=True)
 class DeckCurrent:
-    """Steady current over the height, from ``current_profile.txt`` beside the deck.
+    """Steady current over the height, from ``current_profile.txt`` next to the deck.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class DeckCurrent:
     velocity: tuple[tuple[float, float], ...]
 
 
-#: Names that MoorDyn gives the files of waves, beside the deck.
+#: Names that MoorDyn gives the files of waves, next to the deck.
 FREQUENCY_FILE, ELEVATION_FILE = "wave_frequencies.txt", "wave_elevation.txt"
 
 

@@ -76,7 +76,7 @@ def read_stiffness(row: Row, folder: Path, faults: Faults) -> float | StiffnessT
         return math.nan
     place = folder / text
     if not place.is_file():
-        faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file beside the deck", path="stiffness")
+        faults.add(row.line, f"stiffness is {text!r}, neither a number nor a file next to the deck", path="stiffness")
         return math.nan
     strain: list[float] = []
     tension: list[float] = []
@@ -107,10 +107,10 @@ def read_stiffness(row: Row, folder: Path, faults: Faults) -> float | StiffnessT
 
 
 def read_current(option: DeckOption, folder: Path, faults: Faults) -> DeckCurrent | None:
-    """Return the steady current of the file beside the deck."""
+    """Return the steady current of the file next to the deck."""
     place = folder / CURRENT_FILE
     if not place.is_file():
-        faults.add(option.line, f"Currents is 1, but there is no {CURRENT_FILE} beside the deck", path="Currents")
+        faults.add(option.line, f"Currents is 1, but there is no {CURRENT_FILE} next to the deck", path="Currents")
         return None
     rows: list[list[float]] = []
     for number, text in enumerate(read_lines(place)[3:], start=4):
@@ -139,7 +139,7 @@ def read_flat_depth(option: DeckOption, folder: Path, faults: Faults) -> float |
     """Return the depth of a grid file that is flat."""
     place = next((p for p in (folder / str(option.value), folder / Path(str(option.value)).name) if p.is_file()), None)
     if place is None:
-        faults.add(option.line, f"there is no file {option.value!s} beside the deck", path="SeafloorFile")
+        faults.add(option.line, f"there is no file {option.value!s} next to the deck", path="SeafloorFile")
         return None
     levels: set[float] = set()
     for number, text in enumerate(read_lines(place)[3:], start=4):

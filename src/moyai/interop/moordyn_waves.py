@@ -51,7 +51,7 @@ def read_waves(
         )
     name = ELEVATION_FILE if recorded else FREQUENCY_FILE
     if not (folder / name).is_file():
-        faults.add(option.line, f"WaveKin is {option.value:g}, but there is no {name} beside the deck", path="WaveKin")
+        faults.add(option.line, f"WaveKin is {option.value:g}, but there is no {name} next to the deck", path="WaveKin")
         return None
     rows = _rows(folder / name, (2,) if recorded else (3, 4), faults)
     if rows is None:

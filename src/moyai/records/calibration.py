@@ -155,7 +155,7 @@ class _Fitter:
             raise InputError(
                 f"the model gives no number for observation {int(np.argmin(np.isfinite(prediction))) + 1} at {told}",
                 path="model",
-                remedy="narrow the bounds, or mend the model there",
+                remedy="narrow the bounds, or correct the model there",
             )
         return prediction
 

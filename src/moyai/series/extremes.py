@@ -1,4 +1,4 @@
-"""Extremes of a response: distributions fitted to peaks and maxima, with what they are worth.
+"""Extremes of a response: distributions fitted to peaks and maxima, with their uncertainty.
 
 Theory in docs/theory/extremes.md.
 """

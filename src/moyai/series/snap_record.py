@@ -201,7 +201,7 @@ def read_snap(
     peak, peak_time = _top(t, total, largest, rough, noise)
     if plateau < -0.1 * peak - 4.0 * noise:
         raise InputError(
-            f"the plateau of {plateau:.4g} N is negative beside a peak of {peak:.4g} N",
+            f"the plateau of {plateau:.4g} N is negative, for a peak of {peak:.4g} N",
             path="tension",
             allowed="tensions positive",
             remedy="turn the sign of the gauge, check the unloaded intervals, or record on to the plateau",

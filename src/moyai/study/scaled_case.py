@@ -161,7 +161,7 @@ def _read_again(text: str, given: Path, files: tuple[tuple[str, str], ...]) -> C
             f"the scaled case is refused: {first.message}",
             path=first.path,
             allowed=first.allowed,
-            remedy="choose another scale, or mend the figure in the file given",
+            remedy="choose another scale, or correct the value in the file given",
         ) from None
 
 

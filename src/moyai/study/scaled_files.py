@@ -36,7 +36,7 @@ def scaled_files(case: Case, scale: Scale, from_model: bool) -> dict[KeyPath, tu
     Raises
     ------
     InputError
-        For files whose figures cannot be told apart by their units: coefficients, records, archives of spectra.
+        For files whose figures cannot be distinguished by their units: coefficients, records, archives of spectra.
     """
     found: dict[KeyPath, tuple[str, str]] = {}
     prefix = "prototype" if from_model else "model"

@@ -109,7 +109,7 @@ def _largest(found: xr.DataArray, axes: list[str]) -> xr.DataArray:
     """Return the largest entry of every case."""
     absent = [axis for axis in axes if axis not in found.dims]
     if absent:
-        raise InputError(f"'{found.name}' is not told for every case", path="assess.tensions")
+        raise InputError(f"'{found.name}' is not given for every case", path="assess.tensions")
     rest = [dim for dim in found.dims if dim not in axes]
     return (found.max(rest) if rest else found).transpose(*axes).drop_vars(set(found.coords), errors="ignore")
 

@@ -86,7 +86,7 @@ def _literal() -> float:
     return float(found.tension_peak[found.time > 8.8].max()) / _GRAM / 1000.0
 
 
-_OURS = "the prototype's anchors and pull are told as ranges only"
+_OURS = "the prototype's anchors and pull are given as ranges only"
 
 CASES: tuple[ValidationCase, ...] = (
     ValidationCase(

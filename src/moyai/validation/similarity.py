@@ -76,7 +76,7 @@ CASES: tuple[ValidationCase, ...] = (
         1e-13,
     ),
     ValidationCase(
-        "similarity: line with a spring in series", "springs in series", _spring, 1.0, 1e-5, note="five digits are told"
+        "similarity: line with a spring in series", "springs in series", _spring, 1.0, 1e-5, note="five digits given"
     ),
     ValidationCase(
         "similarity: draught of a case file after 1:26 and back [m]", "the file given", _case_there_and_back, 3.0, 1e-13

@@ -131,7 +131,7 @@ def test_report_shows_lines_in_motion_beside_lines_at_rest(run, tmp_path) -> Non
     written = moyai.write_report(run, tmp_path)
     page = next(path for path in tmp_path.rglob("*.html")).read_text()
     assert "Lines in motion and lines at rest" in page
-    assert "Lines in motion beside lines at rest" in page
+    assert "Lines in motion compared with lines at rest" in page
     assert written is not None
 
 

@@ -54,10 +54,10 @@ def test_what_the_reruns_leave_open_is_judged():
 
 def test_a_level_within_the_scatter_is_not_told_apart():
     lower = replace(GOVERNS, level="LWL", tension=380e3, scatter=SCATTER - 20e3)
-    assert "not told apart from LWL (380 kN)" in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
+    assert "not distinguished from LWL (380 kN)" in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
     # Student's 2.13 times the standard error of 35 kN, of both: 107 kN
     lower = replace(GOVERNS, level="LWL", tension=280e3, scatter=SCATTER - 120e3)
-    assert "told apart" not in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
+    assert "distinguished" not in headline(line_headlines([GOVERNS, lower]), "line_tension").detail
 
 
 def test_the_highest_of_each_analysis_is_judged_by_its_own_factor():

@@ -232,7 +232,7 @@ def test_peak_over_closed_form_depends_on_amplitude_at_short_periods():
 
 @pytest.mark.parametrize(("period", "excursion"), [(4.0, 0.477), (4.0, 0.573), (8.0, 0.477), (8.0, 0.573)])
 def test_first_contacts_of_a_stiff_cable(period, excursion):
-    """EA = 5000 N: first contacts of each half cycle within 0.95 to 1.03; bounces are told apart."""
+    """EA = 5000 N: first contacts of each half cycle within 0.95 to 1.03; bounces are distinguished."""
     impact = flume(5000.0)
     found = slack_taut_motion(
         impact, drag_coefficient=1.2, current=0.0, velocity_amplitude=excursion * math.pi / period, period=period,

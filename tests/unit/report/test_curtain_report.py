@@ -228,7 +228,7 @@ def test_figures_hold_the_result(result: Result, document: Document) -> None:
     models = named(document, Figure, "Tension of both cables by each impact model")[0]
     drawn = np.nansum(np.nan_to_num([item.y for item in models.series]), axis=0)
     assert drawn * 1e3 == pytest.approx(result.tree["/HWL/impact"]["impact_tension"].values)
-    assert len(models.series) == 2, "the model that does not count is told apart"
+    assert len(models.series) == 2, "the model that does not count is distinguished"
     counted = result.tree["/HWL/impact"]["impact_tension"].values[result.tree["/HWL/impact"]["counts"].values > 0]
     note = named(document, Table, "Impact models")[0].note
     assert f"{counted.max() / counted.min():.2f} times the smallest" in note

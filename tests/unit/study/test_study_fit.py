@@ -135,7 +135,7 @@ def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
     np.testing.assert_allclose(result.tree["fit"]["correlation"].values, [[1.0, -0.98], [-0.98, 1.0]])
     document = compose_document(result)
     assert [section.title for section in document.sections][:3] == [
-        "Summary", "What cannot be told apart", "Observed and fitted",
+        "Summary", "What cannot be distinguished", "Observed and fitted",
     ]  # fmt: skip
     text = write_report(result, tmp_path / "out")[0].read_text(encoding="utf-8")
     assert "55.612" in text and "55.6123" not in text.split("Case file as it was run")[0].split("plot-data")[0]

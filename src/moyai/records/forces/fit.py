@@ -205,7 +205,7 @@ def force_columns(record: ForceRecord, rate: Array, setup: Setup, component: int
 
 
 def beside_columns(record: ForceRecord, orders: Sequence[int], mean: bool, omega: float) -> Array:
-    """Return what is fitted beside Morison's equation: mean and harmonics."""
+    """Return what is fitted together with Morison's equation: mean and harmonics."""
     angle = omega * (record.time - record.time.mean())
     parts = [np.ones_like(angle)] if mean else []
     for order in orders:

@@ -12,7 +12,7 @@ from moyai.core.validity import Notice
 from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, Fit, Setup, beside_columns
 from moyai.records.forces.record import ForceRecord
 
-#: Condition number of the scaled equations above which inertia and drag cannot be told apart
+#: Condition number of the scaled equations above which inertia and drag cannot be distinguished
 LARGEST_CONDITION = 1e7
 #: Share of the variance of a velocity outside its harmonics that is told, and above which it is not periodic
 TOLD_SHARE, APERIODIC_SHARE = 0.01, 0.5
@@ -21,13 +21,13 @@ PLAUSIBLE_INERTIA = (0.2, 3.0)
 
 
 def collinear_notices(fit: Fit) -> list[Notice]:
-    """Tell where inertia and drag cannot be told apart."""
+    """Tell where inertia and drag cannot be distinguished."""
     if fit.condition <= LARGEST_CONDITION:
         return []
     return [
         Notice(
             "identification-collinear",
-            f"{_place(fit)}: inertia and drag cannot be told apart, condition number {fit.condition:.2g}",
+            f"{_place(fit)}: inertia and drag cannot be distinguished, condition number {fit.condition:.2g}",
             value=fit.condition,
             limit=LARGEST_CONDITION,
             severity="error",

@@ -14,7 +14,7 @@ _OPTIONS = QualityOptions(flat_seconds=5.0, clip_samples=4)
 _FEW_LEVELS = 40
 _REMEDIES = {
     "clipped": "use a wider range of the gauge; the coefficients are too small",
-    "spikes": "mend single samples, or choose a part without them",
+    "spikes": "correct single samples, or choose a part without them",
     "flat": "choose a part in which the channel lives",
 }
 

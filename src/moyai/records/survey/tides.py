@@ -93,7 +93,7 @@ class TidalFit:
         return self.mean[0] + both[..., 0], self.mean[1] + both[..., 1]
 
 
-# How large constituents usually are: of two that cannot be told apart the first listed stays
+# How large constituents usually are: of two that cannot be distinguished the first listed stays
 _ORDER = (
     "M2", "K1", "S2", "O1", "N2", "P1", "K2", "Q1", "M4", "MS4", "MF", "MM", "M6", "MN4", "MSF", "NU2", "MU2", "L2",
     "J1", "T2", "MK3", "M3", "S4", "SSA", "M8", "S6",
@@ -122,7 +122,7 @@ def fit_tide(
     names : sequence of str, optional
         Constituents; by default all that the record can tell apart.
     rayleigh : float
-        Two constituents are told apart when their frequencies differ by so many cycles over the record.
+        Two constituents are distinguished when their frequencies differ by so many cycles over the record.
     trend : bool
         Fit a trend as well.
 

@@ -285,7 +285,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class MeasuredPoints:
-    """Measured points to show beside the results: one record per column name."""
+    """Measured points to show with the results: one record per column name."""
 
     file: str
     columns: Mapping[str, tuple[float, ...]]

@@ -1,4 +1,4 @@
-"""The report of ``moyai fit``: values with intervals, what cannot be told apart, observed against fitted, residuals."""
+"""The report of ``moyai fit``: values with intervals, what cannot be distinguished, observed and fitted, residuals."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def compose(result: Result) -> Document:
         message=result.message,
         sections=(
             Section("summary", "Summary", (figures, agreement, *notice_blocks(result), table)),
-            Section("correlations", "What cannot be told apart", _correlations(found, names)),
+            Section("correlations", "What cannot be distinguished", _correlations(found, names)),
             Section("observations", "Observed and fitted", _agreement(found)),
             Section("input", "Input", (case_listing(Group("", result.tree)),)),
             closing_section(result),
@@ -118,7 +118,7 @@ def _correlations(found: Any, names: list[str]) -> tuple[Block, ...]:
     elif words:
         said = "These observations hardly tell apart: " + "; ".join(words) + ". Observe other states, or fix one value."
     else:
-        said = f"No two values have a correlation of {STRONG_CORRELATION:g} or more: all are told apart."
+        said = f"No two values have a correlation of {STRONG_CORRELATION:g} or more: all are distinguished."
     shown = [[f"{value:.3f}" if math.isfinite(value) else DASH for value in row] for row in matrix]
     columns = [Column("correlation", names), *(Column(name, [row[k] for row in shown]) for k, name in enumerate(names))]
     return Paragraph(said), Table("correlation", "Correlation of the errors", tuple(columns))

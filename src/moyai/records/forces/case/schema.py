@@ -82,7 +82,7 @@ class ForceRecordFile(Block):
         description="Methods. Default: all four (irregular records: give those without fourier).",
     )
     harmonics: Annotated[tuple[Harmonic, ...], AfterValidator(once_each)] = Field(
-        default=(), description="Harmonics of the force fitted beside Morison's equation, such as [2, 3]."
+        default=(), description="Harmonics of the force fitted together with Morison's equation, such as [2, 3]."
     )
     phase_error_deg: PhaseError = Field(description="Standard error of the phase between force and velocity.")
     confidence: Confidence = Field(default=0.95, description="Probability that the intervals cover. Default: 0.95.")

@@ -279,7 +279,7 @@ class ResponseKeys(Block):
     wave: Name = Field(description="Elevation that drives.")
     channels: Annotated[tuple[Name, ...], Field(min_length=1, max_length=50)] = Field(description="What answers.")
     least_coherence: Annotated[float, QuantityOf(quantities.NUMBER, least=0.0, most=1.0)] = Field(
-        default=0.0, description="Frequencies with less coherence are left out, beside those that chance would give."
+        default=0.0, description="Frequencies with less coherence are left out, besides those that chance would give."
     )
 
 

@@ -289,7 +289,7 @@ class TimeSettings(Block):
 
 
 class Sensitivity(Block):
-    """Variations that are run beside the case."""
+    """Variations that are run in addition to the case."""
 
     damping_fractions: Annotated[tuple[Fraction, ...], Field(max_length=50), AfterValidator(once_each)] = Field(
         default=(), description="Fractions of critical damping."
@@ -320,7 +320,7 @@ class Settings(Block):
     ] = Field(default="auto", description="Sway offsets of the restoring curve: auto, a list, or {from, to, count}.")
     time: TimeSettings = Field(default_factory=TimeSettings, description="How the time domain is run.")
     sensitivity: Sensitivity = Field(
-        default_factory=Sensitivity, description="Variations that are run beside the case."
+        default_factory=Sensitivity, description="Variations that are run in addition to the case."
     )
     water_levels: Annotated[
         Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
@@ -329,7 +329,7 @@ class Settings(Block):
 
 
 class Measured(Block):
-    """Measured points to show beside the results."""
+    """Measured points to show with the results."""
 
     file: FileName = Field(description="CSV, names and units in its header: 'period [s], transmission_coefficient'.")
     columns: dict[str, Annotated[str, Field(min_length=1)]] = Field(
@@ -355,4 +355,4 @@ class BreakwaterCase(Block):
     )
     criteria: BreakwaterKeeps = Field(default_factory=BreakwaterCriteria, description=CRITERIA)
     settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
-    measured: Measured | None = Field(default=None, description="Measured points to show beside the results.")
+    measured: Measured | None = Field(default=None, description="Measured points to show with the results.")

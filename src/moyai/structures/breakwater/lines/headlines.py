@@ -230,7 +230,7 @@ def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:
     if not alike:
         return ""
     words = ", ".join(f"{level} ({kilonewton(value)})" for level, value in alike.items())
-    return f"not told apart from {words} by so few realisations"
+    return f"not distinguished from {words} by so few realisations"
 
 
 def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks: list[LinePeak]) -> list[Headline]:

@@ -158,7 +158,7 @@ def _figure(level: Level, sea: Sea, run: Group, window: tuple[float, float], lin
         series.append(Series("sway, lines in motion", x, pose[keep, 0] * scale, at, 0))
     return Figure(
         key(level, sea.name, run.name, "lines-in-motion-record"),
-        "Lines in motion beside lines at rest",
+        "Lines in motion compared with lines at rest",
         (Abscissa("time", "time", "s"),),
         tuple(panels),
         tuple(series),

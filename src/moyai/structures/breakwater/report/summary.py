@@ -38,7 +38,7 @@ def summary_blocks(result: Result, numbers: tuple[SeaNumbers, ...], decides: Sea
             Paragraph(
                 "Where a sea state was run in both domains the time domain decides lines and offset, since it carries "
                 "the non-linear lines; transmission is that of the frequency domain. Numbers of irregular seas in time "
-                "are means over the realisations. The frequency domain stands beside it as a comparison; a "
+                "are means over the realisations. The frequency domain is given for comparison; a "
                 "tension beyond five times the mean is out of its range.",
                 quiet=True,
             )

@@ -148,7 +148,7 @@ def cage_of(unit: schema.RigidCageStructure, patches: int) -> RigidCage:
     mass_per_area = net.mass_per_area
     if mass_per_area > 0.0 and net.density is None:
         raise InputError(
-            "the density of the twine is missing", path="structure.net", remedy="give 'density' beside 'mass_per_area'"
+            "the density of the twine is missing", path="structure.net", remedy="give 'density' with 'mass_per_area'"
         )
     frame_mass = _frame_mass(unit, rods, floats, mass_per_area * faces.area)
     length = sum(rod.length for rod in rods)

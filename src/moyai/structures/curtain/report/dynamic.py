@@ -1,4 +1,4 @@
-"""The whole span of a curtain through time: moving 3-D view, tensions, peaks with what they are worth, snaps."""
+"""The whole span of a curtain through time: moving 3-D view, tensions, peaks with their uncertainty, snaps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Snaps of a curtain in an irregular sea: found, told apart, counted."""
+"""Snaps of a curtain in an irregular sea: found, distinguished, counted."""
 
 from __future__ import annotations
 

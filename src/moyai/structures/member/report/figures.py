@@ -167,7 +167,7 @@ def force_over_time(level: Group, sea: Group, run: Group) -> Figure | None:
         (Abscissa("time", "time", "s"),),
         tuple(panels),
         tuple(series),
-        "Whole member by direction; inertia, drag and Magnus force beside their sum.",
+        "Whole member by direction; inertia, drag and Magnus force with their sum.",
         window=window,
         slider=window is not None,
         height=140 + 150 * len(panels),

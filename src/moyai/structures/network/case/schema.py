@@ -154,7 +154,7 @@ class NetworkSettings(Block):
     method: Literal["auto", "explicit", "tr_bdf2", "esdirk4"] = Field(
         default="auto",
         description="explicit: steps at the pace of the elastic wave; tr_bdf2, esdirk4: implicit, steps by their "
-        "error, and often quicker beside sheets; auto: explicit.",
+        "error, and often quicker with sheets; auto: explicit.",
     )
     step: AutoDuration = Field(default=None, description="Time step; 'auto': the largest that is safe.")
     wave_front: Truth = Field(

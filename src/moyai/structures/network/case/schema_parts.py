@@ -500,7 +500,7 @@ class _Body(Block):
     added_mass: Coefficients | None = Field(
         default=None,
         description="Added-mass coefficients along its axes, on the displaced mass: loads of a body that is small "
-        "beside the waves, under the moving surface.",
+        "in addition to the waves, under the moving surface.",
     )
     coefficients_file: BodyCoefficients | None = Field(
         default=None,
