@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -119,3 +120,18 @@ def by_weight(notices: Iterable[Notice]) -> tuple[Notice, ...]:
     for notice in notices:
         seen.setdefault(notice.message, notice)
     return tuple(sorted(seen.values(), key=lambda item: _RANK.get(item.severity, len(_RANK))))
+
+
+def most_severe(notices: Iterable[Notice]) -> list[Notice]:
+    """Keep of each kind the notice farthest beyond its limit, or of largest value: one a sea, not one a wave."""
+    kept: dict[str, Notice] = {}
+    for notice in notices:
+        known = kept.get(notice.code)
+        if known is None or _excess(notice) > _excess(known):
+            kept[notice.code] = notice
+    return list(kept.values())
+
+
+def _excess(notice: Notice) -> tuple[float, float]:
+    limited = notice.value > 0.0 and notice.limit > 0.0
+    return abs(math.log(notice.value / notice.limit)) if limited else 0.0, abs(notice.value)

@@ -150,8 +150,8 @@ def more_viscous(network: Network) -> Network:
     nothing would show a peak that does not hang on viscosity.
     """
     bars, sheets = network.bars, network.sheets
-    rubs = sheets is not None and bool(np.any(np.asarray(sheets.damping_time) > 0.0))
-    if not len(bars) or rubs or np.any(bars.of_type("viscosity") > 0.0):
+    damped = sheets is not None and bool(np.any(np.asarray(sheets.damping_time) > 0.0))
+    if not len(bars) or damped or np.any(bars.of_type("viscosity") > 0.0):
         return with_viscosity(network, 2.0)
     longest = [float(np.max(bars.length[bars.kind == kind], initial=0.0)) for kind in range(len(bars.types))]
     types = tuple(

@@ -283,10 +283,10 @@ def sheet_loads(
             for a in range(3):
                 u[a] -= along * n[a] * per
                 slide += u[a] * u[a]
-            hold, rub = across * abs(along), skin * math.sqrt(slide)
+            hold, slip_drag = across * abs(along), skin * math.sqrt(slide)
             facing = (n[0] * light[2, point] + n[1] * light[3, point]) * per
             part = light[0, point] + (light[1, point] - light[0, point]) * facing * facing
-            rate = 2.0 * max(hold * part, rub * light[0, point])
+            rate = 2.0 * max(hold * part, slip_drag * light[0, point])
             fastest = max(fastest, rate)
             quick = ahead * rate
             held = 1.0 / (1.0 + 0.4 * quick * quick * quick * quick)
@@ -298,7 +298,7 @@ def sheet_loads(
             whole = wet * C[t, DISPLACED]
             for a in range(3):
                 step = base + a * axis
-                F[f0 + step] += push * n[a] * per + held * rub * u[a]
+                F[f0 + step] += push * n[a] * per + held * slip_drag * u[a]
                 F[f0 + step] += rise * C[t, FACE + a] + whole * W[w0 + step + 3 * axis]
             F[f0 + base + 2 * axis] += wet * C[t, LIFT]
     return fastest

@@ -97,11 +97,11 @@ def check_sinker(sinker: Sinker, horizontal: float, uplift: float) -> AnchorChec
     Returns
     -------
     AnchorCheck
-        [eq:checks-sinker]; the uplift is taken off the weight that rubs.
+        [eq:checks-sinker]; the uplift is taken off the weight on the bed.
     """
     factor, up = sinker.safety_factor, max(uplift, 0.0)
-    rubbing = sinker.submerged_weight - factor * up
-    sliding = math.inf if rubbing <= 0.0 else factor * abs(horizontal) / (sinker.friction * rubbing)
+    resting = sinker.submerged_weight - factor * up
+    sliding = math.inf if resting <= 0.0 else factor * abs(horizontal) / (sinker.friction * resting)
     return AnchorCheck(sliding, factor * up / sinker.submerged_weight)
 
 

@@ -239,7 +239,7 @@ def test_lines_in_motion_that_do_not_fit_the_rest_of_the_case_are_named(tmp_path
     words = text()
     for changed, told in (
         (words.replace("analysed_periods: 3", "memory: convolution"), "as states"),
-        (words.replace("anchor: {x: 211.5 cm}", "anchor: {x: 211.5 cm}\n    bed_friction: 0.4"), "rubs with 0.4"),
+        (words.replace("anchor: {x: 211.5 cm}", "anchor: {x: 211.5 cm}\n    bed_friction: 0.4"), "bed friction of 0.4"),
     ):
         assert changed != words
         path.write_text(changed)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import STOPPED, Collected, most_severe
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
@@ -127,24 +126,8 @@ def _sea_steps(
         else:
             collected.checks.append(_periodicity(sea.name, wave, found))
         yield
-    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in _gravest(told))
+    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
     progress(f"forces, {sea.name}", len(waves), len(waves))
-
-
-def _gravest(notices: list[Notice]) -> list[Notice]:
-    """Keep of each kind the notice farthest beyond its limit: one message a sea, not one a wave."""
-    kept: dict[str, Notice] = {}
-    for notice in notices:
-        known = kept.get(notice.code)
-        if known is None or _excess(notice) > _excess(known):
-            kept[notice.code] = notice
-    return list(kept.values())
-
-
-def _excess(notice: Notice) -> float:
-    if not (notice.value > 0.0 and notice.limit > 0.0):
-        return 0.0
-    return abs(math.log(notice.value / notice.limit))
 
 
 def _periodicity(name: str, wave: Wave, found: WaveForces) -> IdentityCheck:

@@ -102,8 +102,8 @@ def _check_lines_in_motion(model: BreakwaterCase, findings: Findings) -> None:
         if line.bed_friction != first.bed_friction:
             findings.fault(
                 ("lines", other, "bed_friction"),
-                f"line '{line.name}' rubs with {line.bed_friction:g} on the bed, '{first.name}' with "
-                f"{first.bed_friction:g}",
+                f"line '{line.name}' has a bed friction of {line.bed_friction:g}, '{first.name}' "
+                f"of {first.bed_friction:g}",
                 allowed="one value for all lines in motion",
                 remedy="give them the same 'bed_friction', or set dynamic: false",
             )

@@ -138,12 +138,12 @@ def bed_of(unit: FloatingUnit, lines: list[MooringLine], dynamics: LineDynamics)
     Raises
     ------
     InputError
-        When lines rub differently on the one bed.
+        When lines have different friction on the one bed.
     """
     frictions = {line.bed_friction for line in lines}
     if len(frictions) > 1:
         raise InputError(
-            f"lines in motion rub with {', '.join(f'{value:g}' for value in sorted(frictions))} on the bed",
+            f"lines in motion have a friction of {', '.join(f'{value:g}' for value in sorted(frictions))} on the bed",
             path="lines.bed_friction",
             allowed="one value for all lines in motion",
         )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.collected import STOPPED, Collected
+from moyai.core.collected import STOPPED, Collected, most_severe
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import Notice
@@ -171,7 +171,7 @@ def _sea_steps(
                 f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
             )
         yield
-    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in _gravest(told))
+    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
     progress(f"time, {sea.name}", len(waves), len(waves))
 
 
@@ -197,16 +197,6 @@ def _sensitivity_steps(
     if found is not None:
         collected.groups[f"{root}/sensitivity/{sea.name}"] = found
     yield
-
-
-def _gravest(notices: list[Notice]) -> list[Notice]:
-    """Keep of each kind the first notice: one message a sea, not one a wave."""
-    kept: dict[str, Notice] = {}
-    for notice in notices:
-        known = kept.get(notice.code)
-        if known is None or abs(notice.value) > abs(known.value):
-            kept[notice.code] = notice
-    return list(kept.values())
 
 
 def _result(problem: RigidCageProblem, collected: Collected) -> Result:

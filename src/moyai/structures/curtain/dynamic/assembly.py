@@ -228,8 +228,8 @@ def _bars(
         half = 0.5 * support.stiffness
         # a straight line without mass: its own waves are left out, its mass stands with the buoy
         mass = 1e-3 * support.mass / support.line_length
-        rub = MESH_DAMPING * math.sqrt(half / support.line_length * support.mass) * support.line_length
-        types.append(BarType("anchor line", mass, half, 0.0, volume_per_length=0.0, viscosity=rub))
+        viscosity = MESH_DAMPING * math.sqrt(half / support.line_length * support.mass) * support.line_length
+        types.append(BarType("anchor line", mass, half, 0.0, volume_per_length=0.0, viscosity=viscosity))
         tops = grid[[0, 0, -1, -1], 0]
         anchors = grid.size + np.arange(4)
         start.append(tops)
