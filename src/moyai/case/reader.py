@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from moyai.case.faults import Translator, did_you_mean, nearest
+from moyai.case.paths import assign, resolve
 from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, Notes
-from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
-from moyai.core.errors import CaseError, Fault
+from moyai.case.yaml_reader import Document, KeyPath, dotted, parse_yaml, read_yaml
+from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.kinds import structure_kinds
 from moyai.core.units import plain_text
 
@@ -65,14 +69,55 @@ class Case:
         """Folder of the file, from which it names other files."""
         return self.path.parent
 
+    def replace(self, path: str | Mapping[str, Any], value: Any = None) -> Case:
+        """Return the case with other values, checked as a file is.
 
-def load_case(path: str | os.PathLike[str]) -> Case:
-    """Read a case file.
+        Parameters
+        ----------
+        path : str or mapping
+            Where: keys joined by dots, entries of a list in brackets by number, name or ``*``; or several such paths
+            with their values.
+        value : object
+            As the file would hold it: a number in SI units, text with a unit, a list, a block.
+
+        Returns
+        -------
+        Case
+            Its text holds the values of now, without the comments of the file.
+
+        Raises
+        ------
+        InputError
+            When the case has no such place, with the nearest that it has.
+        CaseError
+            When the changed case is faulty.
+
+        Examples
+        --------
+        >>> import moyai
+        >>> case = moyai.load_case(moyai.template("breakwater"))
+        >>> deeper = case.replace("structure.draught", "3.2 m")
+        >>> deeper.model.structure.draught
+        3.2
+        >>> both = case.replace({"site.water_depth": 12.0, "lines[*].segments[0].length": "110 m"})
+        >>> both.model.lines[1].segments[0].length
+        110.0
+        """
+        data = copy.deepcopy(self.document.data)
+        for where, what in (path if isinstance(path, Mapping) else {path: value}).items():
+            for place in resolve(data, where):
+                assign(data, place, copy.deepcopy(what))
+        return case_of(parse_yaml(written(data), f"{self.path} (changed)"), self.path)
+
+
+def load_case(source: str | os.PathLike[str] | Mapping[str, Any]) -> Case:
+    """Read a case.
 
     Parameters
     ----------
-    path : path-like
-        YAML file, UTF-8.
+    source : path-like, str or mapping
+        A YAML file, UTF-8; its text, known by its line breaks; or its content. Without a file, other files are named
+        from the folder of work.
 
     Returns
     -------
@@ -82,8 +127,46 @@ def load_case(path: str | os.PathLike[str]) -> Case:
     ------
     CaseError
         With every fault of the file at once, each with line and column.
+    InputError
+        For content that no file can hold.
+
+    Examples
+    --------
+    >>> import moyai
+    >>> moyai.load_case(moyai.template("breakwater")).kind
+    'breakwater'
     """
-    return case_of(read_yaml(path), Path(path))
+    if isinstance(source, Mapping):
+        source = written(source)
+    if isinstance(source, str) and "\n" in source:
+        return case_of(parse_yaml(source, "case"), Path("case.yaml"))
+    return case_of(read_yaml(source), Path(source))
+
+
+def written(content: Any) -> str:
+    """Return the content of a case as the text of a file.
+
+    Raises
+    ------
+    InputError
+        For values that no file can hold.
+    """
+    import yaml
+
+    try:
+        return str(yaml.safe_dump(_plain(content), sort_keys=False, allow_unicode=True, width=120))
+    except yaml.YAMLError as error:
+        raise InputError(
+            f"a value cannot be written into a case file: {error}", path="case", allowed="numbers, text, lists, blocks"
+        ) from None
+
+
+def _plain(content: Any) -> Any:
+    if isinstance(content, Mapping):
+        return {str(key): _plain(value) for key, value in content.items()}
+    if isinstance(content, list | tuple | np.ndarray):
+        return [_plain(value) for value in content]
+    return content.item() if isinstance(content, np.generic) else content
 
 
 def case_of(document: Document, path: Path) -> Case:

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from moyai.case.paths import assign, remove, resolve
 from moyai.case.yaml_reader import Document
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
 from moyai.core.units import Dimension
-from moyai.study.paths import assign, remove, resolve
 
 Assignments = tuple[tuple[str, Any], ...]
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from moyai.case.paths import resolve, value_of
 from moyai.case.reader import case_of, read_block
 from moyai.case.yaml_reader import Document, KeyPath, read_yaml
 from moyai.core.arrays import Array
@@ -22,7 +23,6 @@ from moyai.core.results import Result, make_provenance
 from moyai.records.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
 from moyai.study.axes import Combination, varied
-from moyai.study.paths import resolve, value_of
 from moyai.study.plan import RunCase
 from moyai.study.responses import read_response
 from moyai.study.variations import common_unit

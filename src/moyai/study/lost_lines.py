@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from moyai.case.paths import resolve, value_of
 from moyai.core.errors import InputError
 from moyai.study import schema
 from moyai.study.axes import Axis, Ground, Point
-from moyai.study.paths import resolve, value_of
 
 
 def lines_lost(given: schema.LinesLost | bool, ground: Ground) -> tuple[Axis, ...]:

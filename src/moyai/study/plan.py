@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from moyai.case.paths import resolve
 from moyai.case.reader import Case, case_of, read_block
 from moyai.case.yaml_reader import Document, KeyPath, dotted, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.study import schema
 from moyai.study.axes import Axis, Combination, Ground, Point, combinations, varied, without
-from moyai.study.paths import resolve
 from moyai.study.plan_faults import check_kind, check_names, check_search, place_of, unknown_keys
 from moyai.study.responses import Wanted
 from moyai.study.variations import axes_of, wrong_paths

@@ -6,12 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from moyai.case.paths import resolve
 from moyai.case.reader import case_of
 from moyai.case.yaml_reader import Document, KeyPath, dotted
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.study import schema
 from moyai.study.axes import Assignments, Axis, Combination, varied
-from moyai.study.paths import resolve
 from moyai.study.variations import common_unit
 
 

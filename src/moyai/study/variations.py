@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from moyai.case.paths import resolve
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
 from moyai.study import schema
 from moyai.study.axes import Axis, Ground, Point
 from moyai.study.lost_lines import lines_lost
-from moyai.study.paths import resolve
 from moyai.study.variations_of_files import contour, scatter, spectra, table
 
 

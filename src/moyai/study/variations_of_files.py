@@ -7,10 +7,10 @@ import math
 from pathlib import Path
 from typing import Any
 
+from moyai.case.paths import resolve, value_of
 from moyai.core.errors import InputError
 from moyai.study import schema
 from moyai.study.axes import Axis, Ground, Point
-from moyai.study.paths import resolve, value_of
 from moyai.study.scatter import read_scatter
 
 _OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")

@@ -8,13 +8,13 @@ import pytest
 import study_cases
 from scipy.stats import norm
 
+from moyai.case.paths import resolve, value_of
 from moyai.case.reader import load_case
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError
 from moyai.study.axes import Ground
 from moyai.study.lost_lines import lines_lost
-from moyai.study.paths import resolve, value_of
 from moyai.study.plan import case_at, load_study
 from moyai.study.scatter import read_scatter
 

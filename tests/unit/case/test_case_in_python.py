@@ -1,0 +1,44 @@
+"""Cases made and changed in Python: the same as the file that says so."""
+
+import numpy as np
+import pytest
+
+import moyai
+from moyai.core.errors import CaseError, InputError
+
+TEXT = moyai.template("breakwater")
+
+
+def test_text_mapping_and_file_are_one_case(tmp_path):
+    path = tmp_path / "case.yaml"
+    path.write_text(TEXT, encoding="utf-8")
+    from_file, from_text = moyai.load_case(path), moyai.load_case(TEXT)
+    assert from_file.case_hash == from_text.case_hash == moyai.load_case(from_text.document.data).case_hash
+    assert from_file.replace({}).case_hash == from_file.case_hash
+
+
+def test_changed_values_are_those_of_a_file_that_says_so():
+    case = moyai.load_case(TEXT)
+    changed = case.replace({"structure.draught": "3.2 m", "waves[storm].significant_height": np.float64(1.1)})
+    written = TEXT.replace("draught: 3 m ", "draught: 3.2 m ").replace(
+        "significant_height: 1.2 m", "significant_height: 1.1 m"
+    )
+    assert written != TEXT
+    assert changed.case_hash == moyai.load_case(written).case_hash
+    assert moyai.load_case(changed.text).case_hash == changed.case_hash
+    assert case.model.structure.draught == 3.0 and changed.folder == case.folder
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "error", "words"),
+    [
+        ("structure.draught", "-1 m", CaseError, "structure.draught"),
+        ("structure.draugt", "3 m", CaseError, "unknown key 'draugt'"),
+        ("structur.draught", "3 m", InputError, "did you mean 'structure'"),
+        ("lines[9].count", 2, InputError, "lines"),
+        ("structure.draught", object(), InputError, "cannot be written into a case file"),
+    ],
+)
+def test_faults_of_a_change_are_named(path, value, error, words):
+    with pytest.raises(error, match=words.replace("[", r"\[")):
+        moyai.load_case(TEXT).replace(path, value)
