@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
-COMPILING = "compiling numerical kernels, once after an installation: about a minute"
+COMPILING = "compiling numerical kernels, once after an installation: one to two minutes"
 
 app = typer.Typer(
     name="moyai",
