@@ -229,3 +229,17 @@ def test_notices_name_number_and_limit():
     laminar = CoefficientRule("stokes_wang", "stokes_wang").at(circle, Conditions(0.1, 3e3, 1690.0))
     assert laminar.notices == ()
     assert laminar.inertia[0, 0] == pytest.approx(2.0549, abs=1e-4)
+
+
+@pytest.mark.parametrize(("form", "speed"), [("component", (3.0, 4.0)), ("vector", (5.0, 5.0))])
+def test_drag_inertia_and_lift_of_a_strip_by_hand(form, speed):
+    """0.5 rho C_D b u |u| with u = (3, -4) m/s, rho A C_M a, rho Gamma |u| across the flow."""
+    found = strip_forces(
+        [3.0, -4.0], [0.2, 0.7], density=1025.0, area=0.3, inertia=[1.8, 2.1], drag=[1.2, 0.7], drag_widths=[0.5, 2.0],
+        circulation=0.4, form=form,
+    )  # fmt: skip
+    # 0.5 * 1025 * 1.2 * 0.5 = 307.5 and 0.5 * 1025 * 0.7 * 2 = 717.5 N s2/m3
+    np.testing.assert_allclose(found.drag, [307.5 * 3.0 * speed[0], -717.5 * 4.0 * speed[1]], rtol=1e-12)
+    np.testing.assert_allclose(found.inertia, [1025.0 * 0.3 * 1.8 * 0.2, 1025.0 * 0.3 * 2.1 * 0.7], rtol=1e-12)
+    assert math.hypot(*found.magnus) == pytest.approx(1025.0 * 0.4 * 5.0, rel=1e-12)
+    assert np.dot(found.magnus, [3.0, -4.0]) == pytest.approx(0.0, abs=1e-9)
