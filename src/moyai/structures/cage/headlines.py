@@ -20,14 +20,14 @@ from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 if TYPE_CHECKING:
     import xarray as xr
 
-STATICS, DYNAMIC = "rest in the current of the site", "run through time"
+STATICS, DYNAMIC = "equilibrium in the current of the site", "run through time"
 RIGID = "rigid cage, run through time"
 Groups = Mapping[str, "xr.Dataset"]
 
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """The rest in the current of the site at one water level."""
+    """The equilibrium in the current of the site at one water level."""
 
     level: str
     speed: float
@@ -99,7 +99,7 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
 
 
 def _state(level: str, groups: Groups) -> _State | None:
-    """Return the rest in the current of the site, not the fastest of the sweep."""
+    """Return the equilibrium in the current of the site, not the fastest of the sweep."""
     statics = groups.get(f"/{level}/statics")
     if statics is None:
         return None
@@ -211,7 +211,9 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     everything = run["line_tension_maximum"].values
     if float(everything.max()) > 1.01 * value:
         name = str(run["line"].values[int(np.argmax(everything))])
-        details.append(f"most of its breaking load; {name} bears {float(everything.max()) / 1e3:.3g} kN")
+        details.append(
+            f"nearest to its breaking load; the largest tension of all is {float(everything.max()) / 1e3:.3g} kN, in {name}"
+        )
     if not int(run.attrs["regular"]):
         details.append(
             f"realised Hs {float(run.attrs['realised_height']):.2f} m of {float(run.attrs['wave_height']):.2f} m asked"
@@ -272,7 +274,7 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             at = int(np.argmax(pulls))
             pull = float(pulls[at])
             band = None if level not in by_level else by_level[level].band_in_sea("anchor_pull", pull)
-            found.append((pull, f"{names[anchors[at]]}, {where}", DYNAMIC, "", band))
+            found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, "", band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
             pulls = state.statics["anchor_pull"].values[state.row]

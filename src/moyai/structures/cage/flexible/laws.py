@@ -36,7 +36,7 @@ def choice_of(model: FlexibleCage, speed: float) -> LawChoice:
 def laws_dataset(
     model: FlexibleCage, rest: CageRest, calm: CageRest, speed: float, heading: float, progress: Progress = silent
 ) -> xr.Dataset:
-    """Return the rest in the current of the site under the law of the case and under every other valid one.
+    """Return the equilibrium in the current of the site under the law of the case and under every other valid one.
 
     Parameters
     ----------
