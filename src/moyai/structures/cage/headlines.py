@@ -210,10 +210,8 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     words, details = [], []
     everything = run["line_tension_maximum"].values
     if float(everything.max()) > 1.01 * value:
-        name = str(run["line"].values[int(np.argmax(everything))])
-        details.append(
-            f"nearest to its breaking load; the largest tension of all is {float(everything.max()) / 1e3:.3g} kN, in {name}"
-        )
+        name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
+        details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
     if not int(run.attrs["regular"]):
         details.append(
             f"realised Hs {float(run.attrs['realised_height']):.2f} m of {float(run.attrs['wave_height']):.2f} m asked"
