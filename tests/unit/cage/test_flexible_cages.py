@@ -27,7 +27,7 @@ from moyai.structures.cage.flexible.loads import drag_split
 from moyai.structures.cage.flexible.model import CageDesign, CageMesh, CageNet, FixedCollar, FlexibleCage, Sinkers
 from moyai.structures.cage.flexible.parts import enclosed_volume
 from moyai.structures.cage.flexible.problem import FlexibleSettings
-from moyai.structures.cage.flexible.time import run_cage
+from moyai.structures.cage.flexible.time import run_cage, time_dataset
 from moyai.structures.cage.flexible.wake import flow_factors
 from moyai.structures.cage.rigid.waves import regular_wave
 from moyai.tables.lines import line_type
@@ -327,6 +327,27 @@ def test_waves_move_the_cage_and_energy_does_not_appear() -> None:
     split = drag_split(rest.built, rest.network, place, np.zeros_like(place), flow.at(float(history.time[-1]), place.T))
     assert np.isfinite(split).all()
     assert isinstance(flow, Flow)
+
+
+def test_pictures_of_a_long_run_play_what_was_computed_about_the_governing_moment() -> None:
+    model, rest = at_sea(0.3)
+    wave = replace(regular_wave(1.2, 5.0, 0.0, SEA, 0.3, 12), regular=False)
+    settings = FlexibleSettings(("time",), ramp_periods=2.0, rows_per_period=24, frames=60)
+    record = time_dataset(model, run_cage(model, rest, wave, settings), settings)
+    shown, time = record["frame_time"].values, record["time"].values
+    assert shown.size == 60 and np.diff(shown).max() < 5.0 / 11.9
+    moment = record.attrs["governing_time"]
+    assert np.abs(shown - moment).min() < 1e-9 and moment >= record.attrs["ramp"]
+    peaks = record["line_tension_peak_since_row"].values[time >= record.attrs["ramp"]].max(axis=0)
+    line = int(np.argmax(record["utilisation"].values))
+    at = int(np.argmin(np.abs(time - moment)))
+    assert record["line_tension_peak_since_row"].values[at, line] == peaks[line]
+    # the collar as it is played against the collar as it was computed
+    inside = (time >= shown[0]) & (time <= shown[-1])
+    heave = record["position"].values[:, rest.built.cages[0].collar[0], 2].mean(axis=1)
+    played = np.interp(time[inside], shown, heave)
+    computed = record["collar_place"].values[inside, 0, 2]
+    assert np.corrcoef(played, computed)[0, 1] > 0.99
 
 
 def test_a_shape_of_four_sides_is_symmetric() -> None:

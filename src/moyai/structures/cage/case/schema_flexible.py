@@ -251,7 +251,10 @@ class FlexibleCageSettings(Block):
         default=3.0, description="Periods over which the waves grow from nothing. Default: 3."
     )
     rows_per_period: Samples = Field(default=40, description="Rows written in a wave period. Default: 40.")
-    frames: Samples = Field(default=120, description="Pictures kept of every run. Default: 120.")
+    frames: Samples = Field(
+        default=120,
+        description="Pictures kept of a run, twelve a wave period or more about its governing moment. Default: 120.",
+    )
     stretching: Literal["constant", "wheeler"] = Field(
         default="wheeler", description="Kinematics above still water: frozen at it, or stretched."
     )

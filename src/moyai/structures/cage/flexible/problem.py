@@ -35,7 +35,7 @@ class FlexibleSettings:
     rows_per_period : int
         Rows of the result in a wave period (the peak period of a spectrum).
     frames : int
-        Pictures kept of every run.
+        Pictures kept of a run, twelve a wave period or more about its governing moment.
     stretching : str
         Kinematics above still water.
     slack_share, snap_factor : float

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: Rows at which the split of the drag is told, at most.
-_DRAG_ROWS = 200
+#: Rows at which the split of the drag is given, at most, and pictures kept in a wave period, at least.
+_DRAG_ROWS, _PICTURES_PER_PERIOD = 200, 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +118,9 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
     volume = np.stack([cage.volume(history.position) / cage.rest_volume for cage in built.cages], axis=1)
     rows = np.unique(np.linspace(int(np.argmax(steady)), len(time) - 1, _DRAG_ROWS).astype(np.int64))
     drag = _drag_rows(run, rows)
-    kept = np.unique(np.linspace(0, len(time) - 1, settings.frames).astype(np.int64))
+    lines = _line_series(run, settings, steady)
+    governing = _governing_row(lines, volume, steady)
+    kept = picture_rows(len(time), governing, settings.frames, settings.rows_per_period)
     middle = np.array([[0.0], [0.0], [0.0]])
     surface = np.array([float(run.flow.at(float(now), middle)[6, 0]) for now in time])
     size = np.linalg.norm(drag, axis=2)
@@ -134,7 +136,7 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
         "drag_largest": ("part", size.max(axis=0)),
         "position": (("frame", "node", "axis"), history.position[kept]),
         "tension": (("frame", "bar"), history.tension[kept]),
-        **_line_series(run, settings, steady),
+        **lines,
     }
     if built.cages[0].collar_bars and not model.design.collar.rigid:
         stress = np.array(
@@ -162,11 +164,40 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
             attrs={
                 "wave": run.wave.name, "wave_height": run.wave.height, "period": run.wave.period,
                 "wavelength": run.wave.wavelength, "ramp": run.ramp, "step": history.step, "steps": history.steps,
-                "status": history.status, "regular": int(run.wave.regular),
+                "governing_time": float(time[governing]), "status": history.status, "regular": int(run.wave.regular),
                 "realised_height": 4.0 * float(surface[steady].std()), **wave_attributes(run.wave),
             },
         )
     )  # fmt: skip
+
+
+def picture_rows(rows: int, governing: int, count: int, rows_per_period: int) -> NDArray[np.int64]:
+    """Return the rows of which pictures are kept: the whole run where that gives enough, else about the governing one.
+
+    Parameters
+    ----------
+    rows : int
+        Rows of the run.
+    governing : int
+        Row of the governing moment, always among the pictures.
+    count : int
+        Pictures at most.
+    rows_per_period : int
+        Rows in a wave period; a period gets at least twelve pictures, or every row.
+    """
+    stride = max(rows_per_period // _PICTURES_PER_PERIOD, 1)
+    behind = governing % stride + stride * np.arange((rows - 1 - governing % stride) // stride + 1)
+    first = int(np.clip(governing // stride - count // 2, 0, max(behind.size - count, 0)))
+    return behind[first : first + count].astype(np.int64)
+
+
+def _governing_row(lines: dict[str, tuple[object, Array]], volume: Array, steady: NDArray[np.bool_]) -> int:
+    """Return the row of the largest use of a line after the ramp; without lines, that of the least volume."""
+    measure = volume.min(axis=1)
+    if lines:
+        line = int(np.argmax(lines["utilisation"][1]))
+        measure = -lines["line_tension_peak_since_row"][1][:, line]
+    return int(np.argmin(np.where(steady, measure, np.inf)))
 
 
 def wave_attributes(wave: Wave) -> dict[str, Array]:

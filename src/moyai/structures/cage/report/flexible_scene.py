@@ -133,15 +133,17 @@ def run_view(level: Level, sea: str, run: Group) -> Animation | None:
     time, position, tension = time[good], position[good][:, kept], tension[good][:, keep]
     bars, thin, faces, markers, names = _near(parts, keep, kept)
     period = float(run.attributes.get("period", math.nan))
-    length = _WINDOW_PERIODS * period
+    length, moment = _WINDOW_PERIODS * period, float(run.attributes.get("governing_time", math.nan))
     window = (float(time[0]), float(time[-1]))
     if math.isfinite(length) and window[1] - window[0] > length:
-        window = (window[1] - length, window[1])
-    rows = frame_rows(time, nodes=position.shape[1], bars=len(bars), window=window)
+        centre = moment if math.isfinite(moment) else window[1]
+        start = min(max(centre - 0.5 * length, window[0]), window[1] - length)
+        window = (start, start + length)
+    rows = frame_rows(time, nodes=position.shape[1], bars=len(bars), window=window, moments=(moment,))
     scene = Scene3D(
         time[rows], position[rows], bars, tension[rows], thin, faces, markers, traces=_traces(level, run, names),
         waves=_waves(run), current=_current(level, float(level.group.attributes.get("current", 0.0))), window=window,
-        names=names,
+        names=names, maximum=moment,
     )  # fmt: skip
     return animation_3d(
         key(level, sea, run.name, "view"),
