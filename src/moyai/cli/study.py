@@ -108,6 +108,8 @@ def study(
                 }
             )
         elif not quiet:
+            for words in answers_of_search(result):
+                say(words)
             say(f"{result.status}: {result.message} in {seconds:.1f} s")
             for path in files:
                 say(f"  {path}")
@@ -222,6 +224,30 @@ def _print_plan(file: Path, record: dict[str, Any]) -> None:
     say(f"  about {record['expected_megabytes']:.2g} MB of results")
 
 
+def answers_of_search(result: Result, most: int = 12) -> list[str]:
+    """Return what a search found, a line a case: the values, what was to be least, what governs."""
+    from moyai.report.formatting import format_quantity
+    from moyai.study.found import found_by_search
+    from moyai.study.report.reading import read_study
+
+    pages, found = read_study(result), found_by_search(result)
+    lines = []
+    for one in found[:most]:
+        where = pages.case_words(one.index)
+        parts = [
+            f"{path} = {format_quantity(value, unit, 4)}" if value == value else f"no {path} in the range holds"
+            for path, value, unit in one.values
+        ]
+        if one.objective is not None:
+            name, least, unit = one.objective
+            parts.append(f"least {name} {format_quantity(least, unit, 4)}")
+        parts.append(f"governed by {' and '.join(one.governing)}" if one.governing else "no limit governs")
+        lines.append((f"{where}: " if where else "") + "; ".join(parts))
+    if len(found) > most:
+        lines.append(f"and {_count(len(found) - most, 'case')} more in the report and study.csv")
+    return lines
+
+
 def _count(number: int, word: str) -> str:
     return f"{number} {word}" if number == 1 else f"{number} {word}s"
 
@@ -240,6 +266,8 @@ class _Teller:
         self.told = time.monotonic()
 
     def __call__(self, standing: Standing) -> None:
+        from moyai.report.formatting import format_quantity
+
         now = time.monotonic()
         if self.each and not self.silent and standing.latest is not None:
             tell(self._case(standing))
@@ -254,12 +282,15 @@ class _Teller:
         for word, entry in (("largest", standing.largest), ("smallest", standing.smallest)):
             if entry is not None:
                 where = ", ".join(self.plan.cases[entry[1]].labels)
-                parts.append(f"{word} {self.plan.watch} {entry[0]:.4g}" + (f" ({where})" if where else ""))
+                value = format_quantity(entry[0], standing.unit, 4)
+                parts.append(f"{word} {self.plan.watch} {value}" + (f" ({where})" if where else ""))
         tell("; ".join(parts))
 
     def _case(self, standing: Standing) -> str:
         """Return the line of the case that ended last."""
         import numpy as np
+
+        from moyai.report.formatting import format_quantity
 
         record = standing.latest
         assert record is not None
@@ -270,7 +301,7 @@ class _Teller:
         item = record.values.get(self.plan.watch)
         if item is not None and np.isfinite(np.asarray(item["values"], dtype=float)).any():
             largest, unit = float(np.nanmax(item["values"])), item["units"]
-            text += f", {largest:.4g}" + (f" {unit}" if unit not in ("", "1") else "")
+            text += f", {format_quantity(largest, unit, 4)}"
         return text + (f": {record.message}" if record.status != "converged" and record.message else "")
 
 

@@ -38,6 +38,8 @@ class Standing:
         Of the watched response: value and number of the case.
     latest : Record or None
         The case that ended last.
+    unit : str
+        Of the watched response.
     """
 
     done: int
@@ -47,6 +49,7 @@ class Standing:
     largest: tuple[float, int] | None
     smallest: tuple[float, int] | None
     latest: Record | None = None
+    unit: str = "1"
 
 
 Watcher = Callable[[Standing], None]
@@ -144,6 +147,7 @@ class _Watching:
         self.before = self.done
         self.started = time.monotonic()
         self.extremes: list[tuple[float, int]] = []
+        self.unit = "1"
         for record in known.values():
             self._look(record)
 
@@ -154,6 +158,7 @@ class _Watching:
         values = np.asarray(item["values"], dtype=float)
         if np.isfinite(values).any():
             entry = (float(np.nanmax(values)), record.index)
+            self.unit = str(item["units"])
             self.extremes = [min([*self.extremes, entry]), max([*self.extremes, entry])]
 
     def tell(self, record: Record) -> None:
@@ -165,4 +170,4 @@ class _Watching:
             rate = (self.done - self.before) / max(time.monotonic() - self.started, 1e-9)
             left = (self.total - self.done) / rate if rate > 0 else math.nan
             smallest, largest = (self.extremes[0], self.extremes[-1]) if self.extremes else (None, None)
-            self.watch(Standing(self.done, self.total, self.failed, left, largest, smallest, record))
+            self.watch(Standing(self.done, self.total, self.failed, left, largest, smallest, record, self.unit))

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.case.reader import Case, case_of
+from moyai.core.arrays import Array
 from moyai.core.errors import CaseError, InputError
 from moyai.core.progress import Progress
 from moyai.core.quantities import parse_quantity
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 _INSIDE = 5e-4
 """Distance from a limit that an optimum keeps, relative to the limit."""
+_GOVERNS = 0.02
+"""Relative distance within which a limit, or share of the range within which its end, is said to govern an optimum."""
 
 
 @dataclass(frozen=True)
@@ -176,7 +179,7 @@ class OptimiseRun:
         limits = self.limits
         if self.trade_off:
             limits = (*limits, Limit(self.trade_off, float(self.options["@at_most"]), 1))
-        seen: dict[tuple[float, ...], tuple[float, float]] = {}
+        seen: dict[tuple[float, ...], tuple[float, Array]] = {}
         units = ["1"]
 
         def evaluate(place: np.ndarray) -> tuple[float, float]:
@@ -187,14 +190,14 @@ class OptimiseRun:
                           for (path, low, high, unit), at in zip(ranges, key)}  # fmt: skip
                 try:
                     tree = _tree(self.run, case, change, progress)
-                    excess = max((one.excess(tree) for one in limits), default=-1.0)
+                    excess = np.array([one.excess(tree) for one in limits])
                     seen[key] = (read_response(tree, self.minimise), excess)
                     units[0] = str(find_response(tree, self.minimise).attrs.get("units", "1"))
                 except CaseError:
                     # A refused combination (a line that cannot reach) lies outside; the search turns back from it
-                    seen[key] = (math.inf, math.inf)
+                    seen[key] = (math.inf, np.full(len(limits), math.inf))
                 progress("optimise", len(seen), self.starts * self.evaluations)
-            return seen[key]
+            return seen[key][0], float(seen[key][1].max(initial=-1.0))
 
         scale = [1.0]
 
@@ -223,42 +226,55 @@ class OptimiseRun:
     def _result(
         self,
         ranges: Sequence[tuple[str, float, float, str]],
-        seen: dict[tuple[float, ...], tuple[float, float]],
+        seen: dict[tuple[float, ...], tuple[float, Array]],
         limits: tuple[Limit, ...],
         objective_unit: str,
     ) -> Result:
         import xarray as xr
 
-        holding = {key: value for key, value in seen.items() if value[1] <= 0.0 and math.isfinite(value[0])}
+        worst = {key: float(excess.max(initial=-1.0)) for key, (_, excess) in seen.items()}
+        holding = {key: value for key, (value, _) in seen.items() if worst[key] <= 0.0 and math.isfinite(value)}
         if not holding:
-            nearest = min(value[1] for value in seen.values())
+            nearest = min(worst.values())
             raise InputError(
                 f"no combination within the ranges holds all limits (nearest: {100 * nearest:.3g} % beyond)",
                 path="optimise.subject_to",
                 remedy="widen the ranges or loosen the limits",
             )
-        best = min(holding, key=lambda key: holding[key][0])
+        best = min(holding, key=lambda key: holding[key])
+        place = np.array(best)
         data: dict[str, Any] = {
             "objective": (
                 (),
-                holding[best][0],
+                holding[best],
                 {"units": objective_unit, "long_name": f"least {self.minimise}"},
             ),
-            "margin": ((), -holding[best][1], {"units": "1", "long_name": "least relative distance from the limits"}),
+            "margin": ((), -worst[best], {"units": "1", "long_name": "least relative distance from the limits"}),
             "runs": ((), float(len(seen)), {"units": "1", "long_name": "cases run"}),
             "best": (
                 ("variable",),
                 [(low + at * (high - low)) * _si_factor(unit) for (_, low, high, unit), at in zip(ranges, best)],
                 {"units": "1", "long_name": "best values, in the units of their names"},
             ),
+            "governing": (
+                ("limit_of",),
+                (seen[best][1] > -_GOVERNS).astype(float),
+                {"units": "1", "long_name": "1 where the limit of this response governs"},
+            ),
+            "at_end": (
+                ("variable",),
+                (place > 1.0 - _GOVERNS).astype(float) - (place < _GOVERNS),
+                {"units": "1", "long_name": "-1 or 1 where the lower or upper end of the range governs"},
+            ),
         }
         names = [f"{path} [{_si_name(unit)}]" if unit else path for path, _, _, unit in ranges]
+        coords = {"variable": names, "limit_of": [one.response for one in limits]}
         found = ", ".join(
             f"{path} = {low + at * (high - low):.4g} {unit}".rstrip()
             for (path, low, high, unit), at in zip(ranges, best)
         )
         return Result(
-            xr.DataTree.from_dict({"/": xr.Dataset(), "/optimum": xr.Dataset(data, coords={"variable": names})}),
+            xr.DataTree.from_dict({"/": xr.Dataset(), "/optimum": xr.Dataset(data, coords=coords)}),
             message=f"{found}: best of {len(seen)} runs, {len(limits)} limits",
         )
 

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 import study_cases
 
+from moyai.cli.study import answers_of_search
 from moyai.core.errors import CaseError, InputError
+from moyai.report.writer import write_report
 from moyai.study.execute import run_study
+from moyai.study.found import found_by_search
 from moyai.study.plan import case_at, load_study
 from moyai.study.trial import require_responses, runs_of_search
 
@@ -55,6 +58,28 @@ def test_the_shortest_line_that_holds_its_tension_is_found_along_a_trade_off(tmp
         assert word.startswith(f"lines[*].segments[0].length = {best:.4g} m: best of"), "the case says what was found"
     assert list(result.tree["optimum"]["best"].coords["variable"].values) == ["lines[*].segments[0].length [m]"]
     assert np.allclose(result.tree["optimum"]["best"].values.ravel(), found, rtol=1e-12)
+    for answer, best, word in zip(found_by_search(result), found, answers_of_search(result), strict=True):
+        assert answer.values == (("lines[*].segments[0].length", pytest.approx(best), "m"),)
+        assert answer.objective[1] == pytest.approx(best) and answer.governing == ("limit of SWL/tension",)
+        assert f"lines[*].segments[0].length = {best:.4g} m" in word and "governed by limit of SWL/tension" in word
+    page = write_report(result, tmp_path / "page")[0].read_text(encoding="utf-8")
+    assert "Least cost (SWL)" in page and "governed by limit of SWL/tension" in page
+
+
+def test_an_optimum_at_the_end_of_its_range_says_so(tmp_path):
+    optimise = """{variables: {'lines[*].segments[0].length': [54 m, 57 m]}, minimise: SWL/cost,
+             subject_to: {response: SWL/tension, at_most: 1e9}, starts: 1}"""
+    path = study_cases.write_text(tmp_path, "[]", optimise=optimise)
+    result = run_study(load_study(path), tmp_path / "out", study_cases.linear_case, workers=1)
+    assert found_by_search(result)[0].governing == ("lower end of the range of lines[*].segments[0].length",)
+
+
+def test_a_limit_names_the_response_that_sets_it(tmp_path):
+    path = study_cases.write_text(tmp_path, "- grid: {'waves[storm].peak_period': [4 s, 5 s]}", limit=LIMIT)
+    result = run_study(load_study(path), tmp_path / "out", study_cases.linear_case, workers=1)
+    for answer in found_by_search(result):
+        assert answer.values[0][0] == "waves[storm].significant_height" and answer.values[0][2] == "m"
+        assert answer.governing == ("limit of SWL/tension",)
 
 
 def test_a_trial_tells_runs_and_missing_responses_before_the_study_runs(tmp_path):

@@ -27,6 +27,7 @@ from moyai.report.document import (
 from moyai.report.formatting import display_unit, format_number, format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.reading import root_of
+from moyai.study.found import Found, found_by_search
 from moyai.study.report.drawings import heat_map, parallel_coordinates, rose
 from moyai.study.report.reading import StudyPages, read_study
 
@@ -38,7 +39,7 @@ _FITTED = {
     "generalised_pareto, snaps apart": "Generalised Pareto fits of snap peaks and of the others, parametric bootstrap",
     "acer": "Average conditional exceedance of the peaks, tail fitted by least squares",
 }
-_MOST_ROWS = 500
+_MOST_ROWS, _MOST_CARDS = 500, 5
 _WORDS = {
     "converged": "run",
     "outside_validity": "run with doubts",
@@ -64,6 +65,7 @@ def compose(result: Result) -> Document:
     names = interesting(pages)
     sections = [
         Section("summary", "Summary", _summary(pages)),
+        Section("found", "What the search found", _found(pages)),
         Section("governing", "Governing cases", _governing(pages)),
         Section("maps", "Over the axes", _maps(pages, names)),
         Section("long-run", "Extremes", _extremes(pages)),
@@ -112,8 +114,10 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
     detail = ", ".join(f"{count} {word}" for word, count in counts.items() if count and word != "run")
     judgement: Any = "good" if run == len(pages.status) and not counts["run with doubts"] else "caution"
     items = [KeyFigure("Cases", f"{run} of {len(pages.status)}", detail or "all ran", judgement=judgement)]
+    items += [_found_card(pages, one) for one in found_by_search(pages.result)[:_MOST_CARDS]]
     utilised = pages.result.tree.attrs.get("governing_kind", "") == "utilisation"
-    for one in pages.governing[:5]:
+    # of a search its answers stand in their place
+    for one in pages.governing[:_MOST_CARDS] if len(items) == 1 else ():
         words = pages.case_words(one.index)
         if utilised:
             verdict: Any = "good" if one.value <= 0.8 else "caution" if one.value <= 1.0 else "bad"
@@ -135,6 +139,45 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
             text = format_quantity(float(np.nanmax(flat[:, -1])), str(level.attrs.get("units", "1")))
             items.append(KeyFigure(f"Level of {years[-1]:g} years", text, str(group.attrs["response"])))
     return (*notice_blocks(pages.result), KeyFigures(tuple(items)))
+
+
+def _found_card(pages: StudyPages, one: Found) -> KeyFigure:
+    """Return the card of the answer of a case: the least objective or the largest value, and what governs."""
+    where, by = pages.case_words(one.index), f"governed by {' and '.join(one.governing)}" if one.governing else ""
+    values = ", ".join(f"{path} = {format_quantity(value, unit, 4)}" for path, value, unit in one.values)
+    if one.objective is not None:
+        name, least, unit = one.objective
+        text = "; ".join(part for part in (f"at {values}", by or "no limit governs", where) if part)
+        return KeyFigure(f"Least {_words(name)}", format_quantity(least, unit), text)
+    (path, value, unit), *_ = one.values
+    shown = format_quantity(value, unit) if math.isfinite(value) else "none holds"
+    return KeyFigure(f"Largest {path} that holds", shown, "; ".join(part for part in (by, where) if part))
+
+
+def _words(response: str) -> str:
+    """Return a response in words, with the group that it is from."""
+    group, _, name = response.rpartition("/")
+    return f"{name.replace('_', ' ')} ({group})" if group else name.replace("_", " ")
+
+
+def _found(pages: StudyPages) -> tuple[Block, ...]:
+    """Return the answer of every case as a table."""
+    found = found_by_search(pages.result)
+    if not found:
+        return ()
+    columns = [Column("Case", [str(one.index) for one in found])]
+    columns += [
+        Column(axis.name.replace("_", " "), [pages.labels(one.index)[n] for one in found])
+        for n, axis in enumerate(pages.axes)
+    ]
+    if found[0].objective is not None:
+        name, _, unit = found[0].objective
+        least = [one.objective[1] if one.objective else math.nan for one in found]
+        columns.append(Column(f"Least {_words(name)}", least, unit))
+    for n, (path, _, unit) in enumerate(found[0].values):
+        columns.append(Column(path, [one.values[n][1] for one in found], unit))
+    columns.append(Column("Governed by", [" and ".join(one.governing) or "nothing" for one in found]))
+    return (Table("found", "Answer of the search of each case", tuple(columns)),)
 
 
 def _groups(pages: StudyPages, word: str) -> list[Any]:
