@@ -18,7 +18,7 @@ from moyai.case.faults import did_you_mean
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.quantities import parse_quantity
-from moyai.study.responses import picked, split_response
+from moyai.study.responses import in_stated_unit, picked, split_response
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -133,6 +133,7 @@ class StudyTable:
         if text in _WORDS:
             return Column(text, "", None, tuple(getattr(self, text)))
         name, variable = self._response(text)
+        variable = in_stated_unit(variable)
         dims = [dim for dim in self.names if dim in variable.dims]
         table = np.asarray(variable.transpose(*dims, ...).values, dtype=float).reshape(self.count, -1)
         known = np.isfinite(table).any(axis=1) if table.size else np.zeros(self.count, dtype=bool)

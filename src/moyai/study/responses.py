@@ -165,6 +165,10 @@ def _peaked(variable: xr.DataArray, item: Wanted) -> xr.DataArray:
     return xr.DataArray(shaped, dims=(*dims, "peak"), coords=coords, name=variable.name, attrs=variable.attrs)
 
 
+#: The motion whose unit differs from that of the others, and how the words of a variable state it.
+_TURNING, _UNIT_OF_TURNING = "roll", re.compile(r"\s*\(roll: ([^)]*)\)")
+
+
 def read_response(tree: xr.DataTree, name: str, sign: int = 1) -> float:
     """Return one number of a result.
 
@@ -182,7 +186,7 @@ def read_response(tree: xr.DataTree, name: str, sign: int = 1) -> float:
         When there is no such variable, dimension or label, or it is NaN.
     """
     variable = find_response(tree, name)
-    values = np.asarray(variable.values)
+    values = np.asarray(in_stated_unit(variable).values)
     values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
     if np.isnan(values).all():
         raise InputError(f"the response '{name}' is not known in this case (NaN)", path="response")
@@ -232,6 +236,25 @@ def picked(variable: xr.DataArray, labels: Sequence[tuple[str, str]], text: str)
         if label not in known:
             raise InputError(f"'{text}' has no {dim} '{label}'", path="response", allowed=", ".join(known[:12]))
         variable = variable.isel({dim: known.index(label)}, drop=True)
+        words = str(variable.attrs.get("long_name", ""))
+        if label == _TURNING and (unit := _UNIT_OF_TURNING.search(words)) is not None:
+            plain = words[: unit.start()] + words[unit.end() :]
+            variable = variable.assign_attrs(units=unit[1], long_name=plain)
+    return variable
+
+
+def in_stated_unit(variable: xr.DataArray) -> xr.DataArray:
+    """Return a variable without the entries that have another unit than it states: those of roll among motions.
+
+    An array of motions holds metres and, in roll, radians. Its largest entry is one of metres; roll is asked for by its
+    label, ``significant_motion[dof=roll]``.
+    """
+    if _TURNING not in str(variable.attrs.get("long_name", "")):
+        return variable
+    for dim in variable.dims:
+        labels = variable.coords[dim].values if str(dim).endswith("dof") and dim in variable.coords else ()
+        if len(labels) > 1 and _TURNING in labels:
+            variable = variable.isel({dim: [at for at, label in enumerate(labels) if label != _TURNING]})
     return variable
 
 

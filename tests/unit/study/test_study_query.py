@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 import study_cases
+import xarray as xr
 from typer.testing import CliRunner
 
 from moyai.cli.main import app
@@ -18,6 +19,7 @@ from moyai.study.execute import run_study
 from moyai.study.plan import load_study
 from moyai.study.query import StudyTable, read_study_results
 from moyai.study.report.page import compose
+from moyai.study.responses import find_response, read_response
 from moyai.study.zarr_file import write_zarr
 
 VARIATIONS = """
@@ -232,3 +234,15 @@ def test_labels_may_hold_brackets_and_slashes(tmp_path):
     )
     code, text = asked(tmp_path / "out", "-w", "best[variable=lines[*].segments[0].length [m]] > 55.4 m")
     assert code == 0 and "1 of 2 cases" in text and "best[variable" not in text
+
+
+def test_the_largest_motion_is_one_of_metres_and_roll_is_asked_for_by_its_label():
+    words = "significant double amplitude of the motion (roll: rad)"
+    motion = xr.DataArray(
+        [0.2, 0.4, 3.0], dims="dof", coords={"dof": ["sway", "heave", "roll"]}, attrs={"units": "m", "long_name": words}
+    )
+    tree = xr.DataTree.from_dict({"/SWL": xr.Dataset({"significant_motion": motion})})
+    assert read_response(tree, "SWL/significant_motion") == 0.4
+    assert read_response(tree, "SWL/significant_motion[dof=roll]") == 3.0
+    roll = find_response(tree, "SWL/significant_motion[dof=roll]")
+    assert roll.attrs == {"units": "rad", "long_name": "significant double amplitude of the motion"}

@@ -109,7 +109,9 @@ def parallel_coordinates(pages: StudyPages, names: tuple[str, ...]) -> Drawing |
         last = _share(values)
         suffix = f" {shown.name}" if shown.name else ""
         ends = [format_number(low, 3) + suffix, format_number(high, 3) + suffix]
-        columns.append((name.rsplit("/", 1)[-1].replace("_", " "), last, ends))
+        group, _, word = name.rpartition("/")
+        level = group.partition("/")[0]
+        columns.append((word.replace("_", " ") + (f", {level}" if level else ""), last, ends))
     top, bottom, height = 46.0, 34.0, 380.0
     step = (_WIDTH - 200.0) / (len(columns) - 1)
     xs = [100.0 + step * number for number in range(len(columns))]

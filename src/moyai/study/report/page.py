@@ -87,7 +87,7 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
     """Return the responses that the figures show: the watched one, limits and optima, then those that vary most."""
     tree = pages.result.tree
     dims = {axis.name for axis in pages.axes}
-    found: list[tuple[float, str]] = []
+    found: list[tuple[int, str, float, float, str]] = []
     wanted = ("utilisation", "maximum", "transmission", "significant", "limit", "objective")
     for node in tree.subtree:
         for name, variable in node.data_vars.items():
@@ -102,8 +102,11 @@ def interesting(pages: StudyPages, most: int = 6) -> tuple[str, ...]:
             spread = float(np.ptp(known) / (np.abs(known).max() or 1.0))
             rank = next((number for number, word in enumerate(wanted) if word in str(name)), len(wanted))
             if spread > 1e-9 or rank < 1:
-                found.append((rank - 0.5 * min(spread, 1.0), full))
-    listed = [name for _, name in sorted(found)]
+                found.append((rank, str(name), spread, float(known.max()), full))
+    varies = {name: max(one[2] for one in found if one[1] == name) for _, name, *_ in found}
+    # of like responses of several levels and seas that of the largest value comes first
+    found.sort(key=lambda one: (one[0] - 0.5 * min(varies[one[1]], 1.0), one[1], -one[3], one[4]))
+    listed = [one[-1] for one in found]
     first = [pages.watch] if pages.watch and pages.response(pages.watch) is not None else []
     return tuple(dict.fromkeys([*first, *listed]))[:most]
 
@@ -124,11 +127,10 @@ def _summary(pages: StudyPages) -> tuple[Block, ...]:
             text = f"{format_number(one.value, 3)}"
             items.append(KeyFigure(f"Utilisation, {one.component}", text, words, one.value, verdict))
         else:
-            found = pages.response(one.component.partition("[")[0])
+            found = pages.response(one.component)
             unit = found[1] if found is not None else "1"
             label = found[2] if found is not None else one.component
-            at = one.component.partition("[")[2].rstrip("]").partition("=")[2]
-            title = f"{label}, {at}" if at else label if label.startswith("largest") else f"largest {label}"
+            title = label if label.startswith(("largest", "most", "least")) else f"largest {label}"
             title = title[:1].upper() + title[1:]
             items.append(KeyFigure(title, format_quantity(one.value, unit), words))
     for group in _groups(pages, "long term"):
@@ -175,7 +177,7 @@ def _found(pages: StudyPages) -> tuple[Block, ...]:
         least = [one.objective[1] if one.objective else math.nan for one in found]
         columns.append(Column(f"Least {_words(name)}", least, unit))
     for n, (path, _, unit) in enumerate(found[0].values):
-        columns.append(Column(path, [one.values[n][1] for one in found], unit))
+        columns.append(Column(path, [one.values[n][1] for one in found], unit, digits=4))
     columns.append(Column("Governed by", [" and ".join(one.governing) or "nothing" for one in found]))
     return (Table("found", "Answer of the search of each case", tuple(columns)),)
 
@@ -190,7 +192,7 @@ def _groups(pages: StudyPages, word: str) -> list[Any]:
 
 def _governing(pages: StudyPages) -> tuple[Block, ...]:
     blocks: list[Block] = []
-    if pages.governing:
+    if pages.governing and not found_by_search(pages.result):
         links = [f"{one.folder}/report.html" if one.folder else "" for one in pages.governing]
         utilised = pages.result.tree.attrs.get("governing_kind", "") == "utilisation"
         columns = [
@@ -243,7 +245,7 @@ def _governing(pages: StudyPages) -> tuple[Block, ...]:
 
 
 def _units(pages: StudyPages) -> list[str]:
-    found = [pages.response(one.component.partition("[")[0]) for one in pages.governing]
+    found = [pages.response(one.component) for one in pages.governing]
     return [one[1] if one is not None else "" for one in found]
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.results import Result
+from moyai.study.responses import in_stated_unit, picked, split_response
 
 
 @dataclass(frozen=True)
@@ -91,8 +92,11 @@ class StudyPages:
         return ", ".join(f"{axis.name.replace('_', ' ')} {label}" for axis, label in zip(self.axes, self.labels(index)))
 
     def response(self, name: str) -> tuple[Array, str, str] | None:
-        """Return a response by case (the largest entry of an array), its unit and its words."""
-        group, _, variable = name.rpartition("/")
+        """Return a response by case (the largest entry of an array), its unit, and its words with its group.
+
+        The name may hold labels, ``LWL/frequency/storm/significant_motion[dof=roll]``.
+        """
+        group, variable, labels = split_response(name)
         try:
             node: Any = self.result.tree[f"/{group}"]
             found = node[variable] if variable in node.data_vars else None
@@ -100,13 +104,17 @@ class StudyPages:
             found = None
         if found is None:
             return None
+        found = in_stated_unit(picked(found, labels, name))
         dims = [axis.name for axis in self.axes]
         if not set(dims) <= set(found.dims):
             return None
         values = np.asarray(found.transpose(*dims, ...).values, dtype=float).reshape(len(self.status), -1)
         known = np.isfinite(values).any(axis=1)
         largest = np.where(known, np.where(np.isfinite(values), values, -math.inf).max(axis=1), math.nan)
-        return largest, str(found.attrs.get("units", "1")), str(found.attrs.get("long_name", variable))
+        words = str(found.attrs.get("long_name", variable))
+        at = [label for _, label in labels]
+        place = ", ".join([*at, *(part for part in group.split("/") if part)])
+        return largest, str(found.attrs.get("units", "1")), f"{words} ({place})" if place else words
 
 
 def read_study(result: Result) -> StudyPages:
