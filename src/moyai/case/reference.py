@@ -1,6 +1,7 @@
 """The reference of all keys as Markdown, made from the schemas, so that it cannot fall behind them.
 
-``python -m moyai.case.reference docs/case_file.md`` renews everything below the mark in that page.
+``python -m moyai.case.reference docs/case_file.md`` renews everything below the mark in that page; so it does for
+``docs/record_files.md`` and ``docs/study_file.md``.
 """
 
 from __future__ import annotations
@@ -16,17 +17,32 @@ from pydantic_core import PydanticUndefined
 
 from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, QuantityOf
-from moyai.core.kinds import structure_kinds
+from moyai.core.kinds import further_files, structure_kinds
 
-MARK = "<!-- made by: python -m moyai.case.reference docs/case_file.md -->"
+#: Files on the pages that are not about cases
+_FILES = {
+    "record_files.md": {
+        "records": "Records of loggers", "forces": "Force record of a member", "nets": "Tests of nets and model cages",
+        "streaks": "Streak pictures",
+    },
+    "study_file.md": {"study": "Study", "fit": "Fit"},
+}  # fmt: skip
 
 
-def reference_markdown() -> str:
-    """Return the tables of every block of every kind of structure."""
+def _mark(page: str) -> str:
+    return f"<!-- made by: python -m moyai.case.reference docs/{page} -->"
+
+
+def reference_markdown(page: str = "case_file.md") -> str:
+    """Return the tables of every block: of every kind of structure, or of the files that a page is about."""
     lines: list[str] = []
-    for kind in structure_kinds():
-        lines += [f"## Case of a {kind}", ""]
-        for name, model in _blocks(root_schema(kind)):
+    roots = {f"Case of a {kind}": root_schema(kind) for kind in structure_kinds()}
+    if page in _FILES:
+        known = further_files()
+        roots = {f"Keys: {title.lower()}": known[name].file_schema(name) for name, title in _FILES[page].items()}
+    for title, root in roots.items():
+        lines += [f"## {title}", ""]
+        for name, model in _blocks(root):
             lines += _section(name, model)
     return "\n".join(lines).rstrip() + "\n"
 
@@ -158,11 +174,12 @@ def _default(field: FieldInfo, grouped: bool) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value).lower()
 
 
-def renew(page: str) -> str:
-    """Return a page with everything below the mark made again."""
-    return page[: page.index(MARK)] + MARK + "\n\n" + reference_markdown()
+def renew(text: str, page: str = "case_file.md") -> str:
+    """Return the text of a page with everything below the mark made again."""
+    mark = _mark(page)
+    return text[: text.index(mark)] + mark + "\n\n" + reference_markdown(page)
 
 
 if __name__ == "__main__":
     target = Path(sys.argv[1])
-    target.write_text(renew(target.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
+    target.write_text(renew(target.read_text(encoding="utf-8"), target.name), encoding="utf-8", newline="\n")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from moyai.case.schema_types import Block
+from moyai.case.templates import kind_of_file
 from moyai.core.kinds import structure_kind, structure_kinds
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"
@@ -55,6 +56,19 @@ def json_schema() -> dict[str, Any]:
         "allOf": choices,
         "definitions": definitions,
     }
+
+
+def file_json_schema(name: str) -> dict[str, Any]:
+    """Return the JSON Schema (draft 7) of one kind of file: a structure, or a file of ``measure``, ``study``, ``fit``.
+
+    Raises
+    ------
+    InputError
+        For an unknown kind.
+    """
+    whole = kind_of_file(name).file_schema(name).model_json_schema(by_alias=True, ref_template="#/definitions/{model}")
+    definitions = {key: _tidy(part) for key, part in whole.pop("$defs", {}).items()}
+    return {"$schema": _DRAFT, "title": f"moyai: {name}", **_tidy(whole), "definitions": definitions}
 
 
 def _tidy(node: Any) -> Any:

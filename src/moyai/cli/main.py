@@ -91,17 +91,31 @@ def _options(
 
 @app.command()
 def new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of structure, such as member.", show_default=False)],
+    kind: Annotated[
+        str | None, typer.Argument(metavar="[KIND]", help="Kind of file; left out, all are listed.", show_default=False)
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Print a commented case file to start from."""
-    with guard(as_json):
-        from moyai.case.templates import template
+    """Print a commented file to start from.
 
+    Kinds: breakwater, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces; study, fit.
+    """
+    with guard(as_json):
+        from moyai.case.templates import kinds_of_files, template
+
+        if kind is None:
+            known = kinds_of_files()
+            if as_json:
+                print_json({"kinds": [{"kind": name, "file": words} for name, words in known]})
+            else:
+                for name, words in known:
+                    say(f"  {name:<12} {words}")
+                say("for instance: moyai new breakwater -o breakwater.yaml")
+            return
         text = template(kind)
         if output is not None:
             _write_text(output, text, force)
@@ -110,9 +124,9 @@ def new(
         elif output is None:
             say(text.rstrip("\n"))
         else:
-            command = {"study": f"study {output} --check"} | {
-                key: f"measure {key} {output}" for key in ("nets", "records")
-            }
+            command = {"study": f"study {output} --check", "fit": f"fit {output}"}
+            command |= {key: f"measure {key} {output}" for key in ("nets", "records", "streaks")}
+            command["forces"] = f"measure forces RECORD.csv --config {output}"
             tell(f"wrote {output}; next: moyai {command.get(kind, f'check {output}')}")
 
 
@@ -153,18 +167,27 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
 
 @app.command()
 def schema(
+    kind: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[KIND]", help="Kind of file; left out, the cases of all structures.", show_default=False
+        ),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Print the JSON Schema of case files, for completion and checks in an editor."""
+    """Print the JSON Schema of case files, for completion and checks in an editor.
+
+    Kinds of other files: records, nets, streaks, forces; study, fit.
+    """
     with guard(as_json):
         import json
 
-        from moyai.case.schema import json_schema
+        from moyai.case.schema import file_json_schema, json_schema
 
-        text = json.dumps(json_schema(), indent=2)
+        text = json.dumps(json_schema() if kind is None else file_json_schema(kind), indent=2)
         if output is None:
             say(text)
         else:

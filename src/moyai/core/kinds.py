@@ -60,6 +60,13 @@ class Kind(ABC):
     def compose(self, result: Result) -> Any:
         """Return the report of a result, a :class:`moyai.report.document.Document`."""
 
+    def file_schema(self, name: str) -> Any:
+        """Return the root schema of the user's file that :attr:`templates` holds under this name.
+
+        A subclass of :class:`moyai.case.schema_types.Block`.
+        """
+        raise NotImplementedError(name)
+
     def template(self, name: str) -> str:
         """Return the text of one of :attr:`templates`."""
         return (files(self.package) / dict(self.templates)[name]).read_text(encoding="utf-8")
@@ -74,6 +81,10 @@ class StructureKind(Kind):
     @abstractmethod
     def schema(self) -> Any:
         """Return the root schema of the case files, a subclass of :class:`moyai.case.schema_types.Block`."""
+
+    def file_schema(self, name: str) -> Any:
+        """Return :meth:`schema`: all templates of a structure are case files."""
+        return self.schema()
 
     def criteria(self, model: Any, given: Any) -> Any:
         """Yield what the headlines are judged against (:class:`moyai.core.headline.Criterion`); nothing by default."""
@@ -179,9 +190,13 @@ def groups_of(tree: xr.DataTree) -> dict[str, xr.Dataset]:
 
 def templates() -> dict[str, Kind]:
     """Return who has the template of each name, structures first."""
-    found: dict[str, Kind] = {
-        template: structure_kind(name) for name in structure_kinds() for template in _templates_of(name)
-    }
+    cases = {template: structure_kind(name) for name in structure_kinds() for template in _templates_of(name)}
+    return cases | further_files()
+
+
+def further_files() -> dict[str, Kind]:
+    """Return who reads each file of a user that is no case of a structure: records, tests, studies, fits."""
+    found: dict[str, Kind] = {}
     for module in _FURTHER.values():
         kind: Kind = import_module(module).KIND
         found |= {template: kind for template, _ in kind.templates}

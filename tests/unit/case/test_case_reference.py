@@ -1,12 +1,42 @@
 """docs/case_file.md holds the reference that the schemas give today."""
 
+import json
+
+import pytest
+from jsonschema import Draft7Validator
+from typer.testing import CliRunner
+
 from moyai.case.reference import reference_markdown, renew
-from moyai.core.kinds import structure_kinds
+from moyai.case.schema import file_json_schema
+from moyai.case.templates import template
+from moyai.case.yaml_reader import parse_yaml
+from moyai.cli.main import app
+from moyai.core.kinds import structure_kinds, templates
 
 
-def test_the_page_is_up_to_date(request):
-    page = (request.config.rootpath / "docs" / "case_file.md").read_text(encoding="utf-8")
-    assert renew(page) == page, "run: python -m moyai.case.reference docs/case_file.md"
+@pytest.mark.parametrize("name", ["case_file.md", "record_files.md", "study_file.md"])
+def test_the_page_is_up_to_date(request, name):
+    page = (request.config.rootpath / "docs" / name).read_text(encoding="utf-8")
+    assert renew(page, name) == page, f"run: python -m moyai.case.reference docs/{name}"
+
+
+@pytest.mark.parametrize("name", list(templates()))
+def test_every_template_is_a_file_of_its_schema(name):
+    document = parse_yaml(template(name)).data
+    schema = file_json_schema(name)
+    faults = [str(fault.message) for fault in Draft7Validator(schema).iter_errors(json.loads(json.dumps(document)))]
+    assert faults == []
+    misspelt = {**document, "titel": "x"}
+    assert list(Draft7Validator(schema).iter_errors(json.loads(json.dumps(misspelt))))
+
+
+def test_new_without_a_kind_lists_all_of_them():
+    said = CliRunner().invoke(app, ["new"])
+    assert said.exit_code == 0
+    for name in templates():
+        assert f"  {name} " in said.stdout
+    wrong = CliRunner().invoke(app, ["schema", "recrods"])
+    assert wrong.exit_code == 2 and "did you mean 'records'" in wrong.stderr
 
 
 def test_every_kind_and_key_is_listed():

@@ -14,6 +14,12 @@ class ForceRecordKind(Kind):
 
     name = "force_record"
     package = __name__
+    templates = (("forces", "template.yaml"),)
+
+    def file_schema(self, name: str) -> Any:
+        from moyai.records.forces.case.schema import ForceRecordFile
+
+        return ForceRecordFile
 
     def vocabulary(self) -> Vocabulary:
         from moyai.records.forces.result import VOCABULARY

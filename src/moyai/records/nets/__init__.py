@@ -16,6 +16,11 @@ class NetTestsKind(Kind):
     package = __name__
     templates = (("nets", "template.yaml"),)
 
+    def file_schema(self, name: str) -> Any:
+        from moyai.records.nets.case.schema import NetsFile
+
+        return NetsFile
+
     def vocabulary(self) -> Vocabulary:
         from moyai.records.nets.result import VOCABULARY
 

@@ -14,6 +14,12 @@ class StreaksKind(Kind):
 
     name = "streaks"
     package = __name__
+    templates = (("streaks", "template.yaml"),)
+
+    def file_schema(self, name: str) -> Any:
+        from moyai.records.streaks.case.schema import StreaksFile
+
+        return StreaksFile
 
     def vocabulary(self) -> Vocabulary:
         from moyai.records.streaks.variables import VOCABULARY

@@ -16,6 +16,11 @@ class SurveyKind(Kind):
     package = __name__
     templates = (("records", "template.yaml"),)
 
+    def file_schema(self, name: str) -> Any:
+        from moyai.records.survey.case.schema import RecordsFile
+
+        return RecordsFile
+
     def vocabulary(self) -> Vocabulary:
         from moyai.records.survey.variables import VOCABULARY
 

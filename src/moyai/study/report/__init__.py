@@ -15,6 +15,11 @@ class StudyKind(Kind):
     package = "moyai.study"
     templates = (("study", "template.yaml"),)
 
+    def file_schema(self, name: str) -> Any:
+        from moyai.study.schema import StudyFile
+
+        return StudyFile
+
     def compose(self, result: Result) -> Any:
         from moyai.study.report.page import compose
 

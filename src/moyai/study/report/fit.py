@@ -13,6 +13,12 @@ class FitKind(Kind):
 
     name = "fit"
     package = "moyai.study"
+    templates = (("fit", "template_fit.yaml"),)
+
+    def file_schema(self, name: str) -> Any:
+        from moyai.study.fit_schema import FitFile
+
+        return FitFile
 
     def compose(self, result: Result) -> Any:
         from moyai.study.report.fit_page import compose
