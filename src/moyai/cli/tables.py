@@ -80,7 +80,8 @@ def print_summary(
     failed = [check for check in result.checks if not check.passed]
     for check in failed:
         console.print(f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}", markup=False)
-    console.print(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed")
+    if result.checks:
+        console.print(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed")
     for badge in badges(result):
         said = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
         console.print(said, markup=False, soft_wrap=True)

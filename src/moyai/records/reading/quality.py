@@ -457,7 +457,7 @@ def quality_notices(
             notices.append(
                 Notice(
                     "record-quality",
-                    f"{channel}: {count} samples ({_percent(count, samples)}) flagged as {kind}; values "
+                    f"{channel}: {count} sample{'' if count == 1 else 's'} ({_percent(count, samples)}) flagged as {kind}; values "
                     "were left as they are",
                     float(count),
                 )

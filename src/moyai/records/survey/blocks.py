@@ -226,10 +226,9 @@ def _even(time: Array, *values: Array) -> tuple[float, Array]:
     return step, out
 
 
-def _filled(survey: Survey, step: float, columns: Array, what: str, notices: list[Notice]) -> tuple[float, Array]:
+def _filled(step: float, columns: Array, what: str, notices: list[Notice]) -> tuple[float, Array]:
     """Return the step, and the columns with short gaps filled; a notice names the share and its effect."""
-    assert survey.spectral is not None
-    filled = fill_short_gaps(step, columns, survey.spectral.highest)
+    filled = fill_short_gaps(columns)
     if filled.share > 0.0:
         notices.append(filled.notice(what))
     return step, filled.values
@@ -278,7 +277,7 @@ def _spectra(
         found = _surface(survey, data, name, notices)
         if found is None or found[0].size < 8:
             continue
-        step, columns = _filled(survey, *_even(*found), name, notices)
+        step, columns = _filled(*_even(*found), name, notices)
         options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "spectrum")
         if options is None:
             continue
@@ -307,7 +306,7 @@ def _directions(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         if sensor is None:
             raise InputError(f"'{name}' is no quantity of waves", path="directions.channels")
         sensors.append(sensor)
-    step, columns = _filled(survey, *_even(shared[0], *shared[1]), "directions", notices)
+    step, columns = _filled(*_even(shared[0], *shared[1]), "directions", notices)
     options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "directions")
     if options is None:
         return {}
@@ -361,7 +360,7 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
     shared = _together(data, (*use.front, *use.rear), notices, "reflection")
     if shared is None:
         return {}
-    step, columns = _filled(survey, *_even(shared[0], *shared[1]), "reflection", notices)
+    step, columns = _filled(*_even(shared[0], *shared[1]), "reflection", notices)
     options = _fitting(survey.spectral.options, columns.shape[0], step, notices, "reflection")
     if options is None:
         return {}

@@ -501,7 +501,7 @@ def _quality(tree: Any, clock: _Clock) -> list[Block]:
             Column("stretches", [float(np.sum((channel == a) & (kind == b))) for a, b in pairs]),
             Column("samples", [float(np.sum(samples[(channel == a) & (kind == b)])) for a, b in pairs]),
         ),
-        "Nothing was filled or changed.",
+        "Nothing was changed; a notice says where short gaps were filled for spectra.",
     )
     listing = Table(
         "quality",
