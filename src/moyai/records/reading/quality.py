@@ -457,8 +457,8 @@ def quality_notices(
             notices.append(
                 Notice(
                     "record-quality",
-                    f"{channel}: {count} sample{'' if count == 1 else 's'} ({_percent(count, samples)}) flagged as {kind}; values "
-                    "were left as they are",
+                    f"{channel}: {count} sample{'' if count == 1 else 's'} ({_percent(count, samples)}) flagged as "
+                    f"{kind}; values were left as they are",
                     float(count),
                 )
             )
