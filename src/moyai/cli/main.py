@@ -111,7 +111,7 @@ def new(
             say(text.rstrip("\n"))
         else:
             command = {"study": f"study {output} --check"} | {
-                key: f"measure {key} {output}" for key in ("nets", "records")
+                key: f"measure {key} {output}" for key in ("nets", "records", "snaps")
             }
             tell(f"wrote {output}; next: moyai {command.get(kind, f'check {output}')}")
 
