@@ -94,6 +94,8 @@ def test_models_stand_over_the_records(made) -> None:
     ]  # fmt: skip
     assert row.ratio == pytest.approx(math.exp(np.mean(direct)), rel=1e-9)
     assert 1.05 < row.ratio < 1.25
+    # read as the records are, the model with drag is above them by 1/0.9 alone
+    assert next(row for row in found.agreements if row.model == "A with drag").ratio == pytest.approx(1 / 0.9, rel=0.01)
     assert not any(row.model.startswith("B ") for row in found.agreements)
 
 

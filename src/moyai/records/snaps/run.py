@@ -15,10 +15,12 @@ from moyai.core.validity import Notice
 from moyai.records.snaps.model import Agreement, Exponents, SnapFinding, SnapFindings, SnapRun, SnapRuns
 from moyai.series.intervals import student_quantile
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers
-from moyai.structures.curtain.impact.compare import compare_models
-from moyai.structures.curtain.impact.release import slack_phase
+from moyai.structures.curtain.impact.compare import ModelTension, compare_models
+from moyai.structures.curtain.impact.release import slack_phase, snap_in_current
 
 NUMBERS = ("froude", "span_ratio", "depth_ratio", "cauchy")
+#: Model that is read as a record is
+WITH_DRAG = "A with drag"
 # Numbers that differ by less are one
 _SAME = 1e-6
 
@@ -73,7 +75,18 @@ def _finding(run: SnapRun, runs: SnapRuns) -> SnapFinding:
         )
         impact = phase.started(impact)
     comparison = compare_models(impact, run.skirt, memory=runs.memory)
+    if runs.drag_coefficient:
+        comparison = replace(comparison, models=(*comparison.models, _with_drag(run.impact, runs.drag_coefficient)))
     return SnapFinding(run, impact_numbers(run.impact, tension), impact.speed, comparison)
+
+
+def _with_drag(impact: Impact, drag_coefficient: float) -> ModelTension:
+    """Return model A with drag, read as a record is: its peak less its own drag level."""
+    snap = snap_in_current(
+        impact, drag_coefficient=drag_coefficient, current=impact.speed, position=0.0, speed=0.0
+    )  # fmt: skip
+    assumption = "as A, with drag before and after: peak less drag level, as the record is read"
+    return ModelTension(WITH_DRAG, snap.impact_tension, snap.peak_time - snap.taut_time, assumption)
 
 
 def _common_models(found: Sequence[SnapFinding]) -> list[str]:

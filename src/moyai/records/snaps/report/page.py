@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.results import Result
@@ -20,11 +21,12 @@ from moyai.report.document import (
     Series,
     Table,
 )
+from moyai.report.encoding import slug
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.reading import Group, root_of
 
 _SYMBOLS = {"froude": "Fr = U/√(gh)", "span_ratio": "B/l", "depth_ratio": "d/h", "cauchy": "C_E"}
-_SHOWN = ("A", "A with memory", "A2", "AB")
+_SHOWN = ("A", "A with drag", "A with memory", "AB")
 GENERATED = "The records of this set were computed, not measured: they show what the evaluation finds again."
 
 
@@ -52,9 +54,7 @@ def compose(result: Result) -> Document:
             (*head, _key_figures(runs, agreement), *notice_blocks(result), _agreement_table(agreement)),
         ),
         Section("runs", "Runs", tuple(_run_tables(runs))),
-        Section(
-            "figures", "Impact tension and its numbers", (_scatter(runs, word), *_number_figures(runs, curves, word))
-        ),
+        Section("figures", "Impact tension and its numbers", tuple(_number_figures(runs, curves, word))),
         Section("powers", "Powers of the numbers", (_power_table(powers),)),
         Section("input", "Input", (case_listing(root),)),
         closing_section(result),
@@ -108,7 +108,7 @@ def _agreement_table(agreement: Group) -> Block:
         ("scatter", "scatter of the logarithm"),
     )
     columns = [Column("Model", agreement.labels("impact_model"))]
-    columns += [Column(title, list(_values(agreement, name, "impact_model"))) for name, title in names]
+    columns += [Column(title, list(_values(agreement, name, "impact_model")), uniform=False) for name, title in names]
     return Table(
         "agreement", "Models over the records", tuple(columns),
         note="Geometric mean over all runs with its bounds of 95 %; nothing is fitted.",
@@ -142,61 +142,63 @@ def _run_tables(runs: Group) -> list[Block]:
     ]
 
 
-def _scatter(runs: Group, word: str) -> Block:
-    measured = _values(runs, "impact_tension", "run")
-    models, tension = runs.labels("impact_model"), _values(runs, "model_tension", "run", "impact_model")
+def _scatter(runs: Group, material: str, word: str) -> Block:
+    """Draw records against models for one material (figure 16 of the paper)."""
+    own = np.array(_texts(runs)) == material
+    measured = _values(runs, "impact_tension", "run")[own]
+    models, tension = runs.labels("impact_model"), _values(runs, "model_tension", "run", "impact_model")[own]
     shown = [model for model in _SHOWN if model in models]
     series = [
         Series(f"model {model}", {"model": tension[:, models.index(model)]}, measured, 0, tone + 1, style="points")
         for tone, model in enumerate(shown)
     ]
-    reach = np.array([min(measured.min(), tension.min()), max(measured.max(), tension.max())])
+    reach = np.array([0.0, float(measured.max())])
     series.append(Series("equal", {"model": reach}, reach, 0, 0))
     return Figure(
-        "impact", "Impact tension, record against model",
-        (Abscissa("model", "impact tension of the model", "N", log=True),),
-        (Panel(f"impact tension, {word}", "N"),), tuple(series),
+        slug("impact", material), f"Impact tension, record against model: {material}",
+        (Abscissa("model", "impact tension of the model", "N"),),
+        (Panel(f"impact tension, {word}", "N", from_zero=True),), tuple(series),
         "Sum of both cables, drag level taken off.",
     )  # fmt: skip
 
 
 def _number_figures(runs: Group, curves: Group, word: str) -> list[Block]:
+    """Draw C_T over Fr, B/l and d/h for each material, over C_E for all runs (figures 17 to 20 of the paper)."""
     materials = np.array(_texts(runs))
-    measured = _values(runs, "tension_coefficient", "run")
-    models = runs.labels("impact_model")
-    model = _values(runs, "model_tension_coefficient", "run", "impact_model")[:, models.index("A")]
-    along, of = _values(curves, "curve_number", "curve", "point"), np.array(_texts(curves, "curve_of"))
-    coefficient, cables = (
-        _values(curves, "curve_coefficient", "curve", "point"),
-        np.array(_texts(curves, "curve_cable")),
-    )
     blocks: list[Block] = []
-    for number, symbol in _SYMBOLS.items():
-        x = _values(runs, number, "run")
-        if np.ptp(x) < 1e-6 * x.max():
-            continue
-        series = []
-        for tone, material in enumerate(dict.fromkeys(materials)):
-            own = materials == material
-            series.append(Series(f"{word}, {material}", {"x": x[own]}, measured[own], 0, 2 * tone, style="points"))
-            series.append(
-                Series(f"model A, {material}", {"x": x[own]}, model[own], 0, 2 * tone + 1, style="points", faint=True)
-            )
-            for place in np.flatnonzero((of == number) & (cables == material)):
-                curve = {"x": along[place]}
-                series.append(Series(f"curve of model A, {material}", curve, coefficient[place], 0, 2 * tone + 1))
-        for place in np.flatnonzero((of == number) & ~np.isin(cables, materials)):
-            series.append(
-                Series(f"curve of model A, {cables[place]}", {"x": along[place]}, coefficient[place], 0, 6, dash="dash")
-            )
-        blocks.append(
-            Figure(
-                f"over-{number.replace('_', '-')}", f"C_T over {symbol}", (Abscissa("x", symbol),),
-                (Panel("C_T", from_zero=True),), tuple(series),
-                "Curves: the other numbers at the median of the runs; points of one number mix those of the others.",
-            )
-        )  # fmt: skip
-    return blocks
+    for material in dict.fromkeys(materials):
+        own = materials == material
+        found = [
+            _over(runs, curves, number, str(material), own, word) for number in ("froude", "span_ratio", "depth_ratio")
+        ]
+        blocks += [_scatter(runs, str(material), word), *(block for block in found if block is not None)]
+    last = _over(runs, curves, "cauchy", "all cables", np.ones(materials.size, dtype=bool), word)
+    return [*blocks, *([] if last is None else [last])]
+
+
+def _over(runs: Group, curves: Group, number: str, cable: str, own: NDArray[np.bool_], word: str) -> Block | None:
+    """Return C_T over one number with model A at each run and along its curve; ``None`` where the number is one."""
+    x = _values(runs, number, "run")[own]
+    if np.ptp(x) < 1e-6 * x.max():
+        return None
+    models = runs.labels("impact_model")
+    measured = _values(runs, "tension_coefficient", "run")[own]
+    model = _values(runs, "model_tension_coefficient", "run", "impact_model")[own]
+    series = [Series(word, {"x": x}, measured, 0, 0, style="points")]
+    for tone, name in enumerate(("A", "A with drag"), 1):
+        if name in models:
+            points = model[:, models.index(name)]
+            series.append(Series(f"model {name}, same run", {"x": x}, points, 0, tone, style="points"))
+    of, cables = np.array(_texts(curves, "curve_of")), np.array(_texts(curves, "curve_cable"))
+    along, coefficient = (_values(curves, f"curve_{name}", "curve", "point") for name in ("number", "coefficient"))
+    for place in np.flatnonzero((of == number) & (cables == cable)):
+        series.append(Series("curve of model A", {"x": along[place]}, coefficient[place], 0, 1))
+    symbol = _SYMBOLS[number]
+    return Figure(
+        slug("over", number, cable), f"C_T over {symbol}: {cable}", (Abscissa("x", symbol),),
+        (Panel("C_T", from_zero=True),), tuple(series),
+        "Curve: the other numbers at the median of these runs; runs differ in the others as well.",
+    )  # fmt: skip
 
 
 def _power_table(powers: Group) -> Block:

@@ -14,8 +14,8 @@ from moyai.report.formatting import format_number, trimmed
 from moyai.report.reading import Group
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key, texts
 
-_WIDTH, _HEIGHT, _RADIUS = 760.0, 560.0, 225.0
-_CENTRE = (0.5 * _WIDTH, 270.0)
+_WIDTH, _HEIGHT, _RADIUS = 760.0, 600.0, 225.0
+_CENTRE = (0.5 * _WIDTH, 265.0)
 
 
 def rose_blocks(level: CurtainLevel) -> tuple[Block, ...]:
@@ -156,7 +156,7 @@ def _table(level: CurtainLevel, group: Group, orientation: Array, held: Array) -
     best = _best(group, orientation)
     said = "No orientation bears more than the others. " if best is None else (
         f"The orientation that bears most has its normal at {_degrees(float(orientation[best]), 180.0):.3g} degrees: "
-        f"{ratio[best]:.2f} of the sea that is worst for it, {ratio[0]:.2f} as it lies. "
+        f"it bears {ratio[best]:.2f} times the height of its worst sea, {ratio[0]:.2f} times as it lies. "
     )  # fmt: skip
     return Table(
         key(level, "limit-rose-seas"), "Orientation and what it bears", tuple(columns),
