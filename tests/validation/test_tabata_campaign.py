@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from moyai.core.errors import InputError
 from moyai.records.survey.tension_blocks import analyse_blocks
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
@@ -21,6 +22,7 @@ from moyai.series.regressions import correlation, fit_by_direction, fit_cosine, 
 from moyai.series.wave_statistics import rayleigh_expected_maximum
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel, calibrate, calibration_bounds
+from moyai.structures.curtain.seas.energy_by_wave import calibrate_by_wave
 from moyai.structures.curtain.seas.squared_velocity import effective_height, fit_proportional, squared_velocity
 from moyai.structures.curtain.snaps.events import snaps_in_sea
 from moyai.structures.curtain.snaps.flow import flow_over_skirt
@@ -152,6 +154,61 @@ def test_bounds_of_the_factor_hold_it_as_often_as_they_say(pretension):
         low, high = calibration_bounds(observed, speed, pretension, line_factor=1.0, resamples=200, seed=trial)
         held += [fit.interval[0] <= model.product <= fit.interval[1], low <= model.product <= high]
     assert np.all(held / 200.0 >= 0.9)
+
+
+def test_chain_of_single_waves_finds_the_planted_factor(example, conventional):
+    """From raw records: M = 0.2 by single waves within its bounds; the maxima of the paper are high, and why."""
+    _, low, high = example.by_wave(conventional).energy_factor(518.0, 890e3)
+    assert low <= 0.2 <= high
+    assert high - low < 0.02
+    unit = 518.0 * 890e3
+    blocks, paper = (
+        calibrate(*maxima(conventional), 0.0, line_factor=1.0)
+        for maxima in (example.block_maxima, example.paper_maxima)
+    )
+    assert blocks.interval[0] / unit > 0.21
+    assert 0.29 < paper.product / unit < 0.34
+    assert paper.interval[0] / unit > 0.28
+
+
+def test_single_waves_without_scatter_and_noise_are_exact():
+    """A line with a floor and no scatter: root and floor to rounding, NaN and weak waves left out."""
+    rng = np.random.default_rng(3)
+    speed, block = rng.uniform(0.01, 6.0, 400), np.repeat(np.arange(8), 50)
+    tension = 9e3 * speed + 35.0
+    tension[7] = math.nan
+    found = calibrate_by_wave(0.6 * tension, speed, block, np.full(8, 0.6 * 60.0), line_factor=0.6)
+    assert found.product == pytest.approx(9e3**2, rel=1e-10)
+    assert found.floor == pytest.approx(0.6 * 35.0, rel=1e-6)
+    assert found.blocks == 8 and not found.chosen[7]
+    assert np.array_equal(found.chosen, np.isfinite(tension) & (9e3 * speed > 40.0 * 60.0))
+    with pytest.raises(InputError, match="times above the noise"):
+        calibrate_by_wave(tension, speed, block, np.full(8, 1e4), line_factor=1.0)
+
+
+def test_bounds_of_single_waves_are_those_of_blocks():
+    """Gain of each block as one draw: 95 % bounds hold in 92 or more of 100, where waves as if alone hold few."""
+    rng = np.random.default_rng(9)
+    held = 0
+    for _ in range(300):
+        block = np.repeat(np.arange(20), 60)
+        speed = rng.uniform(0.5, 6.0, block.size)
+        gain = (1.0 + 0.05 * rng.standard_normal(20))[block]
+        tension = 9e3 * gain * speed * (1.0 + 0.15 * rng.standard_normal(block.size))
+        low, high = calibrate_by_wave(tension, speed, block, np.full(20, 10.0), line_factor=1.0).interval
+        held += low <= 9e3**2 <= high
+    assert 0.92 * 300 <= held <= 0.985 * 300
+
+
+@pytest.mark.slow
+def test_chain_holds_the_planted_factor_in_93_of_100_campaigns(example):
+    """Seeds 0 to 99, 40 blocks each, from raw records to M."""
+    held = 0
+    for seed in range(100):
+        blocks = example.process(example.campaign(seed, 40), conventional=True)
+        _, low, high = example.by_wave(blocks).energy_factor(518.0, 890e3)
+        held += low <= 0.2 <= high
+    assert held >= 93
 
 
 def test_statement_8_largest_waves_and_tensions(new):

@@ -23,7 +23,7 @@ from moyai.core.kinds import further_files, structure_kinds
 _FILES = {
     "record_files.md": {
         "records": "Records of loggers", "forces": "Force record of a member", "nets": "Tests of nets and model cages",
-        "streaks": "Streak pictures",
+        "streaks": "Streak pictures", "snaps": "Impact tensions of flume runs",
     },
     "study_file.md": {"study": "Study", "fit": "Fit"},
 }  # fmt: skip

@@ -102,7 +102,7 @@ def new(
 ) -> None:
     """Print a commented file to start from.
 
-    Kinds: breakwater, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces; study, fit.
+    Kinds: breakwater, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces, snaps; study, fit.
     """
     with guard(as_json):
         from moyai.case.templates import kinds_of_files, template
@@ -125,7 +125,7 @@ def new(
             say(text.rstrip("\n"))
         else:
             command = {"study": f"study {output} --check", "fit": f"fit {output}"}
-            command |= {key: f"measure {key} {output}" for key in ("nets", "records", "streaks")}
+            command |= {key: f"measure {key} {output}" for key in ("nets", "records", "snaps", "streaks")}
             command["forces"] = f"measure forces RECORD.csv --config {output}"
             tell(f"wrote {output}; next: moyai {command.get(kind, f'check {output}')}")
 
@@ -180,7 +180,7 @@ def schema(
 ) -> None:
     """Print the JSON Schema of case files, for completion and checks in an editor.
 
-    Kinds of other files: records, nets, streaks, forces; study, fit.
+    Kinds of other files: records, nets, streaks, forces, snaps; study, fit.
     """
     with guard(as_json):
         import json

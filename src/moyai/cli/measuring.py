@@ -8,6 +8,7 @@ from moyai.cli.measuring_decay import decay
 from moyai.cli.measuring_forces import forces
 from moyai.cli.measuring_nets import nets
 from moyai.cli.measuring_records import records
+from moyai.cli.measuring_snaps import snaps
 from moyai.cli.measuring_streaks import streaks
 
 measure = typer.Typer(
@@ -20,4 +21,5 @@ measure.command()(decay)
 measure.command()(forces)
 measure.command()(nets)
 measure.command()(records)
+measure.command()(snaps)
 measure.command()(streaks)

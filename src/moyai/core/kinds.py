@@ -32,6 +32,7 @@ _FURTHER = {
     "records": "moyai.records.survey",
     "nets": "moyai.records.nets",
     "streaks": "moyai.records.streaks",
+    "snap_runs": "moyai.records.snaps",
     "force_record": "moyai.records.forces",
     "comparison": "moyai.records.comparison",
     "study": "moyai.study.report",

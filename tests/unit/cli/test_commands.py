@@ -74,7 +74,7 @@ def test_new_of_an_unknown_kind():
     assert found.exit_code == 2
     allowed = ", ".join(templates())
     assert found.stderr.strip() == (
-        f"KIND: there is no structure 'breakwatr'; allowed: {allowed}; did you mean 'breakwater'?"
+        f"KIND: there is no file of kind 'breakwatr'; allowed: {allowed}; did you mean 'breakwater'?"
     )
     assert found.stdout == ""
 

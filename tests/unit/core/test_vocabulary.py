@@ -18,7 +18,7 @@ from moyai.records.comparison.run import Pairing, compare_result
 from moyai.study.responses import find_response
 
 DOCS = Path(__file__).parents[3] / "docs"
-KINDS = {"Force record": "force_record", "Streak pictures": "streaks"}
+KINDS = {"Force record": "force_record", "Streak pictures": "streaks", "Snap runs": "snap_runs"}
 GROUPS = {"event", "realisation", "memory"}
 
 TENSION = np.array([1.0e5, 2.0e5])

@@ -57,4 +57,6 @@ def test_campaign_example(tmp_path, capsys):
     data = example.campaign(3, 12)
     example.draw(tmp_path / "campaign.png", data)
     assert (tmp_path / "campaign.png").stat().st_size > 20_000
-    assert sum("drawn again" in line for line in example.report(data)) == 3
+    lines = example.report(data)
+    assert sum(line.startswith("single waves: M = ") for line in lines) == 1
+    assert sum("rule of the paper" in line for line in lines) == 3

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -25,6 +25,26 @@ from moyai.series.zero_crossing import Waves, zero_crossing
 _SOURCE = "Tabata et al., field observation of mooring forces of a new-type silt curtain"
 # Rise of a snap: what a logger must resolve
 _SLOWEST_RATE = 10.0
+
+
+@dataclass(frozen=True, eq=False)
+class SingleWaves:
+    """Every wave of a campaign with the tension in its time; rows are waves.
+
+    Parameters
+    ----------
+    block : ndarray of int
+        Row of :class:`Blocks` that the wave belongs to.
+    height, period : ndarray
+        Own height [m] and period [s].
+    top : ndarray, shape (waves, lines)
+        Largest fluctuating tension, between the samples [N]; NaN where there is none.
+    """
+
+    block: NDArray[np.int64]
+    height: Array
+    period: Array
+    top: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +71,10 @@ class Blocks:
         Waves with a maximum; with a double peak.
     delay : ndarray, shape (blocks, lines)
         [s].
+    noise : ndarray, shape (blocks, lines)
+        Root mean square of the samples below the steady level about it [N]: pulls only add, so what lies below is
+        noise of the gauge and slow motion.
+    waves : SingleWaves
     steady_rule : str
         How tensions were split.
     notices : tuple of Notice
@@ -72,6 +96,8 @@ class Blocks:
     matched: Array
     double: Array
     delay: Array
+    noise: Array
+    waves: SingleWaves
     steady_rule: str
     notices: tuple[Notice, ...]
 
@@ -146,6 +172,7 @@ def analyse_blocks(
         raise InputError(f"current has shape {flow.shape}", path="current", allowed=f"({t.size}, 2)")
     rows: list[tuple[float, ...]] = []
     columns: list[Array] = []
+    single: list[Array] = []
     lost = 0
     for k in range(number):
         part = slice(k * size, (k + 1) * size)
@@ -172,9 +199,10 @@ def analyse_blocks(
                 normal,
             )
         )
-        columns.append(
-            np.array([_line(t[part], eta[part], row[part], cycles, rule, cutoff, longest_delay) for row in lines])
-        )
+        found = [_line(t[part], eta[part], row[part], cycles, rule, cutoff, longest_delay) for row in lines]
+        columns.append(np.array([numbers for numbers, _ in found]))
+        own = np.full(len(cycles), float(len(rows) - 1))
+        single.append(np.column_stack([own, cycles.height, cycles.period, *(tops for _, tops in found)]))
     progress("blocks", number, number)
     if not rows:
         raise InputError(
@@ -184,9 +212,10 @@ def analyse_blocks(
             remedy="fill short gaps before, or take longer blocks",
         )
     table = np.array(rows).reshape(-1, 7)
-    values = np.array(columns).reshape(len(rows), len(lines), 8)
+    values = np.array(columns).reshape(len(rows), len(lines), 9)
     start, highest, significant_height, period, count, angle, across = table.T.copy()
-    steady, maximum, tenth, high, mean, matched, double, delay = np.moveaxis(values, 2, 0).copy()
+    steady, maximum, tenth, high, mean, matched, double, delay, noise = np.moveaxis(values, 2, 0).copy()
+    waves = np.concatenate(single)
     return Blocks(
         start,
         highest,
@@ -203,6 +232,8 @@ def analyse_blocks(
         matched,
         double,
         delay,
+        noise,
+        SingleWaves(waves[:, 0].astype(np.int64), waves[:, 1].copy(), waves[:, 2].copy(), waves[:, 3:].copy()),
         rule,
         _check_blocks(values, lost, number, step),
     )
@@ -210,15 +241,16 @@ def analyse_blocks(
 
 def _line(
     t: Array, eta: Array, row: Array, cycles: Waves, rule: SteadyRule, cutoff: float, longest: float | None
-) -> tuple[float, ...]:
-    """Return steady, maximum, tenth, third, mean, matched, double, delay of one line in one block."""
+) -> tuple[tuple[float, ...], Array]:
+    """Return steady, maximum, tenth, third, mean, matched, double, delay, noise of a line; the top of each wave."""
     split = split_tension(t, row, rule, cutoff=cutoff)
     delay = 0.0
     if longest is not None and np.ptp(split.fluctuating) > 0.0:
         delay = find_delay(t, eta, split.fluctuating, longest=longest)
     found = wave_maxima(t, split.fluctuating, cycles.start, cycles.period, delay=delay)
     numbers = tension_statistics(found.maximum)
-    return (
+    below = split.fluctuating[split.fluctuating < 0.0]
+    figures = (
         split.level,
         numbers.maximum,
         numbers.tenth,
@@ -227,7 +259,9 @@ def _line(
         float(found.matched),
         float(found.double.sum()),
         delay,
+        float(np.sqrt(np.mean(below**2))) if below.size else 0.0,
     )
+    return figures, found.top
 
 
 def _checked(time: ArrayLike, elevation: ArrayLike, tension: ArrayLike) -> tuple[Array, Array, Array, float]:

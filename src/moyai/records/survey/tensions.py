@@ -93,6 +93,8 @@ class WaveTensions:
     ----------
     maximum : ndarray
         [N], in the order of the waves; NaN where a wave has no sample, or lacks more than a tenth of them.
+    top : ndarray
+        Top of the parabola through the largest sample and its neighbours [N]: what samples miss of a smooth pull.
     time : ndarray
         When [s].
     double : ndarray of bool
@@ -102,6 +104,7 @@ class WaveTensions:
     """
 
     maximum: Array
+    top: Array
     time: Array
     double: NDArray[np.bool_]
     delay: float
@@ -140,7 +143,7 @@ def wave_maxima(
     low, high = np.searchsorted(t, first + delay), np.searchsorted(t, last + delay)
     count = first.size
     usual = float(np.median(np.diff(t))) if t.size > 1 else math.inf
-    maximum, when = np.full(count, np.nan), np.full(count, np.nan)
+    maximum, top, when = (np.full(count, np.nan) for _ in range(3))
     double = np.zeros(count, dtype=bool)
     for i in range(count):
         part = values[low[i] : high[i]]
@@ -152,8 +155,21 @@ def wave_maxima(
             continue
         place = int(np.argmax(part))
         maximum[i], when[i] = part[place], t[low[i] + place]
+        top[i] = _top(values, low[i] + place)
         double[i] = _second_peak(part, place)
-    return WaveTensions(maximum, when, double, delay)
+    return WaveTensions(maximum, top, when, double, delay)
+
+
+def _top(values: Array, place: int) -> float:
+    """Return the top of the parabola through a largest sample and its neighbours; the sample where there is none."""
+    middle = float(values[place])
+    if not 0 < place < values.size - 1:
+        return middle
+    left, right = float(values[place - 1]), float(values[place + 1])
+    bend = left - 2.0 * middle + right
+    if bend >= 0.0 or max(left, right) > middle:
+        return middle
+    return middle - (right - left) ** 2 / (8.0 * bend)
 
 
 def _second_peak(part: Array, place: int) -> bool:

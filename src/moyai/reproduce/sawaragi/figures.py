@@ -94,7 +94,10 @@ def _stiffness(runs: Runs) -> Figure:
 def figures(runs: Runs) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
     sketch = "definition sketch"
-    scatter = "measured against computed peaks: the measured points are not published as numbers"
+    scatter = (
+        "measured against computed peaks: the measured points are not published as numbers; moyai measure snaps "
+        "draws it from records of your own"
+    )
     return (
         PaperFigure("1", None, sketch),
         PaperFigure("2", None, sketch),

@@ -17,6 +17,7 @@ from moyai.sea.spectra import jonswap
 from moyai.sea.water import Water
 from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.curtain.seas.anchor_energy import EnergyModel
+from moyai.structures.curtain.seas.energy_by_wave import WaveCalibration, calibrate_by_wave
 from moyai.structures.curtain.seas.squared_velocity import effective_height
 
 WATER = Water(depth=20.0, density=1025.0, gravity=9.81)
@@ -75,7 +76,7 @@ def _pulls(
     rng: np.random.Generator, scatter: float,
 ) -> Array:  # fmt: skip
     """Return one short pull for every wave, at its crest."""
-    waves = zero_crossing(time, elevation)
+    waves = zero_crossing(time, elevation, parabolic=True)
     acting = effective_height(waves.height, np.full(len(waves), angle), "paper", 1.0)
     speed = model.float_speed(acting, np.maximum(waves.period, 1.0), flow, WATER)
     size = model.fluctuating_tension(speed, pretension) * np.maximum(
@@ -97,8 +98,29 @@ def process(data: Campaign, conventional: bool = False) -> Blocks:
     )  # fmt: skip
 
 
-def observations(blocks: Blocks) -> tuple[Array, Array]:
-    """Return largest tensions [N] and the float speeds of the highest waves, current along the normal."""
-    height = effective_height(blocks.maximum_height, blocks.angle, "paper", 1.0)
-    speed = CONVENTIONAL.float_speed(height, blocks.significant_period, blocks.current_normal, WATER)
-    return blocks.averaged("maximum"), speed
+def block_maxima(blocks: Blocks) -> tuple[Array, Array]:
+    """Return largest tensions [N] and the float speeds of the highest waves, current along the normal [m/s]."""
+    return blocks.averaged("maximum"), _speed(blocks, blocks.maximum_height)
+
+
+def paper_maxima(blocks: Blocks) -> tuple[Array, Array]:
+    """Return 1.7 T_1/10 [N] and the float speeds of 1.8 H_1/3, which the paper takes for the maxima [m/s]."""
+    return 1.7 * blocks.averaged("tenth"), _speed(blocks, 1.8 * blocks.significant_height)
+
+
+def _speed(blocks: Blocks, height: Array) -> Array:
+    acting = effective_height(height, blocks.angle, "paper", 1.0)
+    return CONVENTIONAL.float_speed(acting, blocks.significant_period, blocks.current_normal, WATER)
+
+
+def wave_maxima(blocks: Blocks) -> tuple[Array, Array]:
+    """Return the tension of every wave, mean of the anchors [N], and the float speed of its own height and period."""
+    waves = blocks.waves
+    acting = effective_height(waves.height, blocks.angle[waves.block], "paper", 1.0)
+    speed = CONVENTIONAL.float_speed(acting, waves.period, blocks.current_normal[waves.block], WATER)
+    return waves.top.mean(axis=1), speed
+
+
+def by_wave(blocks: Blocks) -> WaveCalibration:
+    """Return the energy model fitted to single waves."""
+    return calibrate_by_wave(*wave_maxima(blocks), blocks.waves.block, blocks.noise.mean(axis=1), line_factor=1.0)

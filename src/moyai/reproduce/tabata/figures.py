@@ -7,7 +7,7 @@ import numpy as np
 from moyai.report.document import Abscissa, Figure, Panel
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
-from moyai.reproduce.tabata.campaign import CONVENTIONAL
+from moyai.reproduce.tabata.campaign import CONVENTIONAL, wave_maxima
 from moyai.reproduce.tabata.runs import Runs
 from moyai.series.regressions import fit_line, type_ratio
 from moyai.structures.curtain.seas.anchor_energy import error_against_product
@@ -113,10 +113,17 @@ def _error(runs: Runs) -> Figure:
     unit = CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness
     mean, spread = error_against_product(*runs.observed, factor * unit)
     x = {"factor": factor}
+    tension, speed = wave_maxima(runs.conventional)
+    chosen, floor = runs.by_wave.chosen, runs.by_wave.floor
+    single, _ = error_against_product(tension[chosen] - floor, speed[chosen], factor * unit)
     return figure(
         "8", "error of the energy model against M", (Abscissa("factor", "mass factor M"),),
         Panel("(calculated − observed)/calculated"),
-        [curve("mean", x, mean, 0), curve("root mean square", x, spread, 1, dash="dash")],
+        [
+            curve("mean, rule of the paper", x, mean, 0),
+            curve("root mean square, rule of the paper", x, spread, 1, dash="dash"),
+            curve("mean, single waves", x, single, 2, dash="dot"),
+        ],
         f"{MADE} Planted: {CONVENTIONAL.energy_factor}.",
     )  # fmt: skip
 

@@ -18,15 +18,17 @@ from moyai.reproduce.tabata.campaign import (
     CURTAIN_DEPTH,
     WATER,
     Campaign,
+    by_wave,
     campaign,
-    observations,
+    paper_maxima,
     process,
 )
 from moyai.sea.irregular import synthesise
 from moyai.sea.spectra import jonswap
 from moyai.structures.curtain.impact.cable import Impact
 from moyai.structures.curtain.model import CurtainProblem
-from moyai.structures.curtain.seas.anchor_energy import calibrate
+from moyai.structures.curtain.seas.anchor_energy import FittingRule, calibrate
+from moyai.structures.curtain.seas.energy_by_wave import WaveCalibration
 from moyai.structures.curtain.seas.squared_velocity import effective_height, squared_velocity
 from moyai.structures.curtain.snaps.events import snaps_in_sea
 from moyai.structures.curtain.snaps.flow import flow_over_skirt
@@ -71,12 +73,22 @@ class Runs:
 
     @cached_property
     def observed(self) -> tuple[Array, Array]:
-        """Largest tensions [N] and speeds of the float [m/s], block by block."""
-        return observations(self.conventional)
+        """Largest tensions [N] and speeds of the float [m/s], block by block, as the paper takes them."""
+        return paper_maxima(self.conventional)
 
-    def energy_factor(self, rule: str = "mean_zero") -> tuple[float, float, float]:
-        """Return M and its interval by a rule of fitting."""
-        fit = calibrate(*self.observed, 0.0, line_factor=1.0, rule=rule)  # type: ignore[arg-type]
+    @cached_property
+    def by_wave(self) -> WaveCalibration:
+        """The energy model fitted to single waves."""
+        return by_wave(self.conventional)
+
+    @property
+    def energy_factor(self) -> tuple[float, float, float]:
+        """M of single waves and its interval."""
+        return self.by_wave.energy_factor(CONVENTIONAL.float_mass, CONVENTIONAL.rope_stiffness)
+
+    def paper_factor(self, rule: FittingRule = "mean_zero") -> tuple[float, float, float]:
+        """Return M of the paper's maxima and its interval by a rule of fitting."""
+        fit = calibrate(*self.observed, 0.0, line_factor=1.0, rule=rule)
         unit = CONVENTIONAL.float_mass * CONVENTIONAL.rope_stiffness
         return fit.product / unit, fit.interval[0] / unit, fit.interval[1] / unit
 

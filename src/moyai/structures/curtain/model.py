@@ -286,6 +286,8 @@ class LimitSettings:
         Of the waves from the normal [rad].
     impact : bool
         Whether the impact counts, where it was asked for.
+    rose_step : float or None
+        Step of headings and orientations of the limit rose [rad]; None: no rose.
     """
 
     speeds: tuple[float, ...] | None = None
@@ -296,6 +298,7 @@ class LimitSettings:
     period: float | None = None
     wave_angle: float = 0.0
     impact: bool = True
+    rose_step: float | None = None
 
     def period_of(self, height: float) -> float:
         """Return the wave period [s] that goes with a significant height [m]."""

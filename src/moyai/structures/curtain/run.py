@@ -18,6 +18,7 @@ from moyai.structures.curtain.analyses.impact_groups import impact_groups
 from moyai.structures.curtain.analyses.limits import fastest_water, limits_dataset
 from moyai.structures.curtain.analyses.loads import NOT_MOVED, dynamic_loads_dataset, loads_dataset
 from moyai.structures.curtain.analyses.record import record_dataset, record_ratios
+from moyai.structures.curtain.analyses.rose import rose_dataset
 from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peaks
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.structures.curtain.analyses.waves import wave_answer
@@ -173,6 +174,9 @@ def _level_steps(
     if "limits" in settings.analyses:
         collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress)
         yield
+        if settings.limits.rose_step is not None:
+            collected.groups[f"{root}/limits/rose"] = rose_dataset(unit, settings, seas, progress)
+            yield
 
 
 def _header(unit: LevelCurtain) -> xr.Dataset:

@@ -56,7 +56,7 @@ def limits_dataset(
         An interrupt is handed on.
     """
     loads = sea_loads(unit, settings, answer, curve)
-    counted = _Counted(unit, settings, loads)
+    counted = CountedLimits(unit, settings, loads)
     most, most_bound = counted.speed()
     speeds = _speeds(unit, settings, most)
     rows = []
@@ -80,7 +80,7 @@ class _Found:
 
 
 @dataclass(frozen=True, eq=False)
-class _Counted:
+class CountedLimits:
     """Limits by the models that count: one out of its range sets none, a bound of the load gives a limit 'at least'."""
 
     unit: LevelCurtain
@@ -153,7 +153,7 @@ _ROLES: tuple[Role, ...] = ("governs", "bound", "comparison", "out of range")
 
 
 def _limits_group(
-    unit: LevelCurtain, settings: Settings, counted: _Counted, found: _Found, heights: Array, parts: Array
+    unit: LevelCurtain, settings: Settings, counted: CountedLimits, found: _Found, heights: Array, parts: Array
 ) -> xr.Dataset:
     import xarray as xr
 
@@ -210,7 +210,7 @@ def _limits_group(
 
 
 def _design_height(
-    unit: LevelCurtain, counted: _Counted, found: _Found, alone: Array, data: dict[str, Any]
+    unit: LevelCurtain, counted: CountedLimits, found: _Found, alone: Array, data: dict[str, Any]
 ) -> dict[str, str]:
     """Add the height held in currents up to that of the case, and return what sets it and whether it is a bound."""
     own = unit.surface_speed
@@ -230,7 +230,7 @@ def _design_height(
     }
 
 
-def _drag_band(unit: LevelCurtain, counted: _Counted, most: Limit) -> tuple[float, float]:
+def _drag_band(unit: LevelCurtain, counted: CountedLimits, most: Limit) -> tuple[float, float]:
     """Return the largest current at the upper and lower end of the drag coefficient; NaN where an impact sets it.
 
     The load goes with C_D U^2 alone, so that a factor on one is the root of a factor on the other.
@@ -279,7 +279,7 @@ def _not_monotone(found: _Found, alone: Array, least: Array) -> str:
     )
 
 
-def _jump(unit: LevelCurtain, counted: _Counted, found: _Found) -> str:
+def _jump(unit: LevelCurtain, counted: CountedLimits, found: _Found) -> str:
     """Say from which current on the upright plate counts otherwise, where the heights jump for it."""
     if not counted.with_plate or unit.curtain.toe == "free":
         return ""
@@ -373,4 +373,13 @@ def _governing(parts: Array) -> NDArray[Any]:
     return out
 
 
-__all__ = ["PARTS", "fastest_water", "height_note", "impact_load", "limits_dataset", "sea_loads", "speed_text"]
+__all__ = [
+    "PARTS",
+    "CountedLimits",
+    "fastest_water",
+    "height_note",
+    "impact_load",
+    "limits_dataset",
+    "sea_loads",
+    "speed_text",
+]

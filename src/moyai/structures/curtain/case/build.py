@@ -339,6 +339,7 @@ def settings_of(model: schema.CurtainCase, environment: Environment) -> Settings
             limits.period,
             math.remainder(angle, 2.0 * math.pi),
             limits.impact,
+            None if limits.rose_step_deg is None else math.radians(limits.rose_step_deg),
         ),
         dynamic=dynamic_settings(model),
     )

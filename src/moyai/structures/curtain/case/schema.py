@@ -418,6 +418,11 @@ class Limits(Block):
     wave_angle_deg: Annotated[float, QuantityOf(quantities.ANGLE_DEGREES)] | None = Field(
         default=None, description="Of the waves from the normal; absent: that of the first sea state, or 0."
     )
+    rose_step_deg: Literal[5, 10, 15, 30, 45] | None = Field(
+        default=None,
+        description="Step of the limit rose, what the curtain bears over wave heading and its own orientation; absent: "
+        "no rose.",
+    )
 
 
 class Dynamic(Block):

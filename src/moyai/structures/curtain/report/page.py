@@ -14,6 +14,7 @@ from moyai.structures.curtain.report import figures, limits, sea_figures, sea_ta
 from moyai.structures.curtain.report.drawing import drawings
 from moyai.structures.curtain.report.dynamic import dynamic_blocks
 from moyai.structures.curtain.report.reading import CurtainLevel, governing_component, water_levels
+from moyai.structures.curtain.report.rose import rose_blocks
 from moyai.structures.curtain.report.snap import snap_animation
 from moyai.structures.curtain.report.steady import site_table, steady_tables
 from moyai.structures.curtain.report.summary import summary_blocks
@@ -165,4 +166,4 @@ def _anchors(level: CurtainLevel) -> Sequence[Block | None]:
 
 
 def _limits(level: CurtainLevel) -> Sequence[Block | None]:
-    return (limits.limit_curve(level), limits.limit_table(level), limits.map_table(level))
+    return (limits.limit_curve(level), limits.limit_table(level), limits.map_table(level), *rose_blocks(level))

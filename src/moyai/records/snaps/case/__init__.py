@@ -1,0 +1,1 @@
+"""Files of ``moyai measure snaps``: schema, and the runs that they state."""
