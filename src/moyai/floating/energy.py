@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.coefficients import Hydrodynamics
@@ -19,6 +20,22 @@ from moyai.floating.time import Simulation
 from moyai.series.harmonics import fit_last_periods
 
 HARMONICS = 3
+ENERGY_TOLERANCE = 0.02
+"""Of the loss of the first harmonic, that damping may leave unexplained."""
+LEAST_LOSS = 0.05
+"""Of the incident energy; below it the tolerance is 0.1 % of that, the accuracy of the coefficients."""
+
+
+def unexplained_share(loss: ArrayLike, work: ArrayLike) -> Array:
+    """Return what of the loss of the first harmonic its work does not explain, over the loss [eq:floating-work].
+
+    Parameters
+    ----------
+    loss, work : array_like
+        Over the incident energy flux.
+    """
+    lost, taken = np.asarray(loss, dtype=float), np.asarray(work, dtype=float)
+    return np.asarray(np.abs(lost - taken) / np.maximum(np.abs(lost), LEAST_LOSS))
 
 
 @dataclass(frozen=True)

@@ -75,3 +75,20 @@ def test_waves_without_height_and_a_damping_lid_have_no_energy_check(pontoon_pro
     lid = replace(pontoon_problem.breakwater, gap_damping_lid=0.05)
     for problem in (replace(pontoon_problem, environment=environment), replace(pontoon_problem, breakwater=lid)):
         assert not [check for check in run(problem).checks if LOSS in check.name]
+
+
+def test_no_period_out_of_its_range_decides_a_headline(at_rest, in_motion):
+    """In time roll at 1.6 s is five times that of 1.2 s; it is the motion of the second state and decides nothing."""
+    time, frequency = (at_rest.tree[f"SWL/{domain}/waves"].to_dataset() for domain in ("time", "frequency"))
+    roll, offset = (next(item for item in at_rest.headlines if item.name == name) for name in ("roll", "offset"))
+    jumped = float(time.motion_amplitude.sel(period=1.6, dof="roll"))
+    assert roll.value < 0.6 * jumped
+    assert roll.value == pytest.approx(float(time.motion_amplitude.sel(period=1.2, dof="roll")), rel=1e-12)
+    assert roll.where.endswith("T = 1.2 s") and "at T = 1.6 s the time domain is out of its range" in roll.detail
+    linear = frequency.sel(period=1.6)
+    expected = abs(float(linear.mean_offset[0])) + float(linear.motion_amplitude[0])
+    assert offset.value == pytest.approx(expected, rel=1e-12)
+    assert offset.model == "frequency domain, regular waves"
+    assert np.isfinite(time.maximum_motion.values).all()
+    moving = next(item for item in in_motion.headlines if item.name == "roll")
+    assert moving.model == "time domain, lines in motion" and "out of its range" not in moving.detail

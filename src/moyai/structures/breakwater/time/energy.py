@@ -11,15 +11,13 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.validity import IdentityCheck
 from moyai.floating.damping import QuadraticDamping
-from moyai.floating.energy import HARMONICS, drag_force, harmonic_work
+from moyai.floating.energy import ENERGY_TOLERANCE, HARMONICS, drag_force, harmonic_work, unexplained_share
 from moyai.floating.far_field import energy_velocity
 from moyai.floating.forcing import Forcing
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.model import RegularSea
 from moyai.structures.breakwater.time.model import TimeRun
 
-TOLERANCE = 0.02  # of what is lost
-LEAST_LOSS = 0.05  # of the incident energy; below it the tolerance is 0.1 % of that, the accuracy of the coefficients
 HIGHER = tuple(range(2, HARMONICS + 1))
 
 
@@ -53,12 +51,12 @@ class EnergyOfPeriod:
     @property
     def missing(self) -> float:
         """Loss that damping does not explain, over the loss."""
-        return abs(self.loss - self.damping) / max(abs(self.loss), LEAST_LOSS)
+        return float(unexplained_share(self.loss, self.damping))
 
     @property
     def unexplained(self) -> float:
         """Loss that neither damping nor other harmonics explain, over the loss."""
-        return abs(self.loss - self.damping - self.passed_on) / max(abs(self.loss), LEAST_LOSS)
+        return float(unexplained_share(self.loss, self.damping + self.passed_on))
 
     def variables(self) -> dict[str, Array]:
         """Return what the summary of a sea holds of it."""
@@ -139,7 +137,7 @@ def energy_checks(found: Sequence[tuple[float, EnergyOfPeriod]], where: str) -> 
         IdentityCheck(
             f"{where}, time domain: loss of the first harmonic and work of the damping, T = {period:.4g} s",
             worst.missing,
-            TOLERANCE,
+            ENERGY_TOLERANCE,
             f"the far field of the first harmonic loses {100.0 * worst.loss:.3g} % of the incident energy, damping "
             f"takes {100.0 * worst.damping:.3g} %, lines carry {100.0 * worst.passed_on:.3g} % into other harmonics; "
             f"the second radiates {100.0 * second:.3g} %, the third {100.0 * third:.3g} %; where they differ, "
@@ -148,7 +146,7 @@ def energy_checks(found: Sequence[tuple[float, EnergyOfPeriod]], where: str) -> 
         IdentityCheck(
             f"{where}, time domain: loss of the first harmonic and work of all forces, T = {other:.4g} s",
             rough.unexplained,
-            TOLERANCE,
+            ENERGY_TOLERANCE,
             "loss of the far field equals the work of damping and lines on the first harmonic, over the loss",
         ),
     )
