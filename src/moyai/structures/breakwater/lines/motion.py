@@ -269,12 +269,7 @@ def without_line_drag(model: FrequencyModel, cummins: CumminsModel) -> Quadratic
     """Return the quadratic damping without that of lines in motion, which bring their own drag."""
     if cummins.quadratic is None:
         return None
-    given = tuple(
-        replace(line, drag_width=0.0) if isinstance(line, MooringLine) and line.dynamic else line
-        for line in model.unit.breakwater.lines
-    )
-    unit = replace(model.unit, breakwater=replace(model.unit.breakwater, lines=given))
-    rows, coefficients = line_drag_rows(unit)
+    rows, coefficients = line_drag_rows(model.unit, of_moving=False)
     own_rows, own_coefficients = unit_drag_rows(model.unit)
     coefficients = np.append(coefficients, own_coefficients)
     return QuadraticDamping(np.vstack([rows, own_rows]), coefficients) if len(coefficients) else None

@@ -134,7 +134,7 @@ def compiled_lines(unit: FloatingUnit, reach: Array, *, at_rest_only: bool = Fal
 
 
 def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -> Array:
-    return np.asarray(model.damping.at(model.unit.inertia, added_mass, stiffness), dtype=float)
+    return np.asarray(model.damping.at(model.inertia, added_mass, stiffness), dtype=float)
 
 
 @dataclass(frozen=True)
