@@ -19,6 +19,7 @@ from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
     FIRST_ORDER,
     FREQUENCY,
+    IN_MOTION,
     STILL,
     LinePeak,
     anchor_headlines,
@@ -194,7 +195,7 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
 
 def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
     mean = np.atleast_2d(data["mean_offset"].values)[:, 0] if "mean_offset" in data else np.array([math.nan])
-    model = AT_REST if domain == "time" else FREQUENCY
+    model = _motion_model(domain, data)
     band = None
     if "maximum_excursion" in data:
         value = float(data["maximum_excursion"].values[0])
@@ -208,6 +209,14 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         return []
     words = "; ".join(part for part in (f"mean {mean[0]:.3g} m", detail) if part)
     return [Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, detail=words)]
+
+
+def _motion_model(domain: str, data: xr.Dataset) -> str:
+    """Return the model of motions in a sea; where events alone were rerun in motion, motions are of lines at rest."""
+    if domain != "time":
+        return FREQUENCY
+    whole = "events_in_motion" not in data and "lines_in_motion" in data
+    return IN_MOTION if whole and bool((data["lines_in_motion"].values == 1.0).any()) else AT_REST
 
 
 def _slow_words(frequency: xr.Dataset | None) -> str:
@@ -226,7 +235,7 @@ def _slow_words(frequency: xr.Dataset | None) -> str:
 
 def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
     band = None
-    model = AT_REST if domain == "time" else FREQUENCY
+    model = _motion_model(domain, data)
     if "significant_motion" not in data:
         return []
     value = float(data["significant_motion"].values[2])
