@@ -158,7 +158,8 @@ class CatenaryLine(Block):
         default=0.0,
         description=(
             "Drag coefficient across the line times its drag diameter, for the damping that the drag of the line gives "
-            "the unit; chain about 2.4 nominal diameters. Default: 0, none."
+            "the unit; chain about 2.4 nominal diameters. A line with dynamic: true takes that of its segments where "
+            "none is given. Default: 0, none."
         ),
     )
     dynamic: Truth = Field(

@@ -58,6 +58,22 @@ class BodyHistory:
     kinetic_energy: Array
 
     @property
+    def point_force_at_rows(self) -> Array:
+        """Force of the network on every carried point at the instants of the rows (k, points, 3) [N].
+
+        The rows of ``point_force`` are means over the step that ends there, half a step late. A cubic through the
+        impulses of four steps gives the value between the middle two [eq:coupled-instant]; near the ends a line.
+        """
+        mean = self.point_force
+        out = mean.copy()
+        if len(mean) > 2:
+            out[1:-1] = 0.5 * (mean[1:-1] + mean[2:])
+            out[-1] = 1.5 * mean[-1] - 0.5 * mean[-2]
+        if len(mean) > 4:
+            out[2:-2] = (7.0 * (mean[2:-2] + mean[3:-1]) - mean[1:-3] - mean[4:]) / 12.0
+        return out
+
+    @property
     def angles(self) -> Array:
         """Roll, pitch, yaw (k, 3) [rad]; yaw goes on beyond a half turn."""
         found = roll_pitch_yaw(self.rotation)

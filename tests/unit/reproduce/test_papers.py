@@ -90,3 +90,11 @@ def test_points_beside_every_curve_are_refused(tmp_path):
         InputError, match=r"no point of points.csv lies under a curve of figure 1; allowed: x from 0 to 2"
     ):
         agreements(drawn, read_points(f"1={points_file(tmp_path, '5 1')}", ("1",)))
+
+
+def test_lift_on_the_members_by_hand():
+    """Density 1000, V = KC 0.045 m 0.95 Hz, circulation 18 KC^2 cm2/s, 79 cm: 6.08e-2 KC^3 N."""
+    from moyai.reproduce.arai.figures import lift
+
+    number = np.array([0.0, 1.0, 2.0, 4.0])
+    assert lift(number) == pytest.approx(1000.0 * 0.04275 * 18e-4 * 0.79 * number**3, rel=1e-3)

@@ -6,14 +6,58 @@ import math
 
 import numpy as np
 
-from moyai.report.document import Abscissa, Figure, Panel
-from moyai.reproduce.arai.runs import BREADTH, CONTOURS, DENSITY, MODEL_LENGTH, OMEGA, PRINTED, SECTIONS, Runs, speed
+from moyai.core.arrays import Array
+from moyai.morison.circulation import STRENGTHS, settled_circulation
+from moyai.report.document import Abscissa, Figure, Panel, Series
+from moyai.reproduce.arai.runs import (
+    BREADTH,
+    CONTOURS,
+    DENSITY,
+    MODEL_LENGTH,
+    OMEGA,
+    PERIOD,
+    PRINTED,
+    SECTIONS,
+    Runs,
+    speed,
+)
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
 
 NUMBER = (Abscissa("kc", "Keulegan-Carpenter number KC"),)
-PLOTTED = ("2a", "2b", "2c", "3", "6", "7", "12", "13", "14")
+PLOTTED = ("2", "2a", "2b", "2c", "3", "6", "7", "12", "13", "14")
+LARGEST, LAMINAR_END = 4.0, 1.0  # KC of the paper's axes; to which laminar theory of planar flow holds
+PLANAR_WORDS = (
+    "Planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the paper shows is measured, "
+    "no number of it is printed, and the level is held in its place."
+)
 LAW_WORDS = "The law is held from KC = 2 and ends at 3, where vortices of the size of the section govern."
+
+
+def _planar(runs: Runs) -> list[Series]:
+    """Return the curve of planar flow for what it is: laminar theory, held where the paper shows measured points."""
+    data = runs.sweep("circle")
+    kc, found = data.keulegan_carpenter.values, data.planar_inertia_coefficient.values[:, 0]
+    below = kc <= LAMINAR_END
+    return [
+        curve("circle in planar flow: laminar theory (Stokes, Wang)", {"kc": kc[below]}, found[below], 5, dash="dash"),
+        curve("the same, held in place of Sarpkaya's measured curve", {"kc": kc[~below]}, found[~below], 5,
+              dash="dot", faint=True),
+    ]  # fmt: skip
+
+
+def _all_sections(runs: Runs) -> Figure:
+    series = []
+    for tone, section in enumerate(SECTIONS):
+        data = runs.sweep(section)
+        x = {"kc": data.keulegan_carpenter.values}
+        for axis, (words, dash) in enumerate((("C_Mx", "solid"), ("C_My", "dash"))):
+            found = data.inertia_coefficient.values[:, axis]
+            series.append(curve(f"{section}, {words}", x, found, tone, dash=dash))  # type: ignore[arg-type]
+    return figure(
+        "2", "inertia coefficients of all sections", NUMBER, Panel("C_M", from_zero=True),
+        [*series, *_planar(runs)], f"{LAW_WORDS} {PLANAR_WORDS}",
+    )  # fmt: skip
 
 
 def _coefficients(runs: Runs, number: str, section: str) -> Figure:
@@ -33,12 +77,9 @@ def _coefficients(runs: Runs, number: str, section: str) -> Figure:
         near = {"kc": kc[below]}
         series.append(curve("Chaplin", near, data.chaplin_inertia_coefficient.values[below, 0], 2, dash="dashdot"))
         series.append(curve("Otsuka and Ikeda", near, data.otsuka_inertia_coefficient.values[below, 0], 3, dash="dot"))
-        series.append(
-            curve("planar flow, laminar theory", x, data.planar_inertia_coefficient.values[:, 0], 5, dash="dash")
-        )
-    return figure(
-        number, f"inertia coefficients of the {section}", NUMBER, Panel("C_M", from_zero=True), series, LAW_WORDS
-    )
+        series += _planar(runs)
+    words = f"{LAW_WORDS} {PLANAR_WORDS}" if section == "circle" else LAW_WORDS
+    return figure(number, f"inertia coefficients of the {section}", NUMBER, Panel("C_M", from_zero=True), series, words)
 
 
 def _fall(runs: Runs) -> Figure:
@@ -47,13 +88,14 @@ def _fall(runs: Runs) -> Figure:
         data = runs.sweep(section)
         fall = runs.ideal(section)[0] - data.inertia_coefficient.values[:, 0]
         series.append(curve(section, {"kc": data.keulegan_carpenter.values}, fall, tone))
-        kc = np.linspace(0.0, 2.0, 41)
+        kc = np.linspace(0.0, LARGEST, 81)
         series.append(
             curve(f"{section}, as printed", {"kc": kc}, PRINTED[section] * kc**2, tone, dash="dot", faint=True)
         )
     return figure(
         "3", "fall of the inertia coefficient", NUMBER, Panel("fall of C_M", from_zero=True), series,
-        f"Both directions are alike in circular orbits. Thin: equations (8) to (10). {LAW_WORDS}",
+        f"Both directions are alike in circular orbits. Thin: equations (8) to (10), drawn on "
+        f"beyond KC = 2, where the paper's own points leave them. {LAW_WORDS}",
     )  # fmt: skip
 
 
@@ -129,32 +171,40 @@ def lost_force(runs: Runs, section: str, number: float) -> tuple[float, float]:
     return size * at[0], size * at[1]
 
 
+def lift(number: Array) -> Array:
+    """Return the lift of the circulation on the model [N] over KC by equations (6) and (7)."""
+    v = speed(1.0) * number
+    circulation = settled_circulation(STRENGTHS["arai"], v, v, PERIOD)
+    return np.asarray(DENSITY * v * circulation * MODEL_LENGTH, dtype=float)
+
+
 def _force(runs: Runs) -> Figure:
     series = []
     for tone, section in enumerate(SECTIONS):
         kc = np.linspace(0.1, 3.0, 30)
-        loss = np.array([lost_force(runs, section, float(number))[0] for number in kc])
-        series.append(curve(f"loss of inertia force, {section}", {"kc": kc}, loss, tone, points=True))
-    data = runs.sweep("circle")
-    lift = data.magnus_force_per_length.values * MODEL_LENGTH
-    series.append(curve("lift of the circulation", {"kc": data.keulegan_carpenter.values}, lift, 4))
+        for axis, words in enumerate(("horizontal", "vertical")):
+            loss = np.array([lost_force(runs, section, float(number))[axis] for number in kc])
+            series.append(
+                curve(f"loss of inertia force, {section}, {words}", {"kc": kc}, loss, tone, points=True, faint=axis > 0)
+            )
+    inside, beyond = np.linspace(0.0, 2.0, 41), np.linspace(2.0, LARGEST, 41)
+    series.append(curve("lift, equations (6) and (7)", {"kc": inside}, lift(inside), 4))
+    series.append(
+        curve("lift, drawn on beyond its measured range", {"kc": beyond}, lift(beyond), 4, dash="dash", faint=True)
+    )
     return figure(
-        "14", "loss of inertia force and lift on the model of 79 "
-              "cm", NUMBER, Panel("force", "N", from_zero=True), series,
-        LAW_WORDS,
+        "14", "loss of inertia force and lift on the model of 79 cm", NUMBER, Panel("force", "N", from_zero=True),
+        series, f"All sections, both directions. {LAW_WORDS}",
     )  # fmt: skip
 
 
 def figures(runs: Runs) -> tuple[PaperFigure, ...]:
     """Return the figures of the paper."""
-    sarpkaya = (
-        "the curve for planar flow is laminar theory, which holds below KC = 1; the curve of Sarpkaya that the "
-        "paper shows "
-        "is measured and no number of it is printed"
-    )
+    sarpkaya = f"panels a to c of the paper in one. {PLANAR_WORDS}"
     return (
         PaperFigure("1", None, "sketch of the tank; its measures stand in the case files"),
-        PaperFigure("2a", _coefficients(runs, "2a", "circle"), sarpkaya),
+        PaperFigure("2", _all_sections(runs), sarpkaya),
+        PaperFigure("2a", _coefficients(runs, "2a", "circle")),
         PaperFigure("2b", _coefficients(runs, "2b", "square")),
         PaperFigure("2c", _coefficients(runs, "2c", "rectangle")),
         PaperFigure("3", _fall(runs)),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.floating.energy import ENERGY_TOLERANCE, unexplained_share
 from moyai.mooring.catenary import solve_catenary
 from moyai.mooring.shoji import solve_shoji
 from moyai.report.document import Abscissa, Figure, Panel, Series
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 AXES = (Abscissa("ratio", "wavelength over beam L/B"), Abscissa("period", "wave period T", "s"))
 LETTERS = "abc"
 PLOTTED = ("4", "5a", "5b", "5c", "6a", "6b", "6c", "7", "8a", "8b", "8c", "9a", "9b", "9c", "10a", "10b")
+CUT = 3.0  # of the undamped resonance under a damped figure
 STIFFNESS_UNITS = {"sway": "N/m", "heave": "N/m", "roll": "N m"}
 
 
@@ -97,33 +99,44 @@ def _motion(runs: Runs, number: str, state: Literal["undamped", "damped", "drift
     }[state]
     if state == "drifted":
         series.append(_points(runs.moving_time, "motion_ratio", mode, "time domain, chains in motion", 2))
-        series.append(
-            curve(
-                "frequency domain without drift",
-                abscissae(runs.damped, "frequency"),
-                values(runs.damped, "frequency", "motion_ratio", mode),
-                5,
-                dash="dash",
-                faint=True,
-            )
-        )
+        series += _other_state(runs.damped, runs.damped_time, mode, "without drift")
     if state == "damped":
-        series.append(
-            curve(
-                "frequency domain without damping",
-                abscissae(runs.undamped, "frequency"),
-                np.minimum(values(runs.undamped, "frequency", "motion_ratio", mode), 3.0),
-                5,
-                dash="dash",
-                faint=True,
-            )
-        )
+        series += _other_state(runs.undamped, runs.undamped_time, mode, "without damping")
+    if state == "undamped":
+        series += _other_state(runs.damped, runs.damped_time, mode, f"with {100 * FRACTION:.0f} % of critical")
     symbol = {"sway": "X₁/(H/2)", "heave": "X₂/(H/2)", "roll": "θB/H"}[mode]
-    cut = " The undamped curve is cut at 3." if state == "damped" and mode == "roll" else ""
+    cut = f" The undamped curve is cut at {CUT:g}." if state == "damped" and mode == "roll" else ""
     return figure(
         number, f"{mode}, {words}", AXES, Panel(f"{mode} {symbol}", from_zero=True), series,
-        f"Wave height 4 cm, four chains.{cut}",
+        f"Wave height 4 cm, four chains.{cut}{_second_state(in_time)}",
     )  # fmt: skip
+
+
+def _other_state(result: Result, in_time: Result, mode: str, words: str) -> list[Series]:
+    """Return both domains of another state of damping or drift, faint, to lay under a figure."""
+    found = np.minimum(values(result, "frequency", "motion_ratio", mode), CUT)
+    timed = np.minimum(values(in_time, "time", "motion_ratio", mode), CUT)
+    return [
+        curve(f"frequency domain {words}", abscissae(result, "frequency"), found, 5, dash="dash", faint=True),
+        curve(f"time domain {words}, chains at rest", abscissae(in_time, "time"), timed, 5, points=True, faint=True),
+    ]
+
+
+def unkept(result: Result) -> Array:
+    """Return the periods [s] at which the loss of the far field in time is not the work of the damping."""
+    share = unexplained_share(values(result, "time", "dissipation"), values(result, "time", "damping_work"))
+    return np.asarray(values(result, "time", "period")[share > ENERGY_TOLERANCE])
+
+
+def _second_state(in_time: Result) -> str:
+    periods = unkept(in_time)
+    if not periods.size:
+        return ""
+    named = ", ".join(f"{period:.3g}" for period in periods)
+    return (
+        f" In time, chains at rest: at T = {named} s the motion has strong other harmonics, or has not settled, and "
+        "its first harmonic does not keep the energy of the wave."
+    )
 
 
 def _drift(runs: Runs) -> Figure:
@@ -161,7 +174,8 @@ def _far(runs: Runs, number: str, name: str, words: str, symbol: str) -> Figure:
             _points(runs.drifted_time, name, "", "time domain, chains at rest", 1),
             _points(runs.moving_time, name, "", "time domain, chains in motion", 2),
         ],
-        "With damping and drift. In time the operators of the frequency domain take the motion of the simulation.",
+        "With damping and drift. In time the operators of the frequency domain take the motion of the simulation."
+        f"{_second_state(runs.drifted_time)}",
     )  # fmt: skip
 
 

@@ -14,8 +14,8 @@ RESONANCE = 3.5
 NEAR = (3.0, 4.2)  # L/B around the resonance of roll
 SMALL = 0.05  # a change that the paper calls not significant
 JUMP = (
-    "the long waves, where the spring of chains at rest hardens so much that the motion jumps to a second state; with "
-    "chains in motion the jump is gone"
+    "the long waves, where the spring of chains at rest hardens so much that the motion jumps to a second state, in "
+    "which the first harmonic does not keep the energy of the wave; with chains in motion the jump is gone"
 )
 
 

@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.headline import Band, Headline
+from moyai.structures.breakwater.largest_motion import LargestOfPeriods
 from moyai.structures.breakwater.lines.headlines import (
     AT_REST,
     FIRST_ORDER,
     FREQUENCY,
+    IN_MOTION,
     STILL,
     LinePeak,
     anchor_headlines,
@@ -177,9 +179,14 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
     for level in levels:
         for sea in seas_of(groups, level):
             chosen = governing_group(groups, level, sea)
-            if chosen is not None:
-                offsets += _offset(*chosen, level, sea, groups.get(f"/{level}/frequency/{sea}"))
-                rolls += _roll(*chosen, level, sea, groups.get(f"/{level}/frequency/{sea}"))
+            frequency = groups.get(f"/{level}/frequency/{sea}")
+            if chosen is not None and "period" in chosen[1].dims:
+                largest = LargestOfPeriods(*chosen, frequency, groups.get(f"/{level}/statics"), place(level, sea))
+                offsets += largest.offset()
+                rolls += largest.roll()
+            elif chosen is not None:
+                offsets += _offset(*chosen, level, sea, frequency)
+                rolls += _roll(*chosen, level, sea, frequency)
     found = [max(items, key=lambda item: abs(item.value)) for items in (offsets, rolls) if items]
     if not found and (rest := _steady_offset(groups, levels)) is not None:
         found = [rest]
@@ -188,31 +195,28 @@ def _motion_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> li
 
 def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
     mean = np.atleast_2d(data["mean_offset"].values)[:, 0] if "mean_offset" in data else np.array([math.nan])
-    model = AT_REST if domain == "time" else FREQUENCY
-    band, period, detail = None, math.nan, ""
+    model = _motion_model(domain, data)
+    band = None
     if "maximum_excursion" in data:
-        value, row = float(data["maximum_excursion"].values[0]), 0
+        value = float(data["maximum_excursion"].values[0])
         scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
         band = seeds(scatter)
         detail = _slow_words(frequency)
     elif "largest_offset" in data:
-        value, row = float(data["largest_offset"]), 0
+        value = float(data["largest_offset"])
         detail = _slow_words(data)
-    elif "period" in data.dims:
-        if domain == "time" and "maximum_motion" in data:
-            table = data["maximum_motion"].values[:, 0]
-        else:
-            table, model = np.abs(mean) + data["motion_amplitude"].values[:, 0], FIRST_ORDER
-        if not np.isfinite(table).any():
-            return []
-        row = int(np.nanargmax(table))
-        value, period = float(table[row]), float(data["period"].values[row])
     else:
         return []
-    words = "; ".join(part for part in (f"mean {mean[min(row, len(mean) - 1)]:.3g} m", detail) if part)
-    return [
-        Headline("offset", "Largest offset in sway", value, "m", place(level, sea, period), model, band, detail=words)
-    ]
+    words = "; ".join(part for part in (f"mean {mean[0]:.3g} m", detail) if part)
+    return [Headline("offset", "Largest offset in sway", value, "m", place(level, sea), model, band, detail=words)]
+
+
+def _motion_model(domain: str, data: xr.Dataset) -> str:
+    """Return the model of motions in a sea; where events alone were rerun in motion, motions are of lines at rest."""
+    if domain != "time":
+        return FREQUENCY
+    whole = "events_in_motion" not in data and "lines_in_motion" in data
+    return IN_MOTION if whole and bool((data["lines_in_motion"].values == 1.0).any()) else AT_REST
 
 
 def _slow_words(frequency: xr.Dataset | None) -> str:
@@ -231,23 +235,17 @@ def _slow_words(frequency: xr.Dataset | None) -> str:
 
 def _roll(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.Dataset | None) -> list[Headline]:
     band = None
-    model = AT_REST if domain == "time" else FREQUENCY
-    if "significant_motion" in data:
-        value = float(data["significant_motion"].values[2])
-        label, period = "Significant roll (double amplitude)", math.nan
-        if frequency is not None and "significant_motion_low" in frequency:
-            # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
-            ratio = value / float(frequency["significant_motion"].values[2])
-            low, high = (ratio * float(frequency[f"significant_motion_{end}"].values[2]) for end in ("low", "high"))
-            if math.isfinite(low + high):
-                band = Band(low, high, str(frequency.attrs.get("damping_band", "damping")))
-    elif "motion_amplitude" in data and np.isfinite(data["motion_amplitude"].values[:, 2]).any():
-        table = data["motion_amplitude"].values[:, 2]
-        row = int(np.nanargmax(table))
-        value, label, period = float(table[row]), "Roll amplitude", float(data["period"].values[row])
-    else:
+    model = _motion_model(domain, data)
+    if "significant_motion" not in data:
         return []
-    return [Headline("roll", label, value, "rad", place(level, sea, period), model, band)]
+    value = float(data["significant_motion"].values[2])
+    if frequency is not None and "significant_motion_low" in frequency:
+        # the frequency domain tells by how much damping moves roll; the time domain is run at its nominal value
+        ratio = value / float(frequency["significant_motion"].values[2])
+        low, high = (ratio * float(frequency[f"significant_motion_{end}"].values[2]) for end in ("low", "high"))
+        if math.isfinite(low + high):
+            band = Band(low, high, str(frequency.attrs.get("damping_band", "damping")))
+    return [Headline("roll", "Significant roll (double amplitude)", value, "rad", place(level, sea), model, band)]
 
 
 def _steady_offset(groups: Mapping[str, xr.Dataset], levels: list[str]) -> Headline | None:

@@ -86,7 +86,8 @@ class MooringLine:
     bed_friction : float
         Coulomb coefficient of the line on the bed.
     drag_width : float
-        Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out.
+        Drag coefficient across the line times its drag diameter [m]; 0 leaves the drag of the line out, of a line in
+        motion in time it takes that of its segments.
     dynamic : bool
         Whether the line is in motion in the time domain from the start, with drag, inertia and slack.
     bar_types : tuple of BarType

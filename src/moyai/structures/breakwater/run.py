@@ -198,6 +198,7 @@ def _time_steps(
                 collected.checks.extend(
                     replace(check, name=f"{check.name} ({sea.name}, {one.name})") for check in one.lines.checks
                 )
+        collected.checks.extend(answer.checks)
         collected.notices.extend(answer.notices)
         histories.extend(collected.groups[f"{root}/time/{sea.name}/{one.name}"] for one in answer.runs)
         shapes = moving_shapes(unit, histories)

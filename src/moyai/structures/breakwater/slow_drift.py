@@ -117,14 +117,14 @@ def slow_drift(
     """
     unit, hydro = model.unit, model.hydro.unit
     stiffness = unit.statics.stiffness + mooring_stiffness
-    modes = natural_modes(hydro, unit.inertia, stiffness)
+    modes = natural_modes(hydro, model.inertia, stiffness)
     natural = float(modes.omega[0])
     if not (math.isfinite(natural) and natural > 0.0):
         return None
     added, radiation = added_mass_function(hydro), damping_function(hydro)
-    extra = np.asarray(damping.at(unit.inertia, natural_added_mass(model, hydro), stiffness), dtype=float)
+    extra = np.asarray(damping.at(model.inertia, natural_added_mass(model, hydro), stiffness), dtype=float)
     shape = modes.shape[0]
-    mass = float(shape @ (unit.inertia + added(natural)) @ shape)
+    mass = float(shape @ (model.inertia + added(natural)) @ shape)
     ratio = float(shape @ (radiation(natural) + extra) @ shape) / (2.0 * natural * mass)
     step = max(ratio, 0.005) * natural / POINTS_PER_WIDTH
     reach = min(REACH * natural, float(omega[-1] - omega[0]))
@@ -137,7 +137,7 @@ def slow_drift(
     def transfer(factor: float) -> ComplexArray:
         out = np.zeros((len(difference), 3), dtype=complex)
         for index, mu in enumerate(difference):
-            matrix = stiffness - mu**2 * (unit.inertia + added(mu)) - 1j * mu * factor * (radiation(mu) + extra)
+            matrix = stiffness - mu**2 * (model.inertia + added(mu)) - 1j * mu * factor * (radiation(mu) + extra)
             out[index] = np.linalg.solve(matrix, np.array([1.0, 0.0, 0.0]))
         return out
 

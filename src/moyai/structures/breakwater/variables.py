@@ -67,6 +67,9 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "reflection_coefficient": ("1", "reflection coefficient C_R"),
     "transmission_coefficient": ("1", "transmission coefficient C_T"),
     "dissipation": ("1", "dissipated fraction of the incident energy flux E_L"),
+    "damping_work": ("1", "work of all damping on the first harmonic, over the incident energy flux"),
+    "energy_to_harmonics": ("1", "energy that lines carry from the first harmonic into others, over the incident flux"),
+    "harmonic_radiation": ("1", "energy radiated in a higher harmonic of the motion, over the incident energy flux"),
     "drift_coefficient": ("1", "drift coefficient F*"),
     "mean_drift_force": ("N", "mean drift force on the unit along x"),
     "transmission_macagno": ("1", "K_T after Macagno, fixed box (screening)"),
@@ -175,6 +178,7 @@ LABELS: dict[str, str] = {
     "influenced_dof": "degree of freedom that is pushed",
     "radiating_dof": "degree of freedom that moves",
     "mode": "natural mode",
+    "harmonic": "harmonic of the wave",
 }
 
 # Names that a group holds whenever its analysis was run

@@ -130,7 +130,7 @@ def band_words(model: FrequencyModel) -> str:
 
 def natural_added_mass(model: FrequencyModel, hydro: Hydrodynamics) -> Array:
     """Added mass with the diagonal of each mode at that mode's own natural frequency, for the fraction of critical."""
-    modes = natural_modes(hydro, model.unit.inertia, model.stiffness)
+    modes = natural_modes(hydro, model.inertia, model.stiffness)
     omega = np.clip(np.nan_to_num(modes.omega), hydro.omega[0], hydro.omega[-1])
     out = np.zeros((3, 3))
     for index in range(3):
@@ -169,13 +169,12 @@ def about_rest_in_sea(model: FrequencyModel, hydro: Hydrodynamics, sea: SeaState
     sea : IrregularSea
         Long-crested from that heading for this purpose.
     """
-    unit = model.unit
     if model.quadratic is None or isinstance(sea, RegularSea):
-        return solve_motions(hydro, unit.inertia, model.stiffness, damping=model.damping)
+        return solve_motions(hydro, model.inertia, model.stiffness, damping=model.damping)
     omega = spectrum_band(sea)
     found = linearised_in_sea(
         model.hydro.at(omega, sea.heading),
-        unit.inertia,
+        model.inertia,
         model.stiffness,
         np.asarray(sea.spectrum.density_at(omega), dtype=float),
         quadratic=model.quadratic,
@@ -202,10 +201,10 @@ def driven_motions(
     """
     moving = water_motion(model, hydro.omega, hydro.heading)
     if moving is None or model.quadratic is None:
-        return solve_motions(hydro, model.unit.inertia, stiffness, damping=damping)
+        return solve_motions(hydro, model.inertia, stiffness, damping=damping)
     drag = model.quadratic.carried_irregular(deviation, moving)
     driven = replace(hydro, excitation=hydro.excitation + drag)
-    return replace(solve_motions(driven, model.unit.inertia, stiffness, damping=damping), drag_excitation=drag)
+    return replace(solve_motions(driven, model.inertia, stiffness, damping=damping), drag_excitation=drag)
 
 
 def motions_about_rest(model: FrequencyModel, hydro: Hydrodynamics, seas: tuple[SeaState, ...]) -> tuple[Motions, str]:
@@ -216,7 +215,7 @@ def motions_about_rest(model: FrequencyModel, hydro: Hydrodynamics, seas: tuple[
     """
     unit = model.unit
     if not unit.breakwater.damping.viscous or not seas or model.quadratic is None:
-        motions = solve_motions(hydro, unit.inertia, model.stiffness, damping=model.damping)
+        motions = solve_motions(hydro, model.inertia, model.stiffness, damping=model.damping)
         return motions, "linear damping of the case alone"
     irregular = [sea for sea in seas if not isinstance(sea, RegularSea)]
     if irregular:
@@ -225,7 +224,7 @@ def motions_about_rest(model: FrequencyModel, hydro: Hydrodynamics, seas: tuple[
     assert isinstance(first, RegularSea)
     motions = solve_motions(
         hydro,
-        unit.inertia,
+        model.inertia,
         model.stiffness,
         damping=model.damping,
         quadratic=model.quadratic,

@@ -52,7 +52,10 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "arai_inertia_coefficient": ("1", "circulation of Arai et al., gamma = 0.936"),
     "otsuka_inertia_coefficient": ("1", "circulation of Otsuka and Ikeda, gamma = 1"),
     "chaplin_inertia_coefficient": ("1", "circulation of Chaplin, gamma = 1.036"),
-    "planar_inertia_coefficient": ("1", "planar flow: no reduction below KC about 5"),
+    "planar_inertia_coefficient": (
+        "1",
+        "planar flow: laminar theory of a circle (KC below 1), ideal fluid of other sections, held",
+    ),
     "laminar_inertia_coefficient": ("1", "laminar ceiling of the circulation, gamma = 3"),
     "arai_circulation": ("m2/s", "circulation of Arai et al., circular orbit"),
     "otsuka_circulation": ("m2/s", "circulation that Otsuka and Ikeda's formula amounts to"),

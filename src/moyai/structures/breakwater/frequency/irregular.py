@@ -106,8 +106,8 @@ def irregular_sea(
     hydro = model.hydro.unit
     out |= equivalent_variables(
         ("dof",),
-        settled.damping.at(unit.inertia, natural_added_mass(model, hydro), settled.stiffness),
-        unit.inertia,
+        settled.damping.at(model.inertia, natural_added_mass(model, hydro), settled.stiffness),
+        model.inertia,
         natural_added_mass(model, hydro),
         settled.stiffness,
     )
@@ -280,12 +280,12 @@ def _sea_motions(
 
     The linearisation takes the radiation of the first heading for all; each heading is then solved with its own.
     """
-    unit, damping, deviation = model.unit, model.damping, np.zeros(0)
+    _unit, damping, deviation = model.unit, model.damping, np.zeros(0)
     if model.quadratic is not None:
         joined = _joined_headings(hydros, headings)
         found = linearised_in_sea(
             joined,
-            unit.inertia,
+            model.inertia,
             stiffness,
             directional,
             quadratic=model.quadratic,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +17,7 @@ from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared
 from moyai.floating.frequency import Motions, solve_motions
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.hydrodynamics import UnitHydrodynamics
-from moyai.structures.breakwater.lines.drag import line_drag_rows
+from moyai.structures.breakwater.lines.drag import line_drag_rows, line_inertia
 from moyai.structures.breakwater.model import MODES
 from moyai.structures.breakwater.viscous_damping import unit_drag_rows, water_motion
 
@@ -43,6 +43,8 @@ class FrequencyModel:
     with_drift : bool
     rows_of_lines : int
         How many of the first rows of ``quadratic`` are drag of lines; the others are the unit's own.
+    line_inertia : ndarray (3, 3)
+        Of lines that are in motion in time, which bring their inertia themselves there.
     """
 
     unit: FloatingUnit
@@ -52,6 +54,12 @@ class FrequencyModel:
     steady: Array
     with_drift: bool
     rows_of_lines: int = 0
+    line_inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
+
+    @property
+    def inertia(self) -> Array:
+        """M of the unit with the lines that are in motion in time."""
+        return np.asarray(self.unit.inertia + self.line_inertia, dtype=float)
 
     @property
     def stiffness(self) -> Array:
@@ -79,7 +87,7 @@ def make_model(
     own_rows, own_coefficients = unit_drag_rows(unit)
     coefficients = np.append(coefficients, own_coefficients)
     quadratic = QuadraticDamping(np.vstack([rows, own_rows]), coefficients) if len(coefficients) else None
-    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift, of_lines)
+    return FrequencyModel(unit, hydro, damping, quadratic, steady, with_drift, of_lines, line_inertia(unit))
 
 
 @dataclass(frozen=True)
@@ -96,7 +104,7 @@ def drift_problem(model: FrequencyModel, hydro: Hydrodynamics) -> DriftProblem:
     unit = model.unit
     return DriftProblem(
         hydrodynamics=hydro,
-        inertia=unit.inertia,
+        inertia=model.inertia,
         hydrostatic_stiffness=unit.statics.stiffness,
         mooring=unit.mooring,
         water=unit.water,
@@ -119,7 +127,7 @@ def solve_about_offset(
     stiffness = unit.mooring.stiffness(offset.position)
     motions = solve_motions(
         hydro,
-        unit.inertia,
+        model.inertia,
         unit.statics.stiffness + stiffness,
         damping=model.damping,
         quadratic=model.quadratic,

@@ -134,7 +134,7 @@ def regular_sea(model: FrequencyModel, sea: RegularSea, progress: Progress = sil
     out |= equivalent_variables(
         ("period", "dof"),
         solved.motions.damping[:, 0],
-        unit.inertia,
+        model.inertia,
         hydro.added_mass,
         unit.statics.stiffness + solved.mooring_stiffness,
     )

@@ -225,7 +225,7 @@ def run_on_lines(
     unit = model.unit
     lines = line_network(unit, dynamics)
     assert lines is not None
-    body = replace(cummins, mooring=static_lines, quadratic=_without_line_drag(model, cummins))
+    body = replace(cummins, mooring=static_lines, quadratic=without_line_drag(model, cummins))
     step = time_step
     notices: list[Notice] = []
     if step is None:
@@ -265,16 +265,11 @@ def _all_lines(unit: FloatingUnit) -> PlanarMooring:
     return PlanarMooring.of(unit.mooring.planar.system, rest=(0.0, 0.0, 0.0), centre=(0.0, 0.0))
 
 
-def _without_line_drag(model: FrequencyModel, cummins: CumminsModel) -> QuadraticDamping | None:
+def without_line_drag(model: FrequencyModel, cummins: CumminsModel) -> QuadraticDamping | None:
     """Return the quadratic damping without that of lines in motion, which bring their own drag."""
     if cummins.quadratic is None:
         return None
-    given = tuple(
-        replace(line, drag_width=0.0) if isinstance(line, MooringLine) and line.dynamic else line
-        for line in model.unit.breakwater.lines
-    )
-    unit = replace(model.unit, breakwater=replace(model.unit.breakwater, lines=given))
-    rows, coefficients = line_drag_rows(unit)
+    rows, coefficients = line_drag_rows(model.unit, of_moving=False)
     own_rows, own_coefficients = unit_drag_rows(model.unit)
     coefficients = np.append(coefficients, own_coefficients)
     return QuadraticDamping(np.vstack([rows, own_rows]), coefficients) if len(coefficients) else None
@@ -335,10 +330,15 @@ def _simulation(
     angle = np.unwrap(np.arctan2(body.rotation[:, 0, 2], body.rotation[:, 0, 0]))
     position = np.column_stack([body.position[:, [0, 2]] - rest, angle])
     velocity = body.velocity[:, [0, 2, 4]]
-    force, tension = body.reaction[:, [0, 2, 4]].copy(), np.full((count, len(unit.lines)), np.nan)
+    pull = body.point_force_at_rows * carrier.copies[:, None]
+    arms = np.einsum("kij,pj->kpi", body.rotation, carrier.arms)
+    force = np.column_stack(
+        [pull[..., 0].sum(axis=1), pull[..., 2].sum(axis=1), np.cross(arms, pull)[..., 1].sum(axis=1)]
+    )
+    tension = np.full((count, len(unit.lines)), np.nan)
     if static_lines is not None:
-        pull, found = static_lines.force_and_tension(position)
-        force += pull
+        steady, found = static_lines.force_and_tension(position)
+        force += steady
         for column, name in enumerate(static_lines.names):
             tension[:, [line.name for line in unit.lines].index(name)] = found[:, column]
     for number, name in zip(lines.index, lines.names, strict=True):

@@ -333,6 +333,15 @@ def _regular_motions(level: Level, sea: Sea, domain: str, folded: bool) -> Table
 
 def _regular_waves(level: Level, sea: Sea, domain: str, folded: bool) -> Table | None:
     group = sea.domain(domain)
+    radiated = group.real("harmonic_radiation", "period", "harmonic")
+    higher = (
+        []
+        if radiated is None
+        else [
+            Column(f"Radiated by harmonic {name}", [float(value) for value in radiated[:, number]], "")
+            for number, name in enumerate(group.labels("harmonic"))
+        ]
+    )
     columns = [
         _period_column(group, "period", "T", "s"),
         _period_column(group, "wavelength_over_beam", "L/B", ""),
@@ -340,6 +349,9 @@ def _regular_waves(level: Level, sea: Sea, domain: str, folded: bool) -> Table |
         _period_column(group, "transmission_coefficient", "K_T", ""),
         _period_column(group, "reflection_coefficient", "K_R", ""),
         _period_column(group, "dissipation", "Energy loss", ""),
+        _period_column(group, "damping_work", "Work of damping", ""),
+        _period_column(group, "energy_to_harmonics", "To other harmonics", ""),
+        *higher,
         _period_column(group, "drift_coefficient", "F*", ""),
         _period_column(group, "mean_drift_force", "Drift force", "N"),
     ]
@@ -347,7 +359,13 @@ def _regular_waves(level: Level, sea: Sea, domain: str, folded: bool) -> Table |
         key(level, sea.name, domain, "waves"),
         f"Waves and drift in regular waves, {DOMAIN_WORDS[domain]}",
         columns,
-        note="Ratios: |x|/(H/2), |z|/(H/2), |θ|B/H. Drift force of the whole unit.",
+        note="Ratios: |x|/(H/2), |z|/(H/2), |θ|B/H. Drift force of the whole unit."
+        + (
+            ""
+            if domain == "frequency"
+            else " Energy of the first harmonic over the incident flux: its loss is the work "
+            "of the damping, or lines carry the difference into other harmonics and K_T is not that of the whole wave."
+        ),
         collapsed=folded,
     )
 

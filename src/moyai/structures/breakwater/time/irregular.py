@@ -384,7 +384,7 @@ def _drift_of_components(model: FrequencyModel, omega: Array, heading: Array, se
         if model.unit.breakwater.damping.viscous:
             motions = about_rest_in_sea(model, hydro, sea)
         else:
-            motions = solve_motions(hydro, model.unit.inertia, model.stiffness, damping=model.damping)
+            motions = solve_motions(hydro, model.inertia, model.stiffness, damping=model.damping)
         far = far_field(hydro, motions.displacement)
         square = drift_force_per_amplitude_squared(far, hydro.omega, hydro.heading, model.unit.water, hydro.length)
         rows.append(np.interp(omega, hydro.omega, square[:, 0]))

@@ -10,7 +10,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
-from moyai.core.validity import Notice
+from moyai.core.validity import IdentityCheck, Notice
 from moyai.floating.forcing import Forcing
 from moyai.floating.lines import PlanarMooring
 from moyai.floating.memory import StateSpaceMemory
@@ -111,6 +111,7 @@ class TimeResult:
     runs: tuple[TimeRun, ...]
     notices: tuple[Notice, ...] = ()
     status: str = "converged"
+    checks: tuple[IdentityCheck, ...] = ()
 
 
 def compiled_lines(unit: FloatingUnit, reach: Array, *, at_rest_only: bool = False) -> PlanarMooring | None:
@@ -133,7 +134,7 @@ def compiled_lines(unit: FloatingUnit, reach: Array, *, at_rest_only: bool = Fal
 
 
 def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -> Array:
-    return np.asarray(model.damping.at(model.unit.inertia, added_mass, stiffness), dtype=float)
+    return np.asarray(model.damping.at(model.inertia, added_mass, stiffness), dtype=float)
 
 
 @dataclass(frozen=True)

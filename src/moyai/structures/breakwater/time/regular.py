@@ -13,6 +13,7 @@ from moyai.core.errors import InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import Notice
 from moyai.floating.coefficients import Hydrodynamics
+from moyai.floating.damping import QuadraticDamping
 from moyai.floating.far_field import far_field
 from moyai.floating.forcing import Forcing, RegularForcing
 from moyai.floating.memory import StateSpaceMemory
@@ -26,12 +27,14 @@ from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel, motion_ratio
 from moyai.structures.breakwater.hydrodynamics import wavelengths
 from moyai.structures.breakwater.lines.events import movable, out_of_range, with_lines_in_motion
+from moyai.structures.breakwater.lines.motion import without_line_drag
 from moyai.structures.breakwater.memory_model import UnitMemory
 from moyai.structures.breakwater.model import MODES, RegularSea, TimeSettings
 from moyai.structures.breakwater.responses import (
     anchor_loads,
     snap_notices,
 )
+from moyai.structures.breakwater.time.energy import HIGHER, EnergyOfPeriod, energy_checks, energy_of_period
 from moyai.structures.breakwater.time.lines import lines_at_rest, motion_names, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
 from moyai.structures.breakwater.variables import labelled
@@ -92,22 +95,30 @@ def regular_sea(
         "reflection_coefficient",
         "transmission_coefficient",
         "dissipation",
+        "damping_work",
+        "energy_to_harmonics",
+        "harmonic_radiation",
     )
     summaries: list[dict[str, Array]] = []
     runs: list[TimeRun] = []
+    energies: list[tuple[float, EnergyOfPeriod]] = []
     notices: list[Notice] = []
     status = "converged"
     for index, period in enumerate(periods):
         progress(f"time domain, {unit.name}, {sea.name}", index, len(periods))
         one = frequency.sel(period=period)
         try:
-            used, run, found = _one_period(model, memory, sea, float(period), one, settings, progress, current)
+            used, run, found, laws = _one_period(model, memory, sea, float(period), one, settings, progress, current)
         except KeyboardInterrupt:
             status = "interrupted"
             break
         runs.append(run)
         notices.extend(found)
-        summaries.append(_summary(used, run, sea, float(period), settings))
+        summary = _summary(used, run, sea, float(period), settings)
+        loss = float(summary["dissipation"])
+        energy = energy_of_period(used, run, sea, float(period), settings.analysed_periods, loss, *laws)
+        energies.append((float(period), energy))
+        summaries.append(summary | energy.variables())
         notices.extend(_steadiness(run.simulation, float(period), settings, f"{unit.name}, {sea.name}"))
         if run.simulation.status != "converged":
             status = "interrupted" if run.simulation.status == "interrupted" else "not_converged"
@@ -119,8 +130,10 @@ def regular_sea(
     rows = {name: [item.get(name, blank) for item in summaries] for name in dict.fromkeys((*names, *motion))}
     done = periods[: len(summaries)]
     length = wavelengths(2.0 * math.pi / done, unit) if len(done) else done
-    dims = {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"} | dict.fromkeys(
-        (*names[3:10], *motion), "line"
+    dims = (
+        {"motion_amplitude": "dof", "mean_offset": "dof", "maximum_motion": "dof"}
+        | dict.fromkeys((*names[3:10], *motion), "line")
+        | {"harmonic_radiation": "harmonic"}
     )
     out: dict = {
         name: (("period", dims[name]) if name in dims else ("period",), np.array(values))
@@ -136,7 +149,8 @@ def regular_sea(
         load = np.array([line.breaking_load for line in unit.lines])
         largest = np.array(rows["line_tension_maximum"])
         out["maximum_utilisation"] = (("period", "line"), np.where(np.isfinite(load), largest / load, np.nan))
-    data = xr.Dataset(out, coords={"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines]})
+    coords = {"period": done, "dof": list(MODES), "line": [line.name for line in unit.lines], "harmonic": list(HIGHER)}
+    data = xr.Dataset(out, coords=coords)
     if len(done):
         names_of_lines = [line.name for line in unit.lines]
         where = f"{unit.name}, {sea.name}, time domain"
@@ -146,7 +160,8 @@ def regular_sea(
         notices.extend(snap_notices(where, names_of_lines, largest_at_rest, np.array(rows["line_tension_mean"])))
     notices.extend(_created_energy(data, f"{unit.name}, {sea.name}"))
     data.attrs |= {"kind": "regular", "height": sea.height, "heading": sea.heading, "status": status}
-    return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
+    checks = energy_checks(energies, f"{unit.name}, {sea.name}")
+    return TimeResult(labelled(data), tuple(runs), tuple(notices), status, checks)
 
 
 def _one_period(
@@ -158,8 +173,11 @@ def _one_period(
     settings: TimeSettings,
     progress: Progress,
     current: Current | None,
-) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...]]:
-    """Run one period; lines are set in motion where their peaks pass the range of lines at rest, and told so."""
+) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...], tuple[Array, QuadraticDamping | None, Forcing]]:
+    """Run one period; lines are set in motion where their peaks pass the range of lines at rest, and told so.
+
+    The last item holds what forces acted on the unit: linear and quadratic damping, and the forcing.
+    """
     unit, omega = model.unit, 2.0 * math.pi / period
     hydro = model.hydro.at(np.array([omega]), sea.heading)
     drift = np.array([float(frequency.mean_drift_force), 0.0, 0.0]) if model.with_drift else np.zeros(3)
@@ -219,7 +237,8 @@ def _one_period(
             *notices,
             Notice("diverged", f"{unit.name}, {sea.name}, T = {period:g} s: {simulation.message}", severity="error"),
         )
-    return model, run, notices
+    quadratic = cummins.quadratic if run.lines is None else without_line_drag(model, cummins)
+    return model, run, notices, (damping, quadratic, waves)
 
 
 def _need_motion(model: FrequencyModel, run: TimeRun, begin: float, settings: TimeSettings) -> bool:

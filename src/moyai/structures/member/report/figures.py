@@ -20,7 +20,7 @@ CURVES = (
     ("arai_inertia_coefficient", "Arai et al., γ = 0.936", "dash", 1),
     ("otsuka_inertia_coefficient", "Otsuka and Ikeda, γ = 1", "dot", 2),
     ("chaplin_inertia_coefficient", "Chaplin, γ = 1.036", "dashdot", 3),
-    ("planar_inertia_coefficient", "planar flow (no fall below KC about 5)", "solid", 4),
+    ("planar_inertia_coefficient", "planar flow, laminar theory held (not measured)", "solid", 4),
     ("laminar_inertia_coefficient", "laminar ceiling, γ = 3", "dot", 5),
 )
 POINTS_OF_A_CURVE = 3000

@@ -1,0 +1,115 @@
+"""Largest motions of a breakwater over the periods of a regular sea, by the model that is in its range at each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from moyai.core.arrays import Array
+from moyai.core.headline import Headline
+from moyai.floating.energy import ENERGY_TOLERANCE, unexplained_share
+from moyai.structures.breakwater.lines.headlines import AT_REST, FIRST_ORDER, IN_MOTION
+from moyai.structures.breakwater.responses import SNAP_RATIO
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.bool_]:
+    """Return the periods (n,) of a sea in time whose numbers decide nothing.
+
+    There a chain at rest at every instant passes five times its mean tension, or the loss of the far field is not the
+    work of the damping [eq:breakwater-time-energy].
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Regular sea in time.
+    statics : xarray.Dataset or None
+        Of the same water level; tells chains from springs, which are linear at any tension.
+    """
+    out = np.zeros(data.sizes["period"], dtype=bool)
+    if "damping_work" in data and "dissipation" in data:
+        out |= unexplained_share(data["dissipation"].values, data["damping_work"].values) > ENERGY_TOLERANCE
+    if "line_tension_maximum" in data and data.sizes.get("line", 0):
+        still = np.ones(data["line_tension_maximum"].shape, dtype=bool)
+        if "lines_in_motion" in data:
+            still = data["lines_in_motion"].values != 1.0
+        if statics is not None and "unstretched_length" in statics:
+            still = still & np.isfinite(statics["unstretched_length"].values)
+        passing = data["line_tension_maximum"].values > SNAP_RATIO * data["line_tension_mean"].values
+        out |= np.any(still & passing, axis=1)
+    return out
+
+
+@dataclass(frozen=True)
+class LargestOfPeriods:
+    """The largest motions of a regular sea.
+
+    Parameters
+    ----------
+    domain : {"time", "frequency"}
+        That governs the sea.
+    data : xarray.Dataset
+        Of that domain.
+    frequency, statics : xarray.Dataset or None
+        The same sea in the frequency domain, which stands in where the time domain is out of its range; the unit at
+        rest.
+    where : str
+        Level and sea.
+    """
+
+    domain: str
+    data: xr.Dataset
+    frequency: xr.Dataset | None
+    statics: xr.Dataset | None
+    where: str
+
+    def offset(self) -> list[Headline]:
+        """Return the largest offset in sway: mean and motion together."""
+        return self._headline("offset", "Largest offset in sway", "m", 0)
+
+    def roll(self) -> list[Headline]:
+        """Return the largest amplitude of roll."""
+        return self._headline("roll", "Roll amplitude", "rad", 2)
+
+    def _of(self, data: xr.Dataset, domain: str, mode: int) -> Array:
+        if mode == 0 and domain == "time" and "maximum_motion" in data:
+            return np.array(data["maximum_motion"].values[:, 0], dtype=float)
+        found = np.array(data["motion_amplitude"].values[:, mode], dtype=float)
+        if mode == 0 and "mean_offset" in data:
+            found += np.abs(data["mean_offset"].values[:, 0])
+        return found
+
+    def _headline(self, name: str, label: str, unit: str, mode: int) -> list[Headline]:
+        if "motion_amplitude" not in self.data:
+            return []
+        periods, table = self.data["period"].values, self._of(self.data, self.domain, mode)
+        out = beyond_range(self.data, self.statics) if self.domain == "time" else np.zeros(periods.size, dtype=bool)
+        table[out] = np.nan
+        if self.frequency is not None and out.any():
+            known = self.frequency.sel(period=periods[out])
+            table[out] = self._of(known, "frequency", mode)
+        if not np.isfinite(table).any():
+            return []
+        row = int(np.nanargmax(table))
+        model = FIRST_ORDER
+        if self.domain == "time" and not out[row]:
+            moving = "lines_in_motion" in self.data and bool((self.data["lines_in_motion"].values[row] == 1.0).any())
+            model = IN_MOTION if moving else AT_REST
+        detail = []
+        if mode == 0 and "mean_offset" in self.data:
+            source = self.frequency.sel(period=periods[row]) if out[row] and self.frequency is not None else None
+            mean = self.data["mean_offset"].values[row, 0] if source is None else source["mean_offset"].values[0]
+            detail.append(f"mean {float(mean):.3g} m")
+        if out.any():
+            names = ", ".join(f"{period:.3g} s" for period in periods[out])
+            detail.append(
+                f"at T = {names} the time domain is out of its range (chains at rest at every instant, or energy that "
+                "damping does not explain) and the frequency domain stands in"
+            )
+        place = f"{self.where}, T = {periods[row]:.3g} s"
+        return [Headline(name, label, float(table[row]), unit, place, model, detail="; ".join(detail))]
