@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
+from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     Auto,
     AutoDuration,
@@ -553,3 +554,4 @@ class CurtainCase(Block):
     record: Record | None = Field(default=None, description="A flume record to hold the impact models against.")
     criteria: CurtainKeeps = Field(default_factory=CurtainCriteria, description=CRITERIA)
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")
+    measured: MeasuredSets = Field(default=(), description=MEASURED)
