@@ -447,10 +447,10 @@ class Dynamic(Block):
         description="Of the buoy at a support with its added mass; needed with 'structure.anchors'. Default: "
         "'settings.anchor_loads.float_mass', where that is given.",
     )
-    start: Literal["auto", "at_rest", "drifting"] = Field(
+    start: Literal["auto", "at_rest", "drifting", "released"] = Field(
         default="auto",
-        description="At rest in water that begins to move, or drifting and just taut. Default: at rest in waves, else "
-        "drifting.",
+        description="At rest in water that begins to move, drifting and just taut, or (without waves) let go in the "
+        "current, gathered on the line between the supports. Default: at rest in waves, else drifting.",
     )
     start_profile: Literal["uniform", "sag"] = Field(
         default="uniform", description="Speed of a drifting start over the span: the same, or as the sag."
