@@ -57,9 +57,9 @@ def _one_spike_of_steel(runs: Runs) -> Finding:
     return judged(
         count == 1,
         f"model A: {count} contacts above half of the highest",
-        "model A's cable gives its energy back and throws the skirt upstream. A whole span is picked up by and by; with "
-        "steel each cell of its mesh makes a spike of its own, 26 N on 12 by 4 cells, 8 N on 24 by 8, so that no count is "
-        "a finding; the inner damping of the wire is not published",
+        "model A's cable gives its energy back and throws the skirt upstream. A whole span is picked up by and by; "
+        "with steel each cell of its mesh makes a spike of its own, 26 N on 12 by 4 cells, 8 N on 24 by 8, so that "
+        "no count is a finding; the inner damping of the wire is not published",
     )
 
 
