@@ -17,6 +17,8 @@ import numpy as np
 import pytest
 
 from moyai.design.similarity import Scale, scale_water
+from moyai.reproduce.inputs import problem_of
+from moyai.reproduce.sawaragi.runs import Runs, span_of
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import closed_form, edge_impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.cycles import slack_taut_motion
@@ -224,3 +226,18 @@ def test_statement_12_scale_law_of_the_cube(length):
         for span, k in ((small, 1.0), (large, root))
     ]  # fmt: skip
     assert np.max(np.abs(motions[1].tension / length**3 - motions[0].tension)) < 1e-7 * motions[0].tension.max()
+
+
+@pytest.mark.slow
+def test_the_whole_span_let_go_slack_comes_to_the_level_of_drag():
+    """Spike and its instant stand on a finer mesh, the steady level is the catenary's 2.92 N.
+
+    How often the record passes a level hangs on the level and on how the slack was gathered: no count is held.
+    """
+    case = problem_of("sawaragi", "flume")
+    runs = Runs(span_of(case), case, 5)
+    coarse = runs.whole_line
+    assert coarse.plateau == pytest.approx(2.92, rel=0.08)
+    fine = runs.span_released(150.0, (48, 16), duration=1.8)
+    assert fine.spike == pytest.approx(coarse.spike, rel=0.05)
+    assert fine.spike_time == pytest.approx(coarse.spike_time, rel=0.05)

@@ -6,12 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from moyai.case.check_sea import check_file
 from moyai.case.criteria import criteria_of
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
+from moyai.case.measured import measured_sets, read_pairs
 from moyai.case.plausibility import check_plausibility
 from moyai.case.schema_environment import sea_names
-from moyai.case.yaml_reader import Document
+from moyai.case.yaml_reader import Document, KeyPath, dotted
 from moyai.core.errors import Fault, InputError
 from moyai.core.kinds import structure_kind
 
@@ -36,8 +38,22 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
     sound = model if findings.sound("criteria") else model.model_copy(update={"criteria": "none"})
     # What cannot be is reported before anything is built of it: the checks build only what is sound so far
     structure_kind(model.structure.kind).check(sound, findings, folder)
+    _check_measured(sound, findings, folder)
     _leave_to_the_particular(findings, faults, warnings)
     return findings
+
+
+def _check_measured(model: Any, findings: Findings, folder: Path) -> None:
+    """Check that files of measured points are there and hold points."""
+    for index, points in measured_sets(model):
+        path: KeyPath = ("measured", index, "file")
+        # A single set stands in the file without its list
+        path = path if path in findings.document.values else ("measured", "file")
+        if check_file(path, points.file, folder, findings):
+            try:
+                read_pairs(folder / points.file, dotted(path))
+            except InputError as error:
+                findings.raised(error, path)
 
 
 def _check_criteria(model: Any, findings: Findings) -> None:

@@ -1,4 +1,4 @@
-"""Measured points that a case shows beside its results: a CSV with names and units in its header."""
+"""Measured points that a case shows with its results: a CSV with names and units in its header, or of x and y alone."""
 
 from __future__ import annotations
 
@@ -6,14 +6,23 @@ import csv
 import io
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from moyai.case.yaml_text import decode
 from moyai.core.errors import CaseError, InputError
 from moyai.core.quantities import Kind
 from moyai.core.units import Unit, parse_unit
+from moyai.core.vocabulary import MEASURED_GROUP
+
+if TYPE_CHECKING:
+    from moyai.case.schema_measured import MeasuredPoints
+    from moyai.core.results import Result
 
 _HEADING = re.compile(r"^\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*$")
 _NAME = re.compile(r"[A-Za-z]\w*")
@@ -72,6 +81,108 @@ def read_points(
             remedy="rename it under 'columns'",
         )
     return {target: tuple(table[name]) for name, target in wanted.items()}
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """Points of two columns as they stand in a file; units empty where the file gives none."""
+
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    x_unit: str = ""
+    y_unit: str = ""
+
+
+def read_pairs(path: Path, key: str) -> Pairs:
+    """Read a CSV of two columns, x and y, with or without a header.
+
+    Parameters
+    ----------
+    path : Path
+        Lines that begin with ``#`` are skipped; a header names the columns, with units in brackets.
+    key : str
+        Path of the key in the case file, for messages.
+
+    Raises
+    ------
+    InputError
+        With the row of what cannot be read.
+    """
+    rows = _rows(path, key)
+    units = ["", ""]
+    if rows and not all(_is_number(cell) for cell in rows[0][1]):
+        found = [_heading(cell, path, key)[1] for cell in rows[0][1]]
+        units = ["" if unit is None else unit.symbol for unit in found]
+        rows = rows[1:]
+    if not rows:
+        raise InputError(f"{path.name} holds no points", path=key, allowed="two columns, x and y")
+    points: list[tuple[float, float]] = []
+    for line, cells in rows:
+        if len(cells) != 2:
+            raise InputError(
+                f"{path.name} line {line} has {len(cells)} cells", path=key, allowed="two columns, x and y"
+            )
+        x, y = (_number(cell, None, f"{path.name} line {line}", key) for cell in cells)
+        if math.isfinite(x) and math.isfinite(y):
+            points.append((x, y))
+    if not points:
+        raise InputError(f"{path.name} holds no points", path=key, allowed="two columns, x and y")
+    first, second = zip(*points, strict=True)
+    return Pairs(first, second, units[0], units[1] if len(units) > 1 else "")
+
+
+def measured_sets(model: Any) -> Iterator[tuple[int, MeasuredPoints]]:
+    """Yield the sets of points of a case that are laid over figures, with their place in its list."""
+    given = getattr(model, "measured", None)
+    yield from enumerate(given if isinstance(given, tuple) else ())
+
+
+def with_measured(result: Result, model: Any, folder: Path) -> Result:
+    """Return a result that carries the sets of measured points of its case.
+
+    Parameters
+    ----------
+    result : Result
+    model : Block
+        Content of the case.
+    folder : Path
+        Folder that file names refer to.
+
+    Raises
+    ------
+    InputError
+        When a file has changed or become unreadable since the case was checked.
+    """
+    sets = list(measured_sets(model))
+    if not sets:
+        return result
+    import xarray as xr
+
+    tree = result.tree.copy()
+    for index, points in sets:
+        pairs = read_pairs(folder / points.file, f"measured[{index}].file")
+        tree[f"{MEASURED_GROUP}/{index + 1}".lstrip("/")] = xr.DataTree(
+            xr.Dataset(
+                {"x": ("point", np.array(pairs.x)), "y": ("point", np.array(pairs.y))},
+                attrs={
+                    "file": points.file,
+                    "figure": points.figure,
+                    "panel": points.panel,
+                    "label": points.label or Path(points.file).stem,
+                    "x_unit": pairs.x_unit,
+                    "y_unit": pairs.y_unit,
+                },
+            )
+        )
+    return replace(result, tree=tree)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell or "nan")
+    except ValueError:
+        return False
+    return True
 
 
 def _rows(path: Path, key: str) -> list[tuple[int, list[str]]]:

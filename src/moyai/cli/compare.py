@@ -1,21 +1,27 @@
-"""``moyai compare``: a result against a record."""
+"""``moyai compare``: a result against a record, or against another result."""
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
+from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console, say
 from moyai.cli.files import decimal_sign
 from moyai.core.errors import InputError
 
 
 def compare(
     result: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.nc of a run.", show_default=False)],
-    record: Annotated[Path, typer.Argument(metavar="RECORD", help="Record with headings (CSV).", show_default=False)],
+    record: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RECORD", help="Record with headings (CSV), or results.nc of another run.", show_default=False
+        ),
+    ],
     pair: Annotated[
         list[str] | None,
         typer.Option("--pair", metavar="VARIABLE=COLUMN", help="Which belongs to which; by equal names when absent."),
@@ -37,9 +43,17 @@ def compare(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     pdf: Annotated[bool, typer.Option("--pdf", help="Write the report as PDF too.")] = False,
+    report: Annotated[
+        bool, typer.Option("--report", help="Of two results, write the report of the first with both in its figures.")
+    ] = False,
 ) -> None:
-    """Compare a result with a record: overlay, scatter, bias, RMS, skill, by sea state."""
+    """Compare a result with a record (overlay, scatter, bias, RMS, skill, by sea state) or with another result."""
     with guard(as_json):
+        if record.suffix == ".nc":
+            options = {"--pair": pair, "--along": along, "--select": select, "--shift": shift, "--lag": lag, "--by": by}
+            _refuse([name for name, value in options.items() if value])
+            _two_results(result, record, output, as_json=as_json, pdf=pdf, report=report or pdf)
+            raise typer.Exit(OK)
         from moyai.cli.runner import prepare_output
         from moyai.core.results import read_result
         from moyai.records.comparison.run import Pairing, compare_result
@@ -72,6 +86,59 @@ def compare(
 
             print_summary(rich_console(), found, files, seconds)
         raise typer.Exit(OK)
+
+
+def _refuse(options: list[str]) -> None:
+    if options:
+        raise InputError(
+            "these options compare a result with a record",
+            path=", ".join(options),
+            remedy="leave them out for two results",
+        )
+
+
+def _two_results(here: Path, there: Path, output: Path | None, *, as_json: bool, pdf: bool, report: bool) -> None:
+    """Print the table of differences of two results; with ``report`` write the page of the first with both in it."""
+    from moyai.cli.runner import prepare_output
+    from moyai.core.results import read_result
+    from moyai.report.differences import DIFFERENCES, read_others, with_others
+    from moyai.report.document import Table
+    from moyai.report.writer import compose_document, write_report
+
+    result = read_result(here)
+    document = with_others(compose_document(result), result, read_others([there]))
+    files = []
+    if report:
+        folder = prepare_output(output if output is not None else Path("out") / f"compare_{_name(here)}_{_name(there)}")
+        with progress_bars(True):
+            files = write_report(result, folder, pdf=pdf, document=document)
+    blocks = next(section.blocks for section in document.sections if section.key == DIFFERENCES)
+    tables = [block for block in blocks if isinstance(block, Table)]
+    if as_json:
+        print_json({"tables": [_table_record(table) for table in tables], "files": list(map(str, files)), "faults": []})
+        return
+    from moyai.cli.tables import print_table
+
+    for table in tables:
+        print_table(rich_console(), table)
+    for path in files:
+        if path.suffix != ".csv":
+            say(f"  {path}")
+
+
+def _name(path: Path) -> str:
+    return path.resolve().parent.name if path.stem == "results" else path.stem
+
+
+def _table_record(table: Any) -> dict[str, Any]:
+    rows = zip(*(column.values for column in table.columns), strict=True)
+    names = [column.label for column in table.columns]
+    return {"title": table.title, "rows": [dict(zip(names, map(_plain, row), strict=True)) for row in rows]}
+
+
+def _plain(value: Any) -> Any:
+    """Return a cell that JSON can hold: a number that is not known becomes nothing."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _split(entry: str, option: str) -> tuple[str, str]:

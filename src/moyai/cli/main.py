@@ -210,6 +210,14 @@ def run(
     quiet: Quiet = False,
     motion: Motion = None,
     duration: Duration = None,
+    beside: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--beside",
+            metavar="RESULTS",
+            help="results.nc of another run, laid over the figures of the report; may be repeated.",
+        ),
+    ] = None,
 ) -> None:
     """Run a case, or a deck of MoorDyn: results.nc, report.html and tables as CSV.
 
@@ -226,6 +234,7 @@ def run(
         folder = output if output is not None else Path("out") / file.stem
         file = _deck_or_case(file, folder, motion or [], duration)
         case = load_case(file)
+        others = _others(beside, report)
         folder = prepare_output(folder)
         if not as_json and not quiet:
             count = len(case.warnings)
@@ -240,7 +249,16 @@ def run(
             with progress_bars(quiet) as progress:
                 progress("report", 0, 1)
                 document = compose_document(result)
+                if others:
+                    from moyai.report.differences import with_others
+
+                    document = with_others(document, result, others)
                 files += write_report(result, folder, pdf=pdf, document=document)
+        if document is not None and getattr(case.model, "measured", None):
+            from moyai.report.overlay import misplaced_points
+
+            for line in misplaced_points(document):
+                tell(f"measured: {line}")
         seconds = time.perf_counter() - started
         from moyai.cli.tables import key_figures, print_summary
 
@@ -254,6 +272,19 @@ def run(
             if result.verdict.outcome == "does not hold":
                 tell(f"design does not hold: {result.verdict.message}")
         raise typer.Exit(exit_code(result, require_hold=require_hold))
+
+
+def _others(paths: list[Path] | None, report: bool) -> tuple[Any, ...]:
+    """Read the results that the report is compared with, before the run, so that a bad file costs no run."""
+    if not paths:
+        return ()
+    if not report:
+        from moyai.core.errors import InputError
+
+        raise InputError("other results are laid over the report", path="--beside", remedy="leave out --no-report")
+    from moyai.report.differences import read_others
+
+    return read_others(paths)
 
 
 def exit_code(result: Result, *, require_hold: bool) -> int:

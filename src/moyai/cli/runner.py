@@ -40,6 +40,10 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
     from moyai.core.kinds import structure_kind
 
     result = structure_kind(case.kind).run(build(case), progress, keep)
+    if getattr(case.model, "measured", None):
+        from moyai.case.measured import with_measured
+
+        result = with_measured(result, case.model, case.folder)
     told = {notice.message for notice in result.notices}
     warnings = [
         Notice("case", fault.message, remedy=fault.remedy, source=fault.path)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from moyai.core.headline import Criterion
     from moyai.core.results import Result
     from moyai.report.document import Document
+    from moyai.report.document import Table as ReportTable
 
 
 def _table(*columns: tuple[str, str]) -> Table:
@@ -42,6 +43,25 @@ def print_derived(console: Console, title: str, numbers: Sequence[Number]) -> No
             texts = {number.column: number.text for number in members if (number.label, number.unit) == (label, unit)}
             table.add_row(label, *(texts.get(level, "") for level in levels), unit)
         console.print(table)
+
+
+def print_table(console: Console, table: ReportTable) -> None:
+    """Print a table of a report with its title."""
+    from moyai.report.formatting import format_number
+
+    console.print(table.title, style="bold", markup=False)
+    shown = _table(
+        *(
+            (column.label, "left" if any(isinstance(v, str) for v in column.values) else "right")
+            for column in table.columns
+        )
+    )
+    for number in range(table.row_count):
+        cells = [(column.values[number], column.digits) for column in table.columns]
+        shown.add_row(
+            *(format_number(float(v), digits) if isinstance(v, int | float) else str(v or "") for v, digits in cells)
+        )
+    console.print(shown)
 
 
 def key_figures(result: Result, document: Document | None = None) -> list[Any]:

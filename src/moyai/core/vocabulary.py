@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: Unit of texts, and of numbers whose unit changes from row to row and stands in another variable.
 NO_UNIT = ""
+#: Group below which each set of measured points of a case stands: x and y in units of the user's file.
+MEASURED_GROUP = "/measured_points"
 
 
 class Strictness:
@@ -187,7 +189,7 @@ class Vocabulary:
     def at(self, path: str) -> Vocabulary | None:
         """Return the vocabulary of a group, ``None`` where the user's file names its variables."""
         place = f"/{path.strip('/')}"
-        if place in self.open_groups:
+        if place in self.open_groups or place.startswith(MEASURED_GROUP):
             return None
         return next((part for pattern, part in self.parts.items() if re.fullmatch(pattern, place)), self)
 

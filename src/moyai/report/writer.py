@@ -10,6 +10,7 @@ from moyai.core.errors import InputError
 from moyai.core.files import write_whole
 from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
+from moyai.core.vocabulary import MEASURED_GROUP
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv
 
@@ -25,6 +26,15 @@ def compose_document(result: Result) -> Document:
     -------
     Document
     """
+    document = _composed(result)
+    if MEASURED_GROUP.strip("/") in result.tree.children:
+        from moyai.report.overlay import with_measured_points
+
+        document = with_measured_points(document, result)
+    return document
+
+
+def _composed(result: Result) -> Document:
     from moyai.report.first_page import with_first_page
 
     kind = kind_of_result(str(result.tree.attrs.get("structure", "")))

@@ -25,6 +25,7 @@ from moyai.structures.curtain.dynamic.plans import Plan
 from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
 from moyai.structures.curtain.dynamic.section import section_mesh
 from moyai.structures.curtain.impact.cable import Impact, energy_bound, peak_by_energy
+from moyai.structures.curtain.statics.closed_forms import solve_cable
 
 FLUME = Water(0.40, 1000.0, 9.81)
 BASE = {
@@ -678,3 +679,35 @@ def test_cables_that_stretch_as_no_rope_are_told(tmp_path: Path) -> None:
     told = [notice for notice in result.notices if notice.code == "dynamic-stretched"]
     run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
     assert len(told) == 1 and told[0].value == pytest.approx(float(run["line_tension_maximum"].max()) / 400.0)
+
+
+def test_a_span_let_go_slack_is_gathered_and_bears_nothing() -> None:
+    span = CurtainSpan(**{**BASE, "chord": 0.15})  # type: ignore[arg-type]
+    for release in (0.0, 0.5, 0.999):
+        built = build_span(span, Mesh(12, 4), FLUME, weight=False, release=release)
+        network = built.network
+        place = built.state.position
+        chord = np.linalg.norm(place[network.bars.end] - place[network.bars.start], axis=1)
+        cables = np.concatenate([built.bars("upper cable"), built.bars("lower cable")])
+        assert np.all(chord[cables] < network.bars.length[cables])
+        assert np.sum(network.bars.length[built.bars("upper cable")]) == pytest.approx(0.8, rel=2e-3)
+    line = build_span(span, Mesh(12, 4), FLUME, weight=False, release=0.0)
+    assert np.max(np.abs(line.state.position[line.grid, 0])) < 1e-12
+    with pytest.raises(InputError, match="release is 1"):
+        build_span(span, Mesh(12, 4), FLUME, release=1.0)
+
+
+def test_a_released_span_comes_to_the_catenary_under_drag() -> None:
+    """The sheet under normal drag q cos^2 hangs in a catenary of constant tension q a, longer by the cables' strain."""
+    span = CurtainSpan(**{**BASE, "chord": 0.15, "drag_coefficient": 1.2})  # type: ignore[arg-type]
+    run = run_span(
+        span, Mesh(10, 3), FLUME, flow=Flow(velocity=(0.3, 0.0, 0.0)), duration=4.0, output_step=0.01, weight=False,
+        deep=True, release=0.0,
+    )  # fmt: skip
+    assert run.history.status == "converged"
+    time, tension = run.history.time, run.support_tension
+    load = 0.5 * 1000.0 * 1.2 * 0.15 * 0.3**2
+    steady = float(solve_cable(0.7, 0.8, load, 150.0).tension)
+    assert tension[time > 3.5].mean() == pytest.approx(steady, rel=0.03)
+    assert np.all(tension[time < 0.3] < 0.01 * steady)
+    assert 1.5 * steady < tension.max() < 3.0 * steady

@@ -7,7 +7,7 @@ import numpy as np
 from moyai.report.document import Abscissa, Figure, Panel
 from moyai.reproduce.drawing import curve, figure
 from moyai.reproduce.model import PaperFigure
-from moyai.reproduce.sawaragi.runs import LINE, STEEL, Record, Runs
+from moyai.reproduce.sawaragi.runs import LINE, STEEL, Record, Runs, SpanRecord
 from moyai.structures.curtain.impact.record import model_series
 
 PLOTTED = ("3a", "3b", "6", "7", "8", "15", "17", "18", "19", "20")
@@ -16,14 +16,18 @@ COEFFICIENT = Panel("C_T", from_zero=True)
 SUM = "Sum of both cables."
 
 
-def _record(number: str, record: Record, material: str) -> Figure:
+def _record(number: str, record: Record, material: str, whole: SpanRecord | None = None) -> Figure:
     time = record.motion.time
     shown = time < record.taut + 4.0
+    series = [curve("both cables, model A with drag", {"time": time[shown]}, record.motion.tension[shown])]
+    caption = f"{SUM} Current 0.30 m/s, C_D = 1.2; model A: a cable without tension until it is taut."
+    if whole is not None:
+        series.insert(0, curve("both cables, whole span let go slack", {"time": whole.time}, whole.tension, 1))
+        caption += " Whole span: gathered evenly between the supports at the release."
     return figure(
         number, f"release and snap, {material}", (Abscissa("time", "time from release", "s"),),
         Panel("tension", "N", from_zero=True),
-        [curve("both cables", {"time": time[shown]}, record.motion.tension[shown])],
-        f"{SUM} Current 0.30 m/s, C_D = 1.2; a cable without tension until it is taut.",
+        series, caption,
     )  # fmt: skip
 
 
@@ -101,7 +105,7 @@ def figures(runs: Runs) -> tuple[PaperFigure, ...]:
     return (
         PaperFigure("1", None, sketch),
         PaperFigure("2", None, sketch),
-        PaperFigure("3a", _record("3a", runs.line, "fishing line")),
+        PaperFigure("3a", _record("3a", runs.line, "fishing line", runs.whole_line)),
         PaperFigure("3b", _record("3b", runs.steel, "steel wire")),
         PaperFigure("4", None, sketch),
         PaperFigure("5", None, sketch),

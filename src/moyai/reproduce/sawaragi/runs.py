@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -11,6 +12,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.progress import Progress, silent
+from moyai.flexible.flow import Flow
 from moyai.potential.modes import Modes, Rigid
 from moyai.potential.solver import solve
 from moyai.potential.thin_plate import Plate, hanging_arc, horizontal_motion, solve_plate_limit
@@ -19,6 +21,8 @@ from moyai.reproduce.inputs import problem_of
 from moyai.sea.water import Water
 from moyai.structures.curtain.analyses.impact import impact_of
 from moyai.structures.curtain.assembly import assemble
+from moyai.structures.curtain.dynamic.model import CurtainSpan, Mesh
+from moyai.structures.curtain.dynamic.runs import run_span
 from moyai.structures.curtain.impact.cable import Impact, edge_impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.cycles import SlackTautMotion, slack_taut_motion
 from moyai.structures.curtain.model import CurtainProblem
@@ -26,6 +30,8 @@ from moyai.structures.curtain.model import CurtainProblem
 LINE, STEEL = 150.0, 39000.0
 DRAG = 1.2
 RELATIVE_DEPTH = 3.0
+#: Mass of the lower edge [kg/m] and of the sheet [kg/m2], filled in; duration of a run of the whole span [s].
+TOE_MASS, SHEET_MASS, RELEASE = 0.467, 0.1, 4.5
 
 
 @dataclass(frozen=True)
@@ -48,6 +54,48 @@ class Record:
     plateau: float
 
 
+@dataclass(frozen=True, eq=False)
+class SpanRecord:
+    """A release of the whole span: slack and gathered between the supports, picked up, steady.
+
+    Parameters
+    ----------
+    time, tension : ndarray
+        [s] from release; sum of both cables at a support [N].
+    plateau : float
+        Mean of the last tenth [N].
+    """
+
+    time: Array
+    tension: Array
+    plateau: float
+
+    @property
+    def spike(self) -> float:
+        """Largest tension [N]."""
+        return float(self.tension.max())
+
+    @property
+    def spike_time(self) -> float:
+        """When it is reached [s]."""
+        return float(self.time[self.tension.argmax()])
+
+    def before_spike(self, parts: int = 4) -> Array:
+        """Return the mean tensions of equal parts of the time from release to the spike [N]."""
+        edges = np.linspace(0.0, self.spike_time, parts + 1)
+        return np.array(
+            [
+                self.tension[(self.time >= start) & (self.time < end)].mean()
+                for start, end in itertools.pairwise(edges.tolist())
+            ]
+        )
+
+    def passes(self, level: float) -> int:
+        """Return how often the tension passes a level [N] upward."""
+        above = self.tension > level
+        return int(np.sum(above[1:] & ~above[:-1]))
+
+
 @dataclass(frozen=True)
 class Runs:
     """The span of the flume and what the figures and statements ask of it.
@@ -59,11 +107,14 @@ class Runs:
     case : CurtainProblem
     points : int
         Points on a curve.
+    cells : (int, int)
+        Of the whole span, along and down.
     """
 
     span: Impact
     case: CurtainProblem
     points: int
+    cells: tuple[int, int] = (24, 8)
 
     def with_stiffness(self, total: float) -> Impact:
         """Return the span with EA shared by both cables [N]."""
@@ -114,6 +165,40 @@ class Runs:
     def steel(self) -> Record:
         """The release with steel wire."""
         return self.released(STEEL)
+
+    def span_released(
+        self, total: float, cells: tuple[int, int], share: float = 0.0, duration: float = RELEASE
+    ) -> SpanRecord:
+        """Return the record of the whole span let go slack and at rest in the current, edges held in height.
+
+        Parameters
+        ----------
+        total : float
+            EA of both cables [N].
+        cells : (int, int)
+        share : float
+            Of the way from the line between the supports to the just-taut shape where it is let go.
+        duration : float
+            [s].
+        """
+        span, skirt, g = self.with_stiffness(total), self.case.curtain.skirt, self.span.water.gravity
+        whole = CurtainSpan(
+            span=span.span, length=span.length, skirt_length=span.draught, chord=span.draught,
+            upper_stiffness=span.upper_stiffness, lower_stiffness=span.lower_stiffness,
+            upper_mass=self.case.curtain.floats.weight / g, lower_mass=TOE_MASS, sheet_stiffness=skirt.stiffness,
+            sheet_mass=SHEET_MASS, drag_coefficient=DRAG,
+        )  # fmt: skip
+        run = run_span(
+            whole, Mesh(*cells), span.water, flow=Flow(velocity=(span.speed, 0.0, 0.0)), duration=duration,
+            output_step=RELEASE / 1000.0, weight=False, deep=True, release=share,
+        )  # fmt: skip
+        time, tension = np.asarray(run.history.time), run.support_tension
+        return SpanRecord(time, tension, float(tension[time > 0.9 * duration].mean()))
+
+    @cached_property
+    def whole_line(self) -> SpanRecord:
+        """The release of the whole span with fishing line."""
+        return self.span_released(LINE, self.cells)
 
     def edges(self, total: float) -> tuple[float, float, float, float]:
         """Return the largest tension of the upper and lower cable [N] and when they occur [s]."""
@@ -170,8 +255,8 @@ def run(quick: bool = False, progress: Progress = silent) -> Runs:
     progress : Progress
     """
     case: CurtainProblem = problem_of("sawaragi", "flume")
-    runs = Runs(span_of(case), case, 21 if quick else 45)
-    steps = ("line", "steel", "over_frequency", "over_curvature")
+    runs = Runs(span_of(case), case, 21 if quick else 45, (24, 4) if quick else (24, 8))
+    steps = ("line", "steel", "whole_line", "over_frequency", "over_curvature")
     for index, name in enumerate(steps):
         progress("parts of the paper", index, len(steps))
         getattr(runs, name)

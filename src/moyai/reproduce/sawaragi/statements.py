@@ -10,7 +10,7 @@ import numpy as np
 from moyai.design.similarity import Scale, scale_water
 from moyai.reproduce.model import FilledInput, Finding, Statement, judged, measured
 from moyai.reproduce.sawaragi.figures import log_slope
-from moyai.reproduce.sawaragi.runs import DRAG, LINE, STEEL, Record, Runs
+from moyai.reproduce.sawaragi.runs import DRAG, LINE, STEEL, Record, Runs, SpanRecord
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 from moyai.structures.curtain.impact.march import iterate_first_step
 from moyai.structures.curtain.impact.skirt import Skirt, curved_impact, skirt_impact
@@ -25,16 +25,22 @@ def _exponent(runs: Runs, name: str) -> float:
     return math.log(high / low) / math.log(1.001 / 0.999)
 
 
+#: Why the release of the whole span decides no statement on the shape of the record.
+RELEASE = (
+    "the paper does not print how the slack was gathered at the release, and this decides the shape of the record: let "
+    "go half of the way to taut the spike is 12 % lower. The early tension also depends on the mesh (on 16 by 6 cells "
+    "it does not rise steadily; quick pages use 24 by 4, others 24 by 8)"
+)
+
+
 def _rise_first(runs: Runs) -> Finding:
-    motion = runs.line.motion
-    before = motion.tension[motion.time < runs.line.taut - 1e-6]
-    return judged(
-        bool(before.max() > 0.05 * runs.line.spike), f"tension {before.max():.2g} N until taut at "
-                                                     f"{runs.line.taut:.2f} s",
-        "the model's span has no weight and no drag along the cable, so that it bears nothing while slack; a "
-        "whole span in "
-        "motion starts from the just-taut shape",
-    )  # fmt: skip
+    record = runs.whole_line
+    words = ", ".join(f"{value:.2f}" for value in record.before_spike())
+    return measured(
+        f"whole span let go slack: mean tension {words} N in the quarters of the {record.spike_time:.2f} s before the "
+        "spike, as the span is picked up from its supports; model A has no tension until taut",
+        RELEASE,
+    )
 
 
 def _spike(runs: Runs) -> Finding:
@@ -44,17 +50,30 @@ def _spike(runs: Runs) -> Finding:
 
 
 def _one_spike(runs: Runs) -> Finding:
-    def spikes(record: Record) -> int:
-        return sum(contact.tension > 0.5 * record.spike for contact in record.motion.contacts)
+    record = runs.whole_line
+    return measured(
+        f"whole span let go slack: {record.spike:.2f} N, then {record.plateau:.2f} N; it exceeds half of the highest "
+        f"{record.passes(0.5 * record.spike)} times, and the middle of steady and highest level "
+        f"{record.passes(0.5 * (record.plateau + record.spike))} times; model A has {_contacts(runs.line)} contacts "
+        "above half of the highest",
+        "two counts that may be chosen, after the record was seen, do not agree. " + RELEASE[0].upper() + RELEASE[1:],
+    )
 
-    counts = spikes(runs.line), spikes(runs.steel)
-    words = f"contacts above half of the highest: {counts[0]} with fishing line, {counts[1]} with steel"
+
+def _one_spike_of_steel(runs: Runs) -> Finding:
+    count = _contacts(runs.steel)
     return judged(
-        max(counts) == 1, words,
-        "the stretched cable gives its energy back and throws the skirt upstream; a real sheet folds and loses "
-        "it, which "
-        "model A does not hold",
-    )  # fmt: skip
+        count == 1,
+        f"model A: {count} contacts above half of the highest",
+        "model A's cable gives its energy back and throws the skirt upstream. A whole span is picked up by and by; "
+        "with steel each cell of its mesh makes a spike of its own, 26 N on 12 by 4 cells, 8 N on 24 by 8, so that "
+        "no count is a finding; the inner damping of the wire is not published",
+    )
+
+
+def _contacts(record: Record) -> int:
+    """Return how many contacts of a record of model A exceed half of the highest."""
+    return sum(contact.tension > 0.5 * record.spike for contact in record.motion.contacts)
 
 
 def _same_time(runs: Runs) -> Finding:
@@ -71,7 +90,10 @@ def _steel(runs: Runs) -> Finding:
 
 
 def _plateau(runs: Runs) -> Finding:
-    words = f"{runs.line.plateau:.2f} N with fishing line, {runs.steel.plateau:.2f} N with steel"
+    words = (
+        f"{runs.line.plateau:.2f} N with fishing line, {runs.steel.plateau:.2f} N with steel; whole span "
+        f"{runs.whole_line.plateau:.2f} N with fishing line"
+    )
     return judged(abs(runs.steel.plateau / runs.line.plateau - 1.0) < 0.2, words)
 
 
@@ -182,7 +204,8 @@ def _model_b(runs: Runs) -> Finding:
 STATEMENTS = (
     Statement("rise", "2, figure 3", "From release to taut the tension rises gently.", _rise_first),
     Statement("spike", "2, figure 3", "A sharp spike when taut, then a steady level.", _spike),
-    Statement("one-spike", "2, figure 3", "There is one spike.", _one_spike),
+    Statement("one-spike", "2, figure 3", "There is one spike with fishing line.", _one_spike),
+    Statement("one-spike-steel", "2, figure 3", "There is one spike with steel wire.", _one_spike_of_steel),
     Statement("same-time", "2, figure 3", "Both cables spike together.", _same_time),
     Statement("steel", "2", "Steel makes the spike sharper and higher.", _steel),
     Statement("plateau", "2", "The steady level hardly depends on the cable.", _plateau),
@@ -208,6 +231,10 @@ STATEMENTS = (
     Statement("cube", "4.3, 4.5", "A model needs a stiffness of the scale's cube.", _cube),
     Statement("model-b", "5", "Model B for stiff cables was not computed.", _model_b),
 )
+
+
+def _spike_words(record: SpanRecord) -> str:
+    return f"spike {record.spike:.2f} N, steady {record.plateau:.2f} N"
 
 
 def filled(runs: Runs) -> tuple[FilledInput, ...]:
@@ -237,6 +264,9 @@ def filled(runs: Runs) -> tuple[FilledInput, ...]:
                     f"{words(replace(span, speed=0.15))}; {words(replace(span, speed=0.45))}{plain}"),
         FilledInput("curvature of the skirt", "flat plate, as in model A", f"arc on a chord of {chord:g} m",
                     f"{curved.tension:.2f} N{plain}"),
+        FilledInput("slack at the release", "gathered evenly, straight between the supports", "half of the way to taut",
+                    f"{_spike_words(runs.span_released(LINE, runs.cells, 0.5))} "
+                    f"(taken: {_spike_words(runs.whole_line)})"),
         FilledInput("drag coefficient", f"{DRAG:g}", "1.2 to 2 in practice", "proportional to the steady level, "
                                                                              "none on A"),
     )  # fmt: skip

@@ -54,7 +54,7 @@ def build_problem(
     """
     water = Water(model.site.water_depth, model.site.density, model.site.gravity)
     measured = None
-    if model.measured is not None:
+    if isinstance(model.measured, schema.MeasuredColumns):
         columns = read_points(folder / model.measured.file, model.measured.columns, "measured.file")
         measured = MeasuredPoints(model.measured.file, columns)
     return BreakwaterProblem(

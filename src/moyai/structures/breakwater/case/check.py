@@ -14,6 +14,7 @@ from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, SpringLine
 from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.structures.breakwater.case.check_lines import across_the_hull, check_chain_on_bed, check_sides, count_panels
+from moyai.structures.breakwater.case.schema import MeasuredColumns
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -145,11 +146,12 @@ def _check_files(model: BreakwaterCase, findings: Findings, folder: Path) -> Non
     if coefficients is not None:
         path: KeyPath = ("structure", "coefficients_file", "path")
         check_file(path, coefficients.path, folder, findings, folder_allowed=coefficients.program == "nemoh")
-    if model.measured is not None and check_file(("measured", "file"), model.measured.file, folder, findings):
+    measured = model.measured
+    if isinstance(measured, MeasuredColumns) and check_file(("measured", "file"), measured.file, folder, findings):
         from moyai.case.measured import read_points
 
         try:
-            read_points(folder / model.measured.file, model.measured.columns, "measured.file")
+            read_points(folder / measured.file, measured.columns, "measured.file")
         except InputError as error:
             findings.raised(error, ("measured", "file"))
 

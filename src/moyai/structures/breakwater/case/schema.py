@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
+from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     AddedInertia,
     AddedMass,
@@ -328,13 +329,24 @@ class Settings(Block):
     ] = Field(default="all", description="Water levels to run: all, or a list of names.")
 
 
-class Measured(Block):
-    """Measured points to show with the results."""
+class MeasuredColumns(Block):
+    """Measured points that find their figures by the names of their columns."""
 
     file: FileName = Field(description="CSV, names and units in its header: 'period [s], transmission_coefficient'.")
     columns: dict[str, Annotated[str, Field(min_length=1)]] = Field(
         default_factory=dict, description="Names of columns in the file and what they are called in the results."
     )
+
+
+def _columns_or_figures(value: Any) -> str:
+    given = isinstance(value, (list, tuple)) or (isinstance(value, dict) and "figure" in value)
+    return "<figures>" if given else "<columns>"
+
+
+Measured = Annotated[
+    Annotated[MeasuredColumns, Tag("<columns>")] | Annotated[MeasuredSets, Tag("<figures>")],
+    Discriminator(_columns_or_figures),
+]
 
 
 class BreakwaterCase(Block):
@@ -355,4 +367,4 @@ class BreakwaterCase(Block):
     )
     criteria: BreakwaterKeeps = Field(default_factory=BreakwaterCriteria, description=CRITERIA)
     settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
-    measured: Measured | None = Field(default=None, description="Measured points to show with the results.")
+    measured: Measured | None = Field(default=None, description=MEASURED)

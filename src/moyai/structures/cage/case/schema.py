@@ -19,6 +19,7 @@ from moyai.case.schema_environment import (
     Tma,
     refuse_no_seas,
 )
+from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     Block,
     Duration,
@@ -172,3 +173,4 @@ class CageCase(Block):
     )
     criteria: CageKeeps = Field(default_factory=CageCriteria, description=CRITERIA)
     settings: CageSettings = Field(default_factory=CageSettings, description="How the analyses are run.")
+    measured: MeasuredSets = Field(default=(), description=MEASURED)

@@ -317,6 +317,12 @@ def _check_dynamic(model: CurtainCase, findings: Findings) -> None:
             "a drifting start needs a speed",
             remedy="give 'current', or 'settings.impact.start_speed'",
         )
+    if given.start == "released" and model.current is None:
+        findings.fault(
+            ("settings", "dynamic", "start"),
+            "a curtain that is let go needs a current to become taut",
+            remedy="give 'current', or another start",
+        )
     for name, level in model.site.water_levels.items():
         depth = model.site.water_depth + level
         if 0.0 < depth <= unit.skirt.length and findings.sound("structure"):

@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
+from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     Auto,
     AutoDuration,
@@ -451,10 +452,10 @@ class Dynamic(Block):
         description="Of the buoy at a support with its added mass; needed with 'structure.anchors'. Default: "
         "'settings.anchor_loads.float_mass', where that is given.",
     )
-    start: Literal["auto", "at_rest", "drifting"] = Field(
+    start: Literal["auto", "at_rest", "drifting", "released"] = Field(
         default="auto",
-        description="At rest in water that begins to move, or drifting and just taut. Default: at rest in waves, else "
-        "drifting.",
+        description="At rest in water that begins to move, drifting and just taut, or (without waves) let go in the "
+        "current, gathered on the line between the supports. Default: at rest in waves, else drifting.",
     )
     start_profile: Literal["uniform", "sag"] = Field(
         default="uniform", description="Speed of a drifting start over the span: the same, or as the sag."
@@ -558,3 +559,4 @@ class CurtainCase(Block):
     record: Record | None = Field(default=None, description="A flume record to hold the impact models against.")
     criteria: CurtainKeeps = Field(default_factory=CurtainCriteria, description=CRITERIA)
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")
+    measured: MeasuredSets = Field(default=(), description=MEASURED)

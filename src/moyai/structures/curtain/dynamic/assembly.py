@@ -38,8 +38,9 @@ def build_span(
     profile: Literal["uniform", "sag"] = "uniform",
     weight: bool = True,
     deep: bool = False,
+    release: float | None = None,
 ) -> CurtainNetwork:
-    """Return the network of a span that has just come taut downstream.
+    """Return the network of a span that has just come taut downstream, or that is let go slack.
 
     Parameters
     ----------
@@ -54,6 +55,11 @@ def build_span(
         Whether weight and buoyancy act; without them skirt and ballast have mass alone.
     deep : bool
         Whether the added mass is that of deep water, as the papers take it.
+    release : float, optional
+        Let the span go at this share of the way from the line between its supports (0) to the just-taut shape
+        (below 1), its length gathered evenly between the columns [eq:curtain-release-place]. Turning
+        sections then keep no energy of the water (:class:`MassBlocks`), since the drag coefficient holds all of the
+        force of a steady current.
 
     Returns
     -------
@@ -67,8 +73,10 @@ def build_span(
     along, down = mesh.along, mesh.down
     section = section_mesh(span.skirt_length, span.chord, down, math.inf if deep else float(water.depth), water.density)
     shape, arc = _plan(span, along)
-    normal = _normals(shape)
     sag = float(np.max(shape[:, 0]))
+    if release is not None:
+        shape = _gathered(shape, arc, release)
+    normal = _normals(shape)
     drop, sink, stretched = _hang(span, section, water, weight)
     grid = np.arange((along + 1) * (down + 1)).reshape(down + 1, along + 1).T.copy()
     count = grid.size
@@ -101,7 +109,7 @@ def build_span(
     network = Network(
         nodes, bars, water if weight else replace(water, gravity=_TIGHT), strands=strands,
         points={"mid-span": int(grid[along // 2, 0])}, sheets=sheets,
-        blocks=_blocks(grid, arc, section, nodes, mesh),
+        blocks=_blocks(grid, arc, section, nodes, mesh if release is None else replace(mesh, convective=False)),
     )  # fmt: skip
     return CurtainNetwork(span, mesh, network, State(0.0, place, velocity), grid, section)
 
@@ -116,6 +124,22 @@ def _plan(span: CurtainSpan, along: int) -> tuple[Array, Array]:
     x = scale * (math.cosh(b) - np.cosh(y / scale))
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
     return np.stack([x, y], axis=1), arc
+
+
+def _gathered(shape: Array, arc: Array, release: float) -> Array:
+    """Return the nodes in plan of a span that is let go slack [eq:curtain-release-place].
+
+    Raises
+    ------
+    InputError
+        For a share outside of 0 to 1.
+    """
+    if not 0.0 <= release < 1.0:
+        raise InputError(f"release is {release:g}", path="release", allowed="0 or more, below 1")
+    # between two shapes whose cells are not longer than the cable lies one whose cells are not longer either
+    line = np.zeros_like(shape)
+    line[:, 1] = shape[0, 1] + (shape[-1, 1] - shape[0, 1]) * arc / arc[-1]
+    return np.asarray((1.0 - release) * line + release * shape)
 
 
 def _normals(shape: Array) -> Array:

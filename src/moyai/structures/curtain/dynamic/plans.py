@@ -20,11 +20,14 @@ from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.dynamic.model import CurtainSpan
 from moyai.structures.curtain.dynamic.runs import DynamicSettings
 from moyai.structures.curtain.impact.cable import Impact, peak_by_energy
+from moyai.structures.curtain.impact.cycles import slack_sag
 from moyai.structures.curtain.model import Settings
 
 #: Rows in a period and in the rise of model A, components of an irregular sea.
 _ROWS_OF_A_PERIOD, _ROWS_OF_A_RISE, _COMPONENTS = 400, 150, 120
 _RISES = 4.0
+#: Duration of a run from release over the time in which the current crosses the sag.
+_DRIFTS = 8.0
 #: Part of what counts of an irregular sea that lies before its highest crest.
 _CREST = 0.6
 
@@ -121,7 +124,24 @@ def _snap_plan(
     draught = min(span.skirt_length, 0.98 * unit.water.depth)
     rise = peak_by_energy(Impact(span.span, span.length, draught, span.upper_stiffness, lower, speed, unit.water)).time
     duration = _RISES * rise if given.duration is None else given.duration
-    start = 0.0 if given.start == "at_rest" else speed
+    start = 0.0 if given.start in ("at_rest", "released") else speed
+    if given.start == "released":
+        if current is None or not unit.normal_speed > 0.0:
+            raise InputError(
+                "a curtain let go at rest needs a current along its normal to become taut",
+                path="settings.dynamic.start",
+                remedy="give 'current'",
+            )
+        sag = slack_sag(Impact(span.span, span.length, draught, span.upper_stiffness, lower, speed, unit.water))
+        duration = _DRIFTS * sag / unit.normal_speed if given.duration is None else given.duration
+        return Plan(
+            "release in the current",
+            {
+                **common, "flow": Flow(current=current), "duration": duration, "output_step": rise / _ROWS_OF_A_RISE,
+                "speed": 0.0, "release": 0.0,
+            },
+            rise,
+        )  # fmt: skip
     return Plan(
         "snap in the current" if current is not None else "snap",
         {

@@ -56,8 +56,9 @@ class DynamicSettings:
     duration : float or None
         Of the run in a current alone [s]; None: four rises of model A, longer while its highest tension stands in the
         later half.
-    start : {"auto", "at_rest", "drifting"}
-        Curtain at rest in water that begins to move, or drifting and just taut; auto: at rest in waves.
+    start : {"auto", "at_rest", "drifting", "released"}
+        Curtain at rest in water that begins to move, drifting and just taut, or let go slack and at rest in the
+        current; auto: at rest in waves, else drifting.
     sensitivity : bool
         Whether runs with half the step, a mesh of half as many cells and twice the viscosity follow.
     slack_level, threshold : float or None
@@ -79,7 +80,7 @@ class DynamicSettings:
     analysed_periods: int = 10
     wave_count: int = 8
     duration: float | None = None
-    start: Literal["auto", "at_rest", "drifting"] = "auto"
+    start: Literal["auto", "at_rest", "drifting", "released"] = "auto"
     sensitivity: bool = True
     slack_level: float | None = None
     threshold: float | None = None
@@ -128,6 +129,12 @@ class DynamicRun:
         return tuple(n for n in ("upper cable", "lower cable", *self.built.lines) if self.built.bars(n).size)
 
     @property
+    def support_tension(self) -> Array:
+        """Sum of the tensions of both cables at the first support [N]: what a gauge reads there."""
+        bars = [self.built.bars(name)[0] for name in ("upper cable", "lower cable") if self.built.bars(name).size]
+        return np.asarray(self.history.tension[:, bars].sum(axis=1))
+
+    @property
     def both(self) -> Array:
         """Sum of the highest tensions of both cables [N]."""
         return self.tension("upper cable") + self.tension("lower cable")
@@ -171,6 +178,7 @@ def run_span(
     profile: Literal["uniform", "sag"] = "uniform",
     weight: bool = True,
     deep: bool = False,
+    release: float | None = None,
     from_time: float = 0.0,
     step: float | None = None,
     progress: Progress = silent,
@@ -180,8 +188,8 @@ def run_span(
     Parameters
     ----------
     span, mesh, water
-        As :func:`moyai.structures.curtain.dynamic.model.build_span`, with ``speed``, ``profile``, ``weight``
-        and ``deep``.
+        As :func:`moyai.structures.curtain.dynamic.model.build_span`, with ``speed``, ``profile``, ``weight``,
+        ``deep`` and ``release``.
     flow : Flow, optional
         Motion of the water in the axes of the span; still water when left out.
     duration, output_step : float
@@ -196,7 +204,7 @@ def run_span(
     DynamicRun
         Its history has the status ``not_converged`` where the run had to stop.
     """
-    built = build_span(span, mesh, water, speed=speed, profile=profile, weight=weight, deep=deep)
+    built = build_span(span, mesh, water, speed=speed, profile=profile, weight=weight, deep=deep, release=release)
     chosen = flow or Flow()
     rows = min(MOST_ROWS, max(2, round(duration / output_step)))
     history = simulate(

@@ -20,6 +20,7 @@ from moyai.case.schema_environment import (
     Tma,
     refuse_no_seas,
 )
+from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     Block,
     Duration,
@@ -316,3 +317,4 @@ class MemberCase(Block):
     )
     criteria: MemberKeeps = Field(default_factory=MemberCriteria, description=CRITERIA)
     settings: MemberSettings = Field(default_factory=MemberSettings, description="How the analyses are run.")
+    measured: MeasuredSets = Field(default=(), description=MEASURED)

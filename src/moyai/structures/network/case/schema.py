@@ -19,6 +19,7 @@ from moyai.case.schema_environment import (
     _FromBearing,
     refuse_no_seas,
 )
+from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
     AngularFrequency,
     AutoDuration,
@@ -212,3 +213,4 @@ class NetworkCase(Block):
     )
     criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
     settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")
+    measured: MeasuredSets = Field(default=(), description=MEASURED)
