@@ -172,6 +172,12 @@ def _figures(items: tuple[str, ...]) -> dict[str, tuple[float, str]]:
             quantity = parse_quantity(text)
         except InputError as error:
             raise InputError(error.fault.message, path=name, remedy=error.fault.remedy) from None
+        if not quantity.unit.symbol:
+            raise InputError(
+                f"{text.strip()} has no unit: a plain number is the same at every size",
+                path=name,
+                remedy=f'give the unit, for instance "{name}={text.strip()} m"',
+            )
         found[name] = (float(quantity.number), quantity.unit.symbol)
     return found
 

@@ -129,13 +129,27 @@ def parse_quantity(text: str) -> Quantity:
         raise InputError(f"'{shown}' does not begin with a number")
     rest = plain[match.end() :]
     if re.match(r",\d", rest):
-        raise InputError(f"'{shown}' has a comma inside the number", remedy="write a decimal point and no separators")
+        raise InputError(f"'{shown}' has a comma inside the number", remedy=_without_commas(plain))
     number = exact_number(match[0], shown)
     if not rest.strip():
         return Quantity(number, Unit("", Fraction(1), 0, Dimension()))
     if rest[0] in "0123456789_.:+-,'\"":
         raise InputError(f"'{shown}' is not a number with a unit")
     return Quantity(number, parse_unit(rest))
+
+
+def _without_commas(text: str) -> str:
+    """Return how to write a number with commas: as thousands, with a decimal point, or both where both are possible."""
+    number = re.match(r"[+-]?\d+(?:,\d+)+(?:\.\d+)?", text)
+    written = text if number is None else number[0]
+    whole, point = written.replace(",", ""), written.replace(",", ".")
+    thousands = re.fullmatch(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?", written) is not None
+    decimal = written.count(",") == 1 and "." not in written
+    if thousands and decimal:
+        return f"write {whole} if the comma parts thousands, {point} if it is the decimal point"
+    if thousands:
+        return f"write {whole}"
+    return f"write {point}" if decimal else "write digits with one decimal point and no commas"
 
 
 def exact_number(text: str, shown: str = "") -> Fraction:

@@ -82,6 +82,7 @@ def test_back_from_the_model():
         (["EA=3 kN", "--scale", "1/9", "--speed", "-1", "--across", "1"], "greater than 0"),
         (["EA=3 kN", "--scale", "1/9", "-o", "new.yaml"], "no case file to write"),
         (["nothing.yaml", "--scale", "1/9"], "no such file"),
+        (["H=2", "--scale", "1/25"], "2 has no unit"),
     ],
 )
 def test_refusals(arguments, words):

@@ -181,3 +181,20 @@ def test_refusals_say_what_was_expected(value, kind, message):
 
 def test_a_number_below_the_smallest_double_counts_as_zero_at_once():
     assert to_si("1e-999999999 m", q.LENGTH) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "remedy"),
+    [
+        ("2,500 mm", "write 2500 if the comma parts thousands, 2.500 if it is the decimal point"),
+        ("1,05 m", "write 1.05"),
+        ("12,345,678 N", "write 12345678"),
+        ("1,234.5 N", "write 1234.5"),
+        ("0,125 m", "write 0.125"),
+        ("1,2,3 m", "write digits with one decimal point and no commas"),
+    ],
+)
+def test_a_number_with_commas_is_shown_as_it_is_to_be_written(text, remedy):
+    with pytest.raises(InputError) as found:
+        q.parse_quantity(text)
+    assert found.value.fault.remedy == remedy
