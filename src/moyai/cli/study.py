@@ -75,9 +75,6 @@ def study(
         from moyai.study.assess import assess, governing
 
         result = assess(plan, result, plan.assessment)
-        for notice in result.notices if not quiet and not as_json else ():
-            if notice.code == "watch-not-kept":
-                tell(f"warning: {notice.message}; {notice.remedy}")
         if report and plan.search is None and not plan.watch:
             plan = _watching(plan, result)
         governs = governing(plan, result, max(plan.replays, 1))

@@ -54,7 +54,6 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
     -----
     What cannot be assessed (a response, an axis or a line that is not there) becomes a notice of severity ``error``.
     """
-    result = _told_of_watch(study, result)
     if wanted is None:
         return result
     import xarray as xr
@@ -86,19 +85,6 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
     tree = xr.DataTree.from_dict(groups)
     tree.attrs.update(attributes)
     return replace(result, tree=tree).with_notices(*notices)
-
-
-def _told_of_watch(study: Study, result: Result) -> Result:
-    """Return the result with a notice where no case keeps the response that the study watches."""
-    if not study.watch or study.search is not None:
-        return result
-    try:
-        response_of(result, study.watch)
-    except InputError as error:
-        message = f"the watched response '{study.watch}' is not kept: {error.fault.message}"
-        remedy = "name one that is kept, or ask for this one under 'responses' with its reduction"
-        return result.with_notices(Notice("watch-not-kept", message, severity="error", remedy=remedy))
-    return result
 
 
 def _names(study: Study) -> tuple[str, ...]:

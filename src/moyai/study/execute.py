@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -19,6 +20,7 @@ from moyai.study.ledger import Ledger, Record
 from moyai.study.local import run_here, run_processes
 from moyai.study.plan import RunCase, Study, with_search
 from moyai.study.table import study_result
+from moyai.study.tensions import response
 from moyai.study.work import Task
 
 Backend = Callable[[Task, tuple[Combination, ...]], Iterator[Record]]
@@ -93,7 +95,8 @@ def run_study(
     Raises
     ------
     InputError
-        When the folder holds another study, the disk is full, or the cluster is out of reach.
+        When the folder holds another study, the disk is full, the cluster is out of reach, or the first case that
+        ends keeps no response of the name that is watched; cases that ended are kept.
     """
     ledger = Ledger(folder, study.key, study.title)
     try:
@@ -106,6 +109,7 @@ def run_study(
         task = Task(base, study.base_path.resolve(), study.wanted, results_folder, with_search(study, run))
         stopped = False
         if left:
+            kept = _require_watched(study, known)
             watching = _Watching(study, known, watch, progress)
             records = _backend(on, workers, progress)(task, left)
             try:
@@ -113,6 +117,7 @@ def run_study(
                     ledger.add(record)
                     known[record.index] = record
                     watching.tell(record)
+                    kept = kept or _require_watched(study, known)
             except KeyboardInterrupt:
                 stopped = True
             finally:
@@ -123,6 +128,32 @@ def run_study(
     finally:
         ledger.close()
     return study_result(study, known.values(), interrupted=stopped)
+
+
+def _require_watched(study: Study, known: dict[int, Record]) -> bool:
+    """Require that cases which ended keep the response that is watched; False while none has ended well."""
+    ended = [record for record in known.values() if record.status == "converged"]
+    if not study.watch or study.search is not None or not ended:
+        return not study.watch or study.search is not None
+    so_far = study_result(study, ended, interrupted=True)
+    try:
+        response(so_far, study.watch)
+    except InputError as error:
+        names = [
+            f"{node.path.strip('/')}/{name}"
+            for node in so_far.tree.subtree
+            if node.path != "/"
+            for name in node.data_vars
+        ]
+        near = difflib.get_close_matches(study.watch, names, n=6, cutoff=0.4)
+        raise InputError(
+            f"no case keeps the response '{study.watch}' that is watched",
+            path="study.watch",
+            allowed=", ".join(near) or error.fault.allowed,
+            remedy="name one that is kept, or ask for this one under 'responses' with its reduction; cases that ended "
+            "are kept, and the same command goes on",
+        ) from None
+    return True
 
 
 def _backend(on: Any, workers: int, progress: Progress) -> Backend:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import study_cases
 
+from moyai.core.errors import InputError
 from moyai.design.long_term import YEAR
 from moyai.report.html import render_html
 from moyai.study.assess import assess, governing, utilised
@@ -243,10 +244,23 @@ def test_a_rose_bridges_no_wide_gap_between_headings(degrees, order, closed):
     assert [degrees[at] for at in found] == order and shut is closed
 
 
-def test_a_watched_response_that_no_case_keeps_is_told(tmp_path):
-    for watch, told in (("SWL/tension", []), ("SWL/tensoin", ["watch-not-kept"])):
-        folder = tmp_path / watch[-3:]
-        folder.mkdir()
-        study = load_study(study_cases.write_text(folder, GRID, watch=watch))
-        result = assess(study, run_study(study, folder / "out", study_cases.fast_case, workers=1), None)
-        assert [notice.code for notice in result.notices if notice.code.startswith("watch")] == told
+def test_a_watched_response_that_no_case_keeps_stops_the_study_at_its_first_case(tmp_path):
+    ran = []
+
+    def counted(case, progress):
+        ran.append(case)
+        return study_cases.fast_case(case, progress)
+
+    misspelt = load_study(study_cases.write_text(tmp_path, GRID, watch="SWL/tensoin"))
+    with pytest.raises(InputError) as found:
+        run_study(misspelt, tmp_path / "out", counted, workers=1)
+    assert len(ran) == 1
+    assert found.value.fault.path == "study.watch"
+    assert "SWL/tension" in found.value.fault.allowed
+    with pytest.raises(InputError):
+        run_study(misspelt, tmp_path / "out", counted, workers=1)
+    assert len(ran) == 1
+    study = load_study(study_cases.write_text(tmp_path, GRID, watch="SWL/tension"))
+    result = assess(study, run_study(study, tmp_path / "out", counted, workers=1), None)
+    assert len(ran) == len(study.cases)
+    assert not [notice for notice in result.notices if notice.code.startswith("watch")]
