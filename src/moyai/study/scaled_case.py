@@ -127,7 +127,7 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
             if isinstance(block, CatalogueSegment) and block.catalogue:
                 entries.append(f"name: {block.catalogue}")
             edits.replace_entry(node, key, entries, f"figures of {make} scaled, which no thinner one has")
-            rows += own
+            rows += [row for row in own if row.ratio != 1.0]
     for path, (name, _) in files.items():
         edits.replace(_node_at(root, path), name, f"scaled from {_value_at(case.document.data, path)}")
         block = _node_at(root, path[:-1])

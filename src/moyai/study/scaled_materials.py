@@ -16,6 +16,7 @@ from moyai.core.errors import InputError
 from moyai.sea.water import Water
 from moyai.structures.curtain.case import schema as schema_curtain
 from moyai.structures.curtain.case.build import curtain_of
+from moyai.structures.network.case.schema_parts import CatalogueType
 from moyai.tables.lines import line_type
 
 Figures = dict[str, tuple[float, str]]
@@ -42,6 +43,8 @@ def equivalents(block: Block, case: Case, path: str) -> dict[str, tuple[str, Fig
     """
     if isinstance(block, CatalogueSegment):
         return {"catalogue": (block.catalogue, _line(block, case))}
+    if isinstance(block, CatalogueType):
+        return {"catalogue": (block.catalogue, _network_line(block))}
     if isinstance(block, schema_curtain.Cable):
         if block.catalogue is None:
             return {}
@@ -75,6 +78,23 @@ def _line(block: CatalogueSegment, case: Case) -> Figures:
             "submerged_weight": (found.submerged_weight_per_length(site.density, site.gravity), "N/m"),
             "mass": (found.mass_per_length, "kg/m"),
             "axial_stiffness": (found.axial_stiffness, "N"),
+            "breaking_load": (found.breaking_load, "N"),
+        }
+    )
+
+
+def _network_line(block: CatalogueType) -> Figures:
+    found = line_type(block.catalogue, block.diameter)
+    stretch = {} if block.curve is not None else {"axial_stiffness": (found.axial_stiffness, "N")}
+    return _known(
+        {
+            "mass": (found.mass_per_length, "kg/m"),
+            "volume": (found.volume_per_length, "m2"),
+            **stretch,
+            "drag_normal": (found.drag_normal, ""),
+            "drag_tangential": (found.drag_tangential, ""),
+            "added_mass_normal": (found.added_mass_normal, ""),
+            "added_mass_tangential": (found.added_mass_tangential, ""),
             "breaking_load": (found.breaking_load, "N"),
         }
     )

@@ -18,6 +18,7 @@ from moyai.design.model_numbers import Motion, check_numbers, model_numbers
 from moyai.design.similarity import Scale, scale_quantities, scale_water
 from moyai.sea.water import Water
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
+from moyai.structures.network.case.build import bar_type_of
 from moyai.study.scaled_case import scale_case
 from moyai.study.scaled_files import scaled_files
 from moyai.study.scaled_motion import motions_of
@@ -402,3 +403,23 @@ def test_viscosity_stays_that_of_the_water(tmp_path):
     assert scaled.case.model.structure.kinematic_viscosity == given.model.structure.kinematic_viscosity
     assert not any("viscosity" in row.name for row in scaled.rows)
     assert not any("not the kinematic viscosity" in str(warning) for warning in scaled.case.warnings)
+
+
+def test_line_of_a_network_keeps_weight_stretch_and_strength(tmp_path):
+    """Mass and volume with the square of the length, EA and breaking load with its cube, coefficients as they were."""
+    case = read(template("network"), tmp_path, "network.yaml")
+    scaled = scale_case(case, Scale(25.0, 1.0, 1.0), digits=17)
+    length = 0.5
+    large, strong = bar_type_of("chain", case.model.structure.line_types["chain"], tmp_path, length)
+    small, weak = bar_type_of("chain", scaled.case.model.structure.line_types["chain"], tmp_path, length / 25.0)
+    powers = {
+        "mass_per_length": 2, "volume_per_length": 2, "diameter": 1, "axial_stiffness": 3, "drag_normal": 0,
+        "drag_tangential": 0, "added_mass_normal": 0, "added_mass_tangential": 0, "viscosity": 3.5,
+    }  # fmt: skip
+    for name, power in powers.items():
+        assert getattr(large, name) == pytest.approx(25.0**power * getattr(small, name), rel=1e-12), name
+    assert strong == pytest.approx(25.0**3 * weak, rel=1e-12)
+    assert small.tension_only
+    back = scale_case(scaled.case, Scale(25.0, 1.0, 1.0), from_model=True, digits=17)
+    again, _ = bar_type_of("chain", back.case.model.structure.line_types["chain"], tmp_path, length)
+    assert again.axial_stiffness == pytest.approx(large.axial_stiffness, rel=1e-12)
