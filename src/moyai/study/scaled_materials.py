@@ -14,6 +14,7 @@ from moyai.case.schema_lines import CatalogueSegment
 from moyai.case.schema_types import Block
 from moyai.core.errors import InputError
 from moyai.sea.water import Water
+from moyai.structures.cage.case.schema_flexible import RopeEntry
 from moyai.structures.curtain.case import schema as schema_curtain
 from moyai.structures.curtain.case.build import curtain_of
 from moyai.structures.network.case.schema_parts import CatalogueType
@@ -44,7 +45,13 @@ def equivalents(block: Block, case: Case, path: str) -> dict[str, tuple[str, Fig
     if isinstance(block, CatalogueSegment):
         return {"catalogue": (block.catalogue, _line(block, case))}
     if isinstance(block, CatalogueType):
-        return {"catalogue": (block.catalogue, _network_line(block))}
+        return {"catalogue": (block.catalogue, _line_in_motion(block.catalogue, block.diameter, block.curve is None))}
+    if isinstance(block, RopeEntry):
+        if block.catalogue is None:
+            return {}
+        figures = _line_in_motion(block.catalogue, block.diameter, stretches=True)
+        figures["drag"] = figures.pop("drag_normal")
+        return {"catalogue": (block.catalogue, figures)}
     if isinstance(block, schema_curtain.Cable):
         if block.catalogue is None:
             return {}
@@ -83,9 +90,10 @@ def _line(block: CatalogueSegment, case: Case) -> Figures:
     )
 
 
-def _network_line(block: CatalogueType) -> Figures:
-    found = line_type(block.catalogue, block.diameter)
-    stretch = {} if block.curve is not None else {"axial_stiffness": (found.axial_stiffness, "N")}
+def _line_in_motion(name: str, diameter: float, stretches: bool) -> Figures:
+    """Return the figures of a line of the catalogue; without EA where a curve of its own stands for it."""
+    found = line_type(name, diameter)
+    stretch = {"axial_stiffness": (found.axial_stiffness, "N")} if stretches else {}
     return _known(
         {
             "mass": (found.mass_per_length, "kg/m"),

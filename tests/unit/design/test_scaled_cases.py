@@ -17,6 +17,7 @@ from moyai.design.model_needs import model_need
 from moyai.design.model_numbers import Motion, check_numbers, model_numbers
 from moyai.design.similarity import Scale, scale_quantities, scale_water
 from moyai.sea.water import Water
+from moyai.structures.cage.case.build_flexible import rope_of
 from moyai.structures.curtain.impact.cable import Impact, impact_numbers, peak_by_energy
 from moyai.structures.network.case.build import bar_type_of
 from moyai.study.scaled_case import scale_case
@@ -423,3 +424,19 @@ def test_line_of_a_network_keeps_weight_stretch_and_strength(tmp_path):
     back = scale_case(scaled.case, Scale(25.0, 1.0, 1.0), from_model=True, digits=17)
     again, _ = bar_type_of("chain", back.case.model.structure.line_types["chain"], tmp_path, length)
     assert again.axial_stiffness == pytest.approx(large.axial_stiffness, rel=1e-12)
+
+
+def test_ropes_of_a_cage_keep_weight_stretch_and_strength(tmp_path):
+    case = read(template("cage"), tmp_path, "cage.yaml")
+    scaled = scale_case(case, Scale(25.0, 1.0, 1.0), digits=17)
+    ropes = [
+        [rope_of(entry, "rope") for entry in (mooring.frame_rope, mooring.bridle, *mooring.anchor_line)]
+        for mooring in (case.model.structure.mooring, scaled.case.model.structure.mooring)
+    ]
+    powers = {
+        "mass_per_length": 2, "volume_per_length": 2, "axial_stiffness": 3, "breaking_load": 3, "drag_normal": 0,
+        "drag_tangential": 0, "added_mass_normal": 0, "added_mass_tangential": 0,
+    }  # fmt: skip
+    for large, small in zip(*ropes, strict=True):
+        for name, power in powers.items():
+            assert getattr(large, name) == pytest.approx(25.0**power * getattr(small, name), rel=1e-12), name

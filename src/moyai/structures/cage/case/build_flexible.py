@@ -52,6 +52,13 @@ def _under(path: str) -> Iterator[None]:
 _KEYS = {"line_type": "catalogue"}
 
 
+#: What a rope of its own EA may give, and what it has when it does not, as the schema states it; the
+#: volume is that of the diameter.
+_OF_OWN_ROPE = {
+    "volume": math.nan, "drag": 1.2, "drag_tangential": 0.05, "added_mass_normal": 1.0, "added_mass_tangential": 0.0,
+}  # fmt: skip
+
+
 def build_problem(
     model: schema.CageCase, folder: Path, *, case_text: str = "", case_hash: str = ""
 ) -> FlexibleCageProblem:
@@ -152,7 +159,7 @@ def rope_of(entry: parts.RopeEntry, path: str) -> LineProperties:
     with _under(path):
         if entry.catalogue is not None:
             found = line_type(entry.catalogue, entry.diameter)
-            for key in ("mass", "breaking_load", "drag"):
+            for key in ("mass", "breaking_load", *_OF_OWN_ROPE):
                 if getattr(entry, key) is not None:
                     raise InputError(f"'{key}' belongs to a rope of its own EA, not to the catalogue", path=key)
             return found
@@ -160,10 +167,12 @@ def rope_of(entry: parts.RopeEntry, path: str) -> LineProperties:
             missing = "mass" if entry.mass is None else "breaking_load"
             raise InputError(f"a rope of its own EA needs '{missing}'", path=missing)
         assert entry.axial_stiffness is not None
+        own = {key: getattr(entry, key) for key in _OF_OWN_ROPE if getattr(entry, key) is not None}
+        taken = {**_OF_OWN_ROPE, "volume": math.pi / 4.0 * entry.diameter**2, **own}
         return LineProperties(
-            "own rope", "as given", entry.diameter, entry.mass, math.pi / 4.0 * entry.diameter**2,
-            entry.axial_stiffness, entry.breaking_load, 1.2 if entry.drag is None else entry.drag, 0.05, 1.0, 0.0,
-            (entry.diameter, entry.diameter), True, "case file",
+            "own rope", "as given", entry.diameter, entry.mass, taken["volume"], entry.axial_stiffness,
+            entry.breaking_load, taken["drag"], taken["drag_tangential"], taken["added_mass_normal"],
+            taken["added_mass_tangential"], (entry.diameter, entry.diameter), True, "case file",
         )  # fmt: skip
 
 

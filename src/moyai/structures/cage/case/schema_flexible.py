@@ -141,7 +141,19 @@ class RopeEntry(Block):
     axial_stiffness: PositiveForce | None = Field(default=None, description="EA.")
     mass: PositiveMassPerLength | None = Field(default=None, description="Mass in air per length, with EA.")
     breaking_load: PositiveForce | None = Field(default=None, description="Breaking load, with EA.")
+    volume: Annotated[float, QuantityOf(quantities.AREA, above=0.0)] | None = Field(
+        default=None, description="Displaced volume per length, with EA. That of the diameter when absent."
+    )
     drag: NonNegativeNumber | None = Field(default=None, description="C_d across the line, with EA. 1.2 when absent.")
+    drag_tangential: NonNegativeNumber | None = Field(
+        default=None, description="C_d along the line, with EA. 0.05 when absent."
+    )
+    added_mass_normal: NonNegativeNumber | None = Field(
+        default=None, description="Added mass across over the displaced mass, with EA. 1 when absent."
+    )
+    added_mass_tangential: NonNegativeNumber | None = Field(
+        default=None, description="Added mass along over the displaced mass, with EA. 0 when absent."
+    )
 
 
 class AnchorSegment(RopeEntry):
