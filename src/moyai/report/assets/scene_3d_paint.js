@@ -326,6 +326,7 @@ Object.assign(Scene3D.prototype, {
       });
       return;
     }
+    const placed = [];
     arrows.forEach(([label, heading], n) => {
       const c = Math.cos(heading), sn = Math.sin(heading), lift = 0.015 * span, z = (x, y) => this.surfaceAt(x, y) + lift;
       const x = from[0] + (c < 0 ? size * -c : 0), y = from[1] + (sn < 0 ? size * -sn : 0) + n * 0.09 * span;
@@ -336,7 +337,10 @@ Object.assign(Scene3D.prototype, {
       pen.fillStyle = label === "waves" ? paper.line : theme.accent; pen.globalAlpha = 0.9; pen.fill();
       if (label === "current") { pen.strokeStyle = theme.page; pen.lineWidth = 0.8; pen.stroke(); }
       const [tx, ty] = P(size, 0);
-      pen.globalAlpha = 1; pen.fillStyle = theme.ink; pen.fillText(label, tx + 5, ty + 4);
+      let line = ty + 4; // words keep clear of each other where the arrows lie close
+      for (const [px, py] of placed) if (Math.abs(px - tx) < 48 && Math.abs(py - line) < 13) line = py + (line < py ? -13 : 13);
+      placed.push([tx, line]);
+      pen.globalAlpha = 1; pen.fillStyle = theme.ink; pen.fillText(label, tx + 5, line);
     });
   },
   paintWords(view, area) {
