@@ -1,4 +1,4 @@
-"""What a peak is worth: the same run at half the step, on a finer mesh, with other viscosity."""
+"""The accuracy of a peak: the same run at half the step, on a finer mesh, with other viscosity."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class PeakSensitivity:
 
     @property
     def discretisation_error(self) -> float:
-        """Relative change with step and mesh together: what the number is worth, apart from viscosity."""
+        """Relative change with step and mesh together, without viscosity."""
         return self._change(self.half_step) + self._change(self.double_mesh)
 
     @property

@@ -181,7 +181,7 @@ def _worth(
         if not asked:
             return None, [], history
         return None, [
-            Notice("sensitivity-left-out", "what the peak is worth was not found: the run goes on from an earlier one",
+            Notice("sensitivity-left-out", "accuracy of the peak not found: the run goes on from an earlier one",
                    severity="information", remedy="run it from its start with settings.sensitivity")
         ], history  # fmt: skip
     try:
@@ -198,7 +198,7 @@ def _worth(
     except (ConvergenceError, InputError) as error:
         return None, [Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy)], history
     except KeyboardInterrupt:
-        message = "interrupted while it was found what its peak is worth; the run itself is complete"
+        message = "interrupted while the accuracy of its peak was found; the run itself is complete"
         return None, [], replace(history, status="interrupted", message=message)
 
 

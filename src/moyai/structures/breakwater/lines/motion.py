@@ -1,4 +1,4 @@
-"""The unit in time on lines that are in motion: run, tensions at both ends, slack and snap, what a peak is worth."""
+"""The unit in time on lines that are in motion: run, tensions at both ends, slack and snap, the accuracy of a peak."""
 
 from __future__ import annotations
 

@@ -80,7 +80,7 @@ class Worth:
     stopped: tuple[str, ...] = ()
 
     def notices(self, place: str, limit: float = LIMIT) -> tuple[Notice, ...]:
-        """Tell when a peak is worth less than it looks, each cable and line by itself, and which runs are missing."""
+        """Report peaks that mesh, step or viscosity change, for each cable and line, and the runs that are missing."""
         found = [
             Notice("dynamic-sensitivity", f"{place}: {words}", math.nan, math.nan, "warning", "", "guard on energy")
             for words in self.stopped

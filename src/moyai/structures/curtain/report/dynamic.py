@@ -119,7 +119,7 @@ def worth_table(level: CurtainLevel) -> Table | None:
     columns = [Column(heading, column, "N") for heading, column in values.items() if np.isfinite(column).any()]
     note = (
         "Extrapolated: the value that both meshes point to, if the error falls with the size of the cells; none where "
-        "they are more than a fifth apart. The spread of a row is what the number is worth."
+        "they are more than a fifth apart. The spread of a row is the accuracy of the number."
     )
     if "Held normals" in [column.label for column in columns]:
         note += " Held normals: sections of added mass keep the directions of the just-taut span."

@@ -170,8 +170,8 @@ class NetworkSettings(Block):
     )
     sensitivity: Truth = Field(
         default=False,
-        description="Run again with half the step, half the bars, half and twice the viscosity, to tell what the peak "
-        "is worth.",
+        description="Run again with half the step, half the bars, half and twice the viscosity, for the "
+        "accuracy of the peak.",
     )
     mesh_check: Literal["auto", "off"] = Field(
         default="auto",

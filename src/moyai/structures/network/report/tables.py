@@ -235,7 +235,7 @@ def worth_table(level: NetworkLevel) -> Table | None:
     runs = list(dynamic.labels("run"))
     return _table(
         slug(level.name, "worth"),
-        "What the peak is worth",
+        "Accuracy of the peak",
         [
             Column("Run", runs),
             Column("Line", [str(dynamic.attributes.get(f"governing {run}", "")) for run in runs]),
@@ -243,8 +243,8 @@ def worth_table(level: NetworkLevel) -> Table | None:
             _column("step and mesh", None if error is None else 100.0 * error, "%", digits=2, uniform=False),
             _column("viscosity", None if effect is None else 100.0 * effect, "%", digits=2, uniform=False),
         ],
-        "The governing line in the same run again. The change with step and mesh is what the number is worth; the "
-        "change with the viscosity, where it was asked for, shows what rests on an input that is seldom well known.",
+        "The governing line in the same run again. The change with step and mesh is the accuracy of the number; the "
+        "change with the viscosity, where it was asked for, shows the effect of an input that is seldom well known.",
     )  # fmt: skip
 
 
