@@ -131,8 +131,8 @@ def run_study(
 
 
 def _require_watched(study: Study, known: dict[int, Record]) -> bool:
-    """Require that cases which ended keep the response that is watched; False while none has ended well."""
-    ended = [record for record in known.values() if record.status == "converged"]
+    """Require that cases which ended keep the response that is watched; False while none has kept any."""
+    ended = [record for record in known.values() if record.values]
     if not study.watch or study.search is not None or not ended:
         return not study.watch or study.search is not None
     so_far = study_result(study, ended, interrupted=True)
