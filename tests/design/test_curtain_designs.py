@@ -227,7 +227,9 @@ def test_daily_waves_do_not_count_the_release(designs, tmp_path: Path) -> None:
     storm = result.tree["/SWL/waves/storm"].to_dataset()
     assert float(storm["maximum_tension"]) > numbers[0].max()
     cable = headline(late, "cable_tension")
-    assert cable.value == pytest.approx(float(late.tree["/SWL/waves/daily"]["maximum_tension"].max()), rel=0.35)
+    seas = [float(late.tree[f"/SWL/waves/{name}"]["maximum_tension"].max()) for name in ("daily", "storm")]
+    # the upper cable alone; the table holds the share of the lower one too, a 1e-6 of its EA where the toe is free
+    assert cable.value == pytest.approx(max(seas), rel=1e-5) and "storm" in cable.where
 
 
 def test_the_whole_span_gives_the_peaks_of_a_snap_by_default(designs, tmp_path: Path) -> None:

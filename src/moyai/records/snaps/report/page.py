@@ -124,13 +124,14 @@ def _run_tables(runs: Group) -> list[Block]:
         ("froude", "Fr", ""), ("span_ratio", "B/l", ""), ("depth_ratio", "d/h", ""), ("cauchy", "C_E", ""),
     )  # fmt: skip
     columns = [Column("Run", names), Column("Cable", _texts(runs))]
-    columns += [Column(title, list(_values(runs, name, "run")), unit) for name, title, unit in singles]
+    # each value with its own decimals: the impact of a steel wire is a hundred times that of a fishing line
+    columns += [Column(title, list(_values(runs, name, "run")), unit, uniform=False) for name, title, unit in singles]
     cables = runs.labels("cable")
     apart = [Column("Run", names)]
     for place, cable in enumerate(cables):
         for name, title in (("peak", "peak"), ("plateau", "drag level"), ("impact", "impact")):
             values = _values(runs, f"cable_{name}_tension", "run", "cable")[:, place]
-            apart.append(Column(f"{cable} {title}", list(values), "N"))
+            apart.append(Column(f"{cable} {title}", list(values), "N", uniform=False))
     models = runs.labels("impact_model")
     tension = _values(runs, "model_tension", "run", "impact_model")
     over = tension / _values(runs, "impact_tension", "run")[:, None]
