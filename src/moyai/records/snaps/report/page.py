@@ -124,8 +124,11 @@ def _run_tables(runs: Group) -> list[Block]:
         ("froude", "Fr", ""), ("span_ratio", "B/l", ""), ("depth_ratio", "d/h", ""), ("cauchy", "C_E", ""),
     )  # fmt: skip
     columns = [Column("Run", names), Column("Cable", _texts(runs))]
-    # each value with its own decimals: the impact of a steel wire is a hundred times that of a fishing line
-    columns += [Column(title, list(_values(runs, name, "run")), unit, uniform=False) for name, title, unit in singles]
+    # tensions with their own decimals: the impact of a steel wire is a hundred times that of a fishing line
+    columns += [
+        Column(title, list(_values(runs, name, "run")), unit, uniform=unit != "N" and name != "tension_coefficient")
+        for name, title, unit in singles
+    ]
     cables = runs.labels("cable")
     apart = [Column("Run", names)]
     for place, cable in enumerate(cables):
