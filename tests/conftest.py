@@ -9,6 +9,8 @@ from moyai.core.vocabulary import Strictness
 
 # A name of a result that no vocabulary declares is an error in every test
 Strictness.names = True
+# The workers of the tests take all cores
+os.environ.setdefault("MOYAI_COMPILE_PROCESSES", "0")
 
 
 @pytest.fixture(scope="session")

@@ -6,9 +6,12 @@ Imports of the numerical packages stand inside the commands, so that ``moyai --h
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,6 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from moyai.cli.compare import compare
+from moyai.cli.compiling import compile_command
 from moyai.cli.console import (
     BAD_INPUT,
     FAILED,
@@ -47,7 +51,6 @@ if TYPE_CHECKING:
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
-COMPILING = "compiling numerical kernels, once after an installation: one to two minutes"
 
 app = typer.Typer(
     name="moyai",
@@ -65,6 +68,7 @@ app.command()(compare)
 app.command()(convert)
 app.command()(scale)
 app.command()(reproduce)
+app.command("compile")(compile_command)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (YAML).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")]
@@ -228,20 +232,20 @@ def run(
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
-        from moyai.core.compiled import when_compiling
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
         file = _deck_or_case(file, folder, motion or [], duration)
-        case = load_case(file)
-        others = _others(beside, report)
-        folder = prepare_output(folder)
-        if not as_json and not quiet:
-            count = len(case.warnings)
-            if count:
-                tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
-        with progress_bars(quiet) as progress, when_compiling(lambda: None if quiet else tell(COMPILING)):
-            result = run_case(case, progress, keep=folder / "coefficients")
+        with _compiling(_kind_in(file), quiet):
+            case = load_case(file)
+            others = _others(beside, report)
+            folder = prepare_output(folder)
+            if not as_json and not quiet:
+                count = len(case.warnings)
+                if count:
+                    tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
+            with progress_bars(quiet) as progress:
+                result = run_case(case, progress, keep=folder / "coefficients")
         files, document = [result.write(folder / "results.nc")], None
         if report:
             from moyai.report.writer import compose_document, write_report
@@ -272,6 +276,28 @@ def run(
             if result.verdict.outcome == "does not hold":
                 tell(f"design does not hold: {result.verdict.message}")
         raise typer.Exit(exit_code(result, require_hold=require_hold))
+
+
+def _kind_in(file: Path) -> str:
+    """Return the kind of structure that a file seems to hold, before it is read; what is wrong is found by reading."""
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    found = re.search(r"^structure:(?:.|\n)*?\bkind:\s*(\w+)", text, re.MULTILINE)
+    return found[1] if found else ""
+
+
+@contextmanager
+def _compiling(kind: str, quiet: bool) -> Iterator[None]:
+    """Compile what a kind of structure needs in further processes, and say so, where it was never compiled."""
+    from moyai.core.compile_ahead import compiling_ahead, expected_seconds
+    from moyai.core.compiled import when_compiling
+
+    def say_once() -> None:
+        seconds = expected_seconds(kind)
+        if not quiet:
+            tell(f"compiling numerical kernels, once after an installation{f': about {seconds:.0f} s' * (seconds > 5)}")
+
+    with when_compiling(say_once), compiling_ahead(kind):
+        yield
 
 
 def _others(paths: list[Path] | None, report: bool) -> tuple[Any, ...]:
