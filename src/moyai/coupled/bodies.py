@@ -126,36 +126,57 @@ class BodyLog:
 
     def __init__(self, body: Body, carrier: PointCarrier) -> None:
         self.body, self.carrier = body, carrier
-        self.rows: list[tuple[Array, ...]] = []
+        #: Stretches of rows, each an array a quantity
+        self._kept: list[tuple[Array, ...]] = []
+        #: Stretches of marches, whose rows are made together
+        self._marched: list[tuple[Array, Array]] = []
+        self.count = 0
 
     def keep(self, joint: Joint) -> None:
         """Add the state after the last accepted step."""
         carrier = self.carrier
         if not isinstance(carrier, RigidCarrier | PlanarCarrier):
             return
+        self._settle()
         index = joint.carriers.index(carrier)
         last = int(joint.ends[index])
         force = joint.reaction[0, last - joint.sizes[index] : last]
         place, _ = carrier.place_and_velocity()
         moment = np.sum(np.cross(place - carrier.centre, force * carrier.copies[:, None]), axis=0)
         total = np.concatenate([np.sum(force * carrier.copies[:, None], axis=0), moment])
-        self.rows.append(
-            (
-                carrier.position.copy(), carrier.rotation.copy(), carrier.velocity.copy(), total, force.copy(),
-                np.array(carrier.kinetic_energy),
-            )
-        )  # fmt: skip
+        row = carrier.position, carrier.rotation, carrier.velocity, total, force, np.asarray(carrier.kinetic_energy)
+        self._kept.append(tuple(value[None].copy() for value in row))
+        self.count += 1
 
-    def keep_march(self, carrier: PlanarCarrier, motion: Array, force: Array) -> None:
+    def keep_march(self, motion: Array, force: Array) -> None:
         """Add rows of a planar body: motions and their rates (2, k, 3), forces on its points (k, points, 3)."""
+        self._marched.append((motion, force))
+        self.count += len(force)
+
+    def _settle(self) -> None:
+        if not self._marched:
+            return
+        carrier = self.carrier
+        assert isinstance(carrier, PlanarCarrier)
+        motion = np.concatenate([motion for motion, _ in self._marched], axis=1)
+        force = np.concatenate([force for _, force in self._marched])
         place, turn, speed, arms, kinetic = carrier.rows(motion[0], motion[1])
         pull = force * carrier.copies[:, None]
         total = np.concatenate([pull.sum(axis=1), np.cross(arms, pull).sum(axis=1)], axis=1)
-        self.rows.extend(zip(place, turn, speed, total, force, kinetic, strict=True))
+        self._kept.append((place, turn, speed, total, force, kinetic))
+        self._marched = []
+
+    @property
+    def kinetic_energy(self) -> float:
+        """Kinetic energy of the body in its present state, 0 where none is kept [J]."""
+        return float(getattr(self.carrier, "kinetic_energy", 0.0))
 
     def history(self, size: int) -> BodyHistory:
         """Return the first ``size`` rows."""
-        place, turn, speed, total, force, kinetic = (np.array(column) for column in zip(*self.rows[:size], strict=True))
+        self._settle()
+        place, turn, speed, total, force, kinetic = (
+            np.concatenate(column)[:size] for column in zip(*self._kept, strict=True)
+        )
         return BodyHistory(place, turn, speed, total, force, tuple(self.carrier.points), kinetic)
 
 

@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from moyai.core.compiled import njit
-from moyai.flexible import explicit_kernel as explicit
+from moyai.flexible.explicit_rows import LEDGER, MXX, ROW, U, X
 from moyai.sea.kinematics import linear_velocity_acceleration
 
-ROW, LEDGER, X, U, MXX = explicit.ROW, explicit.LEDGER, explicit.X, explicit.U, explicit.MXX
 #: What must be new of a difference of misses for it to count in the next guess, over the largest difference.
 LEAST_NEW = 1e-6
 #: No row of the step of a body is kept.
@@ -404,9 +403,7 @@ def march_together(
         fluid,
         pairs,
         bed,
-        nets,
-        sheets,
-        blocks,
+        parts,
         kept_nodes,
         kept_bars,
         ledger,
@@ -463,7 +460,7 @@ def march_together(
             good = march(
                 A, sizes, runs, curves, hinges, bending, attached, fluid, (True, near, water, water_rate, time),
                 (pairs, origin, tables, time, h), bed, (time, step, per_load, per_row, 1, first + taken, 0.0), ledger,
-                (places, pulls, peaks, energy, kept_nodes, kept_bars), nets, sheets, blocks,
+                (places, pulls, peaks, energy, kept_nodes, kept_bars), parts,
                 (watch_bars, gauges, falls, broken, most, bear),
             )  # fmt: skip
             if good != 1 or broken[0] >= 0:

@@ -91,7 +91,7 @@ class PlanarMarch:
         done = slice(first, first + good)
         stepped.end_march(good, self.interval, kept, now, tuple(rows[done] for rows in self._network_rows))
         carrier.time = stepped.time
-        self.log.keep_march(carrier, self._motion[:, done], self._reaction[done])
+        self.log.keep_march(self._motion[:, done], self._reaction[done])
         joint.largest, joint.length, joint.impulse, joint.known = books[0], books[1], books[6], int(books[7])
         joint.differences = np.stack([moved, change])
         joint.passes, joint.steps = joint.passes + int(books[2]), joint.steps + good
@@ -121,14 +121,14 @@ def _compiled(arguments: tuple[Any, ...]) -> Callable[..., int]:
     from numba import typeof, types
 
     _, first, begin, h, force, _carried, body, motion, network, points, _sea, choice, *_, rows = arguments
-    system, (ledger, *watched), water = network[:15], network[15:20], network[-1]
+    system, (ledger, *watched), water = network[:13], network[13:18], network[-1]
     constants, lines, rest, weights, inputs, outputs, saved = body
     step, per_load, per_row, near, most, bear = choice
-    pairs, bed, nets, sheets, blocks, kept_nodes, kept_bars = system[8:]
+    pairs, bed, parts, kept_nodes, kept_bars = system[8:]
     marched = (
         *system[:8], (True, near, water, water, begin), (pairs, points[2][0], points[3], begin, h), bed,
-        (begin, step, per_load, per_row, 1, first, begin), ledger, (*rows[:4], kept_nodes, kept_bars), nets, sheets,
-        blocks, (*watched, most, bear),
+        (begin, step, per_load, per_row, 1, first, begin), ledger, (*rows[:4], kept_nodes, kept_bars), parts,
+        (*watched, most, bear),
     )  # fmt: skip
     stepped = (
         *motion[:3], 0, 1, h, force, constants, lines, rest, weights, inputs, outputs, motion[0], kernel.NEVER, saved

@@ -213,7 +213,7 @@ def _drive(
                     log.keep(joint)
             row += max(taken, 1)
             energy = stepped.energy
-            kinetic = sum(float(log.rows[-1][5]) for log in logs.values() if log.rows)
+            kinetic = sum(log.kinetic_energy for log in logs.values())
             throughput = max(throughput, energy[0] + energy[1], abs(energy[2]), joint.work, kinetic)
             gain = (energy[0] + energy[1]) - (start[0] + start[1]) - (energy[2] - start[2])
             if not gain <= ENERGY_STOP * throughput:
@@ -270,7 +270,7 @@ def _history(
             "difference of the work given and taken at the points, over the work exchanged",
         ),
     )  # fmt: skip
-    size = min(len(log.rows) for log in logs.values()) if logs else record.time.size
+    size = min(log.count for log in logs.values()) if logs else record.time.size
     return CoupledHistory(
         record.time[:size],
         {name: log.history(size) for name, log in logs.items()},

@@ -8,10 +8,10 @@ import numpy as np
 
 from moyai.core.errors import ConvergenceError
 from moyai.core.progress import Progress, silent
-from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.checks import name_of_node
 from moyai.flexible.dynamic_relaxation_kernel import relax
 from moyai.flexible.explicit import ExplicitRun
+from moyai.flexible.explicit_rows import PULL, WU
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import Network
@@ -74,14 +74,14 @@ def relax_network(
     while done < most_steps:
         run.water = calm.at(0.0, run.place)
         mass = bare + 1.1 * _sheet_masses(run)
-        packed.node_rows(kernel.WU, 7)[:] = run.water
+        packed.node_rows(WU, 7)[:] = run.water
         taken, left, worst = relax(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
-            fluid, run.near_surface(), run.nets, run.sheets, level, mass, pace, CHUNK, EVERY, tolerance * reference,
+            fluid, run.near_surface(), run.parts, level, mass, pace, CHUNK, EVERY, tolerance * reference,
             next(keep for begin, keep in reversed(KEEP) if done >= begin),
         )  # fmt: skip
         done += taken
-        reference = max(float(np.max(np.abs(packed.bar_row(kernel.PULL)), initial=0.0)), _sheet_pull(run), 1e-9)
+        reference = max(float(np.max(np.abs(packed.bar_row(PULL)), initial=0.0)), _sheet_pull(run), 1e-9)
         if not np.isfinite(run.place).all() or left <= tolerance * reference:
             break
         progress("rest", done, most_steps)
@@ -95,7 +95,7 @@ def relax_network(
             remedy="look for a part that floats away or lines that cannot reach",
         )
     place = run.place.T.copy()
-    tension = packed.bar_row(kernel.PULL)
+    tension = packed.bar_row(PULL)
     return Equilibrium(State(0.0, place, np.zeros_like(place)), tension, float(residual), done)
 
 
@@ -125,7 +125,8 @@ def _masses(run: ExplicitRun) -> np.ndarray:
 def _sheet_masses(run: ExplicitRun) -> np.ndarray:
     """Return what the triangles as they lie now ask for, by a bound of their stiffness (that of taut ones)."""
     stiff, damp = np.zeros((len(run.network.nodes), 6)), np.zeros((len(run.network.nodes), 6))
-    sheet_stiffness(run.sheets[0], run.sheets[1], run.place, stiff, damp)
+    if run.parts[2] is not None:
+        sheet_stiffness(run.sheets[0], run.sheets[1], run.place, stiff, damp)
     # the trace of a block is no less than its largest value
     return np.asarray(stiff[:, 0] + stiff[:, 3] + stiff[:, 5])
 

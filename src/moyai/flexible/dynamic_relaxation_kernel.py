@@ -1,6 +1,6 @@
 """Compiled kernel of dynamic relaxation: towards rest with masses of the mind, stopped at every peak of the motion.
 
-It works on the array of :mod:`moyai.flexible.explicit_kernel`, whose velocities stay zero: loads are those of a
+It works on the array of :mod:`moyai.flexible.explicit_rows`, whose velocities stay zero: loads are those of a
 network at rest in a current.
 """
 
@@ -10,33 +10,27 @@ import math
 from typing import Any
 
 from moyai.core.compiled import njit
-from moyai.flexible.explicit_kernel import (
-    FREE_X,
-    FX,
-    QX,
-    ROW,
-    STIFF,
-    TX,
-    TY,
-    TZ,
-    U,
-    X,
-    Y,
-    Z,
-    bending_forces,
-    loads,
-    rib_forces,
-    screens,
-    spine_forces,
-)
-from moyai.flexible.ring_kernel import ring_loads
-from moyai.flexible.sheet_kernel import sheet_forces
+from moyai.flexible.explicit_forces import bending_forces, rib_forces, spine_forces
+from moyai.flexible.explicit_loads import loads
+from moyai.flexible.explicit_parts import add_ring_forces, add_sheet_forces, screens
+from moyai.flexible.explicit_rows import FREE_X, FX, QX, ROW, STIFF, TX, X, Z
+
+
+@njit(cache=True, error_model="numpy")
+def add_screen_loads(A: Any, panels: Any) -> None:
+    """Add the loads of net panels in still motion to those of the nodes."""
+    if panels is None:
+        return
+    screen = panels[1]
+    for axis in range(3):
+        for i in range(screen.shape[1]):
+            A[QX + axis * ROW + i] += screen[6 + axis, i]
 
 
 @njit(cache=True, error_model="numpy")
 def relax(
     A: Any, sizes: Any, runs: Any, curves: Any, hinges: Any, bending: Any, attached: Any, fluid: Any, surface: bool,
-    nets: Any, sheets: Any, level: float, mass: Any, pace: Any, steps: int, every: int, goal: float, keep: float,
+    parts: Any, level: float, mass: Any, pace: Any, steps: int, every: int, goal: float, keep: float,
 ) -> tuple[int, float, int]:  # fmt: skip
     """Move the nodes towards rest; return the steps taken, the largest force left and its node.
 
@@ -46,26 +40,20 @@ def relax(
     in its own lift.
     """
     count, nodes = sizes[0], mass.size
-    panels, screen, rings, moments = nets
-    table, triangles, _, _, peak = sheets
+    panels, rings, sheets, _ = parts
     energy, left, worst = 0.0, math.inf, 0
     for it in range(steps):
         if it % every == 0:
             loads(A, sizes, runs, attached, fluid[0], fluid[1], surface, False, 0.0, sheets)
-            if panels[0].shape[0] > 0:
-                screens(A, count, panels, 0.5 * fluid[0], screen, 0.0, 0.0)
-                for axis in range(3):
-                    for i in range(nodes):
-                        A[QX + axis * ROW + i] += screen[6 + axis, i]
+            screens(A, count, panels, 0.5 * fluid[0], 0.0, 0.0)
+            add_screen_loads(A, panels)
         for axis in range(3):
             for i in range(count):
                 A[TX + axis * ROW + i] = A[QX + axis * ROW + i]
         rib_forces(A, runs, curves)
         bending_forces(A, hinges, bending)
-        if triangles.shape[0] > 0:
-            sheet_forces(table, triangles, A, X, A, U, A, TX, 1, ROW, peak)
-        if rings[0].size > 0:
-            ring_loads(A[X:], A[Y:], A[Z:], rings, A[TX:], A[TY:], A[TZ:], moments)
+        add_sheet_forces(A, sheets)
+        add_ring_forces(A, rings)
         spine_forces(A, sizes[1])
         now, left = 0.0, 0.0
         for i in range(nodes):

@@ -9,8 +9,14 @@ from typing import Any
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.arrays import kernel_arrays
+from moyai.flexible.explicit_energy import elastic_energy, kinetic_energy
+from moyai.flexible.explicit_forces import rib_forces, spine_forces
+from moyai.flexible.explicit_kernel import march, survey
+from moyai.flexible.explicit_loads import loads
+from moyai.flexible.explicit_motion import drive, kick_and_drift
+from moyai.flexible.explicit_parts import elastic_energy_of_sheets, kick_sections, section_energy, section_loads
+from moyai.flexible.explicit_rows import LEDGER, PEAK, PULL, WU, U, X
 from moyai.flexible.flow import Flow
 from moyai.flexible.mass_blocks import pack_blocks
 from moyai.flexible.motion import Motion
@@ -80,11 +86,6 @@ class ExplicitRun:
         self.arrays = kernel_arrays(network)
         self.packed = pack(self.arrays)
         self.rings = RingArrays.of(network.rings)
-        # panels, their matrices at the last evaluation, rings, their moments
-        self.nets = (
-            PanelArrays.of(network.panels).system, np.zeros((12, len(network.nodes))), self.rings.system,
-            np.zeros((self.rings.nodes.size, 3)),
-        )  # fmt: skip
         self.driving = driving_tables(network, motions)
         self.time, self.step = start.time, 0.0
         #: Steps that led to good rows, and the smallest of them [s].
@@ -97,15 +98,17 @@ class ExplicitRun:
         self.fastest_drive = float(np.max(np.linalg.norm(self.driving[2][:, :, 3:], axis=2), initial=0.0))
         # 0 work of loads, 1 work at driven points, 2 turn of the added mass, 4 loads known, 5 velocity half a step
         # behind
-        self.ledger = np.zeros(kernel.LEDGER + 6 * len(self.driving[0]))
+        self.ledger = np.zeros(LEDGER + 6 * len(self.driving[0]))
         self.place[:], self.speed[:] = start.position.T, start.velocity.T
         self.speed[:, network.nodes.kind != 0] = 0.0
-        kernel.drive(self.packed.memory, *self.driving, self.time, 0.0)
+        drive(self.packed.memory, *self.driving, self.time, 0.0)
         for node, slot in self.driving[0]:
             self.speed[:, node] = motions[network.motion_names[slot]].at(self.time)[1]
         self.sheets, self.blocks = self._surfaces(start)
+        #: Panels, rings, sheets and blocks as the kernels take them, ``None`` for what the network has not.
+        self.parts = self._parts()
         self.water = flow.at(self.time, self.place)
-        self.packed.node_rows(kernel.WU, 7)[:] = self.water
+        self.packed.node_rows(WU, 7)[:] = self.water
         self._loads()
         self.safety = self._usual_safety() if safety is None else safety
         #: Largest part of the step that this network bears of which use was made, by a step given by hand.
@@ -147,7 +150,7 @@ class ExplicitRun:
         whole = network.blocks is not None and network.blocks.convective
         blocks = (
             packed.nodes, packed.guides, packed.frames, packed.added, packed.inverse, packed.along,
-            own[packed.nodes], whole,
+            own[packed.nodes], whole, packed.light,
         )  # fmt: skip
         sheets = network.sheets
         count = 0 if sheets is None else len(sheets)
@@ -155,30 +158,39 @@ class ExplicitRun:
         triangles = np.zeros((0, 3), dtype=np.int64) if sheets is None else sheets.triangles.copy()
         return (table, triangles, packed.light, np.zeros(1), np.zeros(count)), blocks
 
+    def _parts(self) -> tuple[Any, Any, Any, Any]:
+        network, count, rings = self.network, len(self.network.nodes), self.rings
+        panels = (PanelArrays.of(network.panels).system, np.zeros((12, count)))
+        spare = np.zeros((3, count)), np.zeros((rings.nodes.size, 3))
+        return (
+            panels if panels[0][0].shape[0] else None,
+            (rings.system, spare[1], spare[0]) if rings.nodes.size else None,
+            self.sheets if network.sheets is not None else None,
+            self.blocks if network.blocks is not None else None,
+        )
+
     def kick(self, push: float) -> None:
         """Advance all velocities by ``push`` seconds of the present forces."""
-        if self.network.blocks is not None:
-            kernel.kick_sections(self.packed.memory, self.blocks, push, -1e300)
-        kernel.kick_and_drift(self.packed.memory, self.packed.sizes[0], push, 0.0)
+        kick_sections(self.packed.memory, self.parts[3], push, -1e300)
+        kick_and_drift(self.packed.memory, self.packed.sizes[0], push, 0.0)
 
     @property
     def place(self) -> Array:
         """Positions, a view of shape (3, n)."""
-        return self.packed.node_rows(kernel.X, 3)
+        return self.packed.node_rows(X, 3)
 
     @property
     def speed(self) -> Array:
         """Velocities, a view of shape (3, n); half a step behind once the run goes."""
-        return self.packed.node_rows(kernel.U, 3)
+        return self.packed.node_rows(U, 3)
 
     def _loads(self) -> None:
         water = self.network.water
-        kernel.loads(
+        loads(
             self.packed.memory, self.packed.sizes, self.packed.runs, self.arrays.attached, water.density, water.gravity,
-            self.near_surface(), not self.flow.steady, 0.0, self.sheets,
+            self.near_surface(), not self.flow.steady, 0.0, self.parts[2],
         )  # fmt: skip
-        if self.network.blocks is not None:
-            kernel.section_loads(self.packed.memory, self.blocks, not self.flow.steady, self.sheets[2])
+        section_loads(self.packed.memory, self.parts[3], not self.flow.steady)
 
     def _survey(self, ahead: float = 0.0) -> tuple[float, bool, Array]:
         """Return the rate that bounds the load interval, whether the surface is near, and inverse masses for the step.
@@ -187,7 +199,7 @@ class ExplicitRun:
         """
         arrays, water = self.arrays, self.network.water
         inverse = np.empty((6, arrays.nodes.shape[1]))
-        rate, near = kernel.survey(
+        rate, near = survey(
             self.packed.memory, arrays.nodes.shape[1], (arrays.nodes, arrays.bars), arrays.start, arrays.end,
             self.packed.place, self.water, float(self.sheets[3][0]), self.fastest_drive, water.density * water.gravity,
             self.reach, ahead, inverse,
@@ -206,18 +218,16 @@ class ExplicitRun:
         """Write the row of the start."""
         places, pulls, peaks, energy, nodes, bars = saved
         memory, sizes, runs = self.packed.memory, self.packed.sizes, self.packed.runs
-        kernel.spine_forces(memory, sizes[1])
-        kernel.rib_forces(memory, runs, self.arrays.curves)
-        memory[kernel.PEAK + self.packed.place] = memory[kernel.PULL + self.packed.place]
+        spine_forces(memory, sizes[1])
+        rib_forces(memory, runs, self.arrays.curves)
+        memory[PEAK + self.packed.place] = memory[PULL + self.packed.place]
         places[0] = self.place.T[nodes]
-        pulls[0] = peaks[0] = self.packed.bar_row(kernel.PULL)[bars]
+        pulls[0] = peaks[0] = self.packed.bar_row(PULL)[bars]
         level = -1e300 if self.network.bed is None else self.network.bed.level
-        energy[0, 0] = kernel.kinetic_energy(memory, sizes[0]) + kernel.block_energy(
-            self.blocks[0], self.blocks[2], self.blocks[3], memory, kernel.U, kernel.ROW
-        )
-        energy[0, 1] = kernel.elastic_energy(
+        energy[0, 0] = kinetic_energy(memory, sizes[0]) + section_energy(memory, self.parts[3])
+        energy[0, 1] = elastic_energy(
             memory, sizes, runs, self.arrays.curves, self.arrays.hinges, self.arrays.bending, level
-        ) + kernel.sheet_energy(*self.sheets[:2], memory, kernel.X, 1, kernel.ROW)
+        ) + elastic_energy_of_sheets(memory, self.parts[2])
         if self.rings.nodes.size:
             place = np.ascontiguousarray(self.place.T)
             energy[0, 1] += ring_forces(place, self.rings.system, np.zeros_like(place))
@@ -228,7 +238,8 @@ class ExplicitRun:
         return self._bound(self._survey()[2])
 
     def _bound(self, inverse: Array) -> tuple[float, int]:
-        return step_limit(self.arrays, self.place, inverse, self.rings.hinges, self.sheets[:2])
+        sheets = None if self.parts[2] is None else self.parts[2][:2]
+        return step_limit(self.arrays, self.place, inverse, self.rings.hinges, sheets)
 
     def choose(self, row_interval: float, wanted: float | None) -> tuple[float, int, int]:
         """Return step, steps per load interval and load intervals per row that fill ``row_interval``."""
@@ -301,15 +312,14 @@ class ExplicitRun:
         places, pulls, peaks, energy, nodes, bars = saved
         # what blows up for another reason must not be followed down to steps without end
         bear = DRAG_BROKEN if watchful and step >= LEAST_PART * self.stable else math.inf
-        good = kernel.march(
+        good = march(
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([self.network.water.density, self.network.water.gravity]),
             (not self.flow.steady, self.near_surface(rows * row_interval), self.water, rate, self.time),
             self.driving,
             (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True),
             (self.time, step, per_load, per_row, rows, first, before),
-            self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.nets,
-            self.sheets, self.blocks,
+            self.ledger, (places, pulls, peaks, energy, nodes, packed.place[bars]), self.parts,
             (*self.watch.system, DRAG_SHARE, bear),
         )  # fmt: skip
         taken, broken = abs(int(good)) * per_load * per_row, int(self.watch.broken[0])

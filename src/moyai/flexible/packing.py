@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import InputError
-from moyai.flexible import explicit_kernel as kernel
+from moyai.flexible import explicit_rows as rows_of
 from moyai.flexible.arrays import KernelArrays
 
 #: Loops run over whole vectors of this many numbers.
@@ -23,7 +23,7 @@ class Packed:
     Parameters
     ----------
     memory : ndarray
-        The array; its rows are named in :mod:`moyai.flexible.explicit_kernel`.
+        The array; its rows are named in :mod:`moyai.flexible.explicit_rows`.
     sizes : ndarray of int
         Nodes and spine bars that the loops run over (filled up to whole vectors).
     runs : ndarray of int, shape (r, 5)
@@ -42,7 +42,7 @@ class Packed:
 
     def node_rows(self, first: int, rows: int) -> Array:
         """Return a view of ``rows`` rows of nodes from row ``first``, shape (rows, n)."""
-        whole = self.memory[first : first + rows * kernel.ROW].reshape(rows, kernel.ROW)
+        whole = self.memory[first : first + rows * rows_of.ROW].reshape(rows, rows_of.ROW)
         return whole[:, : self.nodes]
 
     def bar_row(self, row: int) -> Array:
@@ -77,13 +77,13 @@ def pack(arrays: KernelArrays) -> Packed:
         When it has more nodes or bars than a row holds.
     """
     count, bars = arrays.nodes.shape[1], arrays.start.size
-    if max(count, bars) + 2 * _LANES > kernel.ROW:
+    if max(count, bars) + 2 * _LANES > rows_of.ROW:
         raise InputError(
             f"{max(count, bars)} nodes or bars",
             path="network",
-            allowed=f"up to {kernel.ROW - 2 * _LANES} in the explicit scheme",
+            allowed=f"up to {rows_of.ROW - 2 * _LANES} in the explicit scheme",
         )
-    memory = _untouched(kernel.TOTAL_ROWS * kernel.ROW)
+    memory = _untouched(rows_of.TOTAL_ROWS * rows_of.ROW)
     # a bar between neighbours goes on the spine, the first one for each pair; its direction may be reversed
     low = np.minimum(arrays.start, arrays.end)
     neighbours = (np.abs(arrays.end - arrays.start) == 1) & (arrays.curve < 0)
@@ -94,19 +94,19 @@ def pack(arrays: KernelArrays) -> Packed:
     order = rest[np.lexsort((arrays.start[rest], arrays.end[rest] - arrays.start[rest], arrays.curve[rest]))]
     place = np.empty(bars, dtype=np.int64)
     place[spine] = low[spine]
-    place[order] = kernel.RIB + np.arange(order.size)
+    place[order] = rows_of.RIB + np.arange(order.size)
     sizes = np.array([-(-count // _LANES) * _LANES, -(-(count - 1) // _LANES) * _LANES], dtype=np.int64)
     for row, name in enumerate(
         ("MASS", "WEIGHT", "VOLUME", "DRAG", "ADDED", "STIFF", "DAMP", "HEIGHT", "FORM", "FREE_X", "FREE_Y", "FREE_Z")
     ):
-        first = getattr(kernel, name)
+        first = getattr(rows_of, name)
         memory[first : first + count] = arrays.nodes[row]
-    memory[kernel.MASS + count : kernel.MASS + sizes[0]] = 1.0
+    memory[rows_of.MASS + count : rows_of.MASS + sizes[0]] = 1.0
     fill = np.arange(sizes[1] + 1 - count + 1)
-    memory[kernel.X + count : kernel.X + count + fill.size] = fill
-    memory[kernel.LENGTH : kernel.LENGTH + sizes[1]] = 1.0
-    memory[kernel.RADIUS : kernel.RADIUS + sizes[1]] = 1.0
+    memory[rows_of.X + count : rows_of.X + count + fill.size] = fill
+    memory[rows_of.LENGTH : rows_of.LENGTH + sizes[1]] = 1.0
+    memory[rows_of.RADIUS : rows_of.RADIUS + sizes[1]] = 1.0
     for row in range(arrays.bars.shape[0]):
-        memory[kernel.LENGTH + row * kernel.ROW + place] = arrays.bars[row]
-    memory[kernel.WET + place] = 1.0
+        memory[rows_of.LENGTH + row * rows_of.ROW + place] = arrays.bars[row]
+    memory[rows_of.WET + place] = 1.0
     return Packed(memory, sizes, _runs(arrays.start[order], arrays.end[order], arrays.curve[order]), place, count)

@@ -51,13 +51,21 @@ def _largest_eigenvalue(p: Any, q: Any) -> float:
 
 
 @njit(cache=True, error_model="numpy")
+def _add_sheets(sheets: Any, place: Any, stiff: Any, damp: Any) -> None:
+    # of a network without sheets the compiler leaves out their kernel
+    if sheets is None:
+        return
+    sheet_stiffness(sheets[0], sheets[1], place, stiff, damp)
+
+
+@njit(cache=True, error_model="numpy")
 def _limit(
     place: Any, inverse: Any, start: Any, end: Any, spring: Any, viscous: Any, hinges: Any, bending: Any,
     sheets: Any,
 ) -> tuple[float, int]:  # fmt: skip
     count = place.shape[1]
     stiff, damp, bend = np.zeros((count, 6)), np.zeros((count, 6)), np.zeros(count)
-    sheet_stiffness(sheets[0], sheets[1], place, stiff, damp)
+    _add_sheets(sheets, place, stiff, damp)
     for k in range(start.size):
         a, b = start[k], end[k]
         x, y, z = place[0, b] - place[0, a], place[1, b] - place[1, a], place[2, b] - place[2, a]
@@ -120,8 +128,6 @@ def step_limit(
     sheets : (ndarray, ndarray of int), optional
         Constants and nodes of triangles.
     """
-    if sheets is None:
-        sheets = np.zeros((0, 1)), np.zeros((0, 3), dtype=np.int64)
     hinges, bending = arrays.hinges, arrays.bending
     if rings is not None and len(rings[0]):
         hinges, bending = np.concatenate([hinges, rings[0]]), np.concatenate([bending, rings[1]])

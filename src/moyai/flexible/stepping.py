@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike
 from moyai.core.arrays import Array, IntArray
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.flexible import explicit_kernel as kernel
 from moyai.flexible.explicit import LOAD_STEPS, ExplicitRun
+from moyai.flexible.explicit_rows import LEDGER, MXX, ROW, TOTAL_ROWS
 from moyai.flexible.flow import Flow
 from moyai.flexible.motion import Motion
 from moyai.flexible.network import DRIVEN, Network
@@ -216,7 +216,7 @@ class SteppedNetwork:
         packed = self.run.packed
         ribs = int(packed.runs[:, 3].sum()) if len(packed.runs) else 0
         width = max(int(packed.sizes.max()), ribs) + 8
-        return packed.memory[: kernel.TOTAL_ROWS * kernel.ROW].reshape(kernel.TOTAL_ROWS, kernel.ROW)[:, :width]
+        return packed.memory[: TOTAL_ROWS * ROW].reshape(TOTAL_ROWS, ROW)[:, :width]
 
     def _snapshot(self) -> tuple[Any, ...]:
         run = self.run
@@ -261,7 +261,7 @@ class SteppedNetwork:
         system = (
             packed.memory, packed.sizes, packed.runs, arrays.curves, arrays.hinges, arrays.bending, arrays.attached,
             np.array([water.density, water.gravity]), run.driving[0],
-            (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True), run.nets, run.sheets, run.blocks,
+            (0.0, 0.0, False) if bed is None else (bed.level, bed.friction, True), run.parts,
             self.keep_nodes, packed.place[self.keep_bars], run.ledger, *run.watch.system,
         )  # fmt: skip
         rows, _, _, now, ledger, (gauges, _, falls), _ = self._snapshot()
@@ -322,14 +322,14 @@ class SteppedNetwork:
         self._tables[: self._now.shape[1], 1] = self._next.transpose(1, 0, 2).reshape(-1, 6)
         run.driving = (*run.driving[:3], run.time, interval)
         run.fastest_drive = float(np.sqrt(np.max(np.sum(self._next[1] ** 2, axis=-1), initial=0.0)))
-        run.ledger[kernel.LEDGER :] = 0.0
+        run.ledger[LEDGER:] = 0.0
         good = run.advance(1, 0, interval, self.wanted, self._row)
         if good < 1 or not np.isfinite(place).all():
             raise ConvergenceError(
                 f"the network blew up between t = {end - interval:g} and {end:g} s",
                 remedy="a smaller step or more viscosity of the bars",
             )
-        impulse = run.ledger[kernel.LEDGER :].reshape(-1, 2, 3)[self._rows].transpose(1, 0, 2)
+        impulse = run.ledger[LEDGER:].reshape(-1, 2, 3)[self._rows].transpose(1, 0, 2)
         before, after = self._now[:, self._rows], self._next[:, self._rows]
         pushed, moment = -self._carried_mass(np.stack([
             after[1] - before[1],
@@ -341,7 +341,7 @@ class SteppedNetwork:
 
     def _carried_mass(self, values: Array) -> Array:
         """Return the mass blocks lumped at the carried points times vectors (..., points, 3)."""
-        m = self.run.packed.node_rows(kernel.MXX, 6)[:, self._nodes]
+        m = self.run.packed.node_rows(MXX, 6)[:, self._nodes]
         x, y, z = values[..., 0], values[..., 1], values[..., 2]
         product = (m[0] * x + m[1] * y + m[2] * z, m[1] * x + m[3] * y + m[4] * z, m[2] * x + m[4] * y + m[5] * z)
         return np.stack(product, axis=-1)

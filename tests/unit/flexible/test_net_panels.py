@@ -11,7 +11,7 @@ from moyai.core.errors import InputError
 from moyai.flexible.build import NetworkBuilder
 from moyai.flexible.dynamic_relaxation import relax_network
 from moyai.flexible.explicit import ExplicitRun
-from moyai.flexible.explicit_kernel import screens
+from moyai.flexible.explicit_parts import screens
 from moyai.flexible.flow import Flow
 from moyai.flexible.network import BarType, Network
 from moyai.flexible.panel_kernel import panel_tangent
@@ -134,8 +134,8 @@ def test_the_explicit_scheme_sees_the_same_forces() -> None:
     speed = 0.4 * rng.normal(size=(25, 3))
     flow = Flow(velocity=(0.7, -0.2, 0.1))
     run = ExplicitRun(network, {}, flow, State(0.0, place, speed), safety=None, load_steps=1)
-    panels, screen = run.nets[0], run.nets[1]
-    screens(run.packed.memory, int(run.packed.sizes[0]), panels, 0.5 * WATER.density, screen, 0.0, 1e-3)
+    screens(run.packed.memory, int(run.packed.sizes[0]), run.parts[0], 0.5 * WATER.density, 0.0, 1e-3)
+    screen = run.parts[0][1]
     v = run.speed
     c = screen[[0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(3, 3, -1)
     mine = screen[6:9] - np.einsum("ijn,jn->in", c, v)

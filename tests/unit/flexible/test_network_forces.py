@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from networks_for_tests import NO_GRAVITY, random_network, rope, still
 
-from moyai.flexible import explicit_kernel, force_kernel, front_kernel
+from moyai.flexible import explicit_forces, explicit_motion, explicit_rows, force_kernel, front_kernel
 from moyai.flexible.arrays import kernel_arrays
 from moyai.flexible.explicit import ExplicitRun
 from moyai.flexible.flow import Flow
@@ -177,16 +177,16 @@ def test_both_families_of_schemes_see_the_same_forces(seed):
     two = ImplicitRun(network, {}, flow, state, method="tr_bdf2", tolerance=1e-3)
     memory, sizes = one.packed.memory, one.packed.sizes
     for axis in range(3):
-        source = (explicit_kernel.QX + axis * explicit_kernel.ROW, explicit_kernel.TX + axis * explicit_kernel.ROW)
+        source = (explicit_rows.QX + axis * explicit_rows.ROW, explicit_rows.TX + axis * explicit_rows.ROW)
         memory[source[1] : source[1] + sizes[0]] = memory[source[0] : source[0] + sizes[0]]
-    explicit_kernel.spine_forces(memory, sizes[1])
-    explicit_kernel.rib_forces(memory, one.packed.runs, one.arrays.curves)
-    explicit_kernel.bending_forces(memory, one.arrays.hinges, one.arrays.bending)
+    explicit_forces.spine_forces(memory, sizes[1])
+    explicit_forces.rib_forces(memory, one.packed.runs, one.arrays.curves)
+    explicit_forces.bending_forces(memory, one.arrays.hinges, one.arrays.bending)
     before = one.speed.copy()
-    explicit_kernel.kick_and_drift(memory, sizes[0], 1.0, 0.0)
+    explicit_motion.kick_and_drift(memory, sizes[0], 1.0, 0.0)
     found = (one.speed - before).T
     assert found == pytest.approx(two.acceleration, rel=1e-9, abs=1e-9 * np.max(np.abs(two.acceleration)))
-    assert one.packed.bar_row(explicit_kernel.PULL) == pytest.approx(two.tension, rel=1e-9, abs=1e-6)
+    assert one.packed.bar_row(explicit_rows.PULL) == pytest.approx(two.tension, rel=1e-9, abs=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(4))

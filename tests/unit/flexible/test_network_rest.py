@@ -24,20 +24,20 @@ WATER = Water(50.0, 1025.0, 9.81)
 
 def leftover(network, flow, rest):
     """Return the largest force on what is free by the kernels of the explicit scheme [N]."""
-    from moyai.flexible import explicit_kernel
+    from moyai.flexible import explicit_forces, explicit_rows
     from moyai.flexible.explicit import ExplicitRun
 
     motions = {name: Motion(0.0, 10.0, np.zeros((2, 3)), np.zeros((2, 3))) for name in network.motion_names}
     run = ExplicitRun(network, motions, flow or Flow(), rest.state, safety=0.9, load_steps=1)
     memory, sizes = run.packed.memory, run.packed.sizes
     for axis in range(3):
-        source = (explicit_kernel.QX + axis * explicit_kernel.ROW, explicit_kernel.TX + axis * explicit_kernel.ROW)
+        source = (explicit_rows.QX + axis * explicit_rows.ROW, explicit_rows.TX + axis * explicit_rows.ROW)
         memory[source[1] : source[1] + sizes[0]] = memory[source[0] : source[0] + sizes[0]]
-    explicit_kernel.spine_forces(memory, sizes[1])
-    explicit_kernel.rib_forces(memory, run.packed.runs, run.arrays.curves)
-    explicit_kernel.bending_forces(memory, run.arrays.hinges, run.arrays.bending)
-    force = run.packed.node_rows(explicit_kernel.TX, 3).T.copy()
-    own = run.packed.node_rows(explicit_kernel.FX, 3).T
+    explicit_forces.spine_forces(memory, sizes[1])
+    explicit_forces.rib_forces(memory, run.packed.runs, run.arrays.curves)
+    explicit_forces.bending_forces(memory, run.arrays.hinges, run.arrays.bending)
+    force = run.packed.node_rows(explicit_rows.TX, 3).T.copy()
+    own = run.packed.node_rows(explicit_rows.FX, 3).T
     force += own
     force[1:] -= own[:-1]
     if network.bed is not None:

@@ -141,7 +141,7 @@ def test_the_compiled_survey_is_what_it_says(seed):
         flat = radius / (radius + 0.5 * np.abs(ends[0] - ends[1]))
         bob = 3.0 * np.sqrt(arrays.bar("buoyancy") / radius * arrays.bar("per_mass") * flat)
         sizes.append(np.where(np.maximum(*ends) > -1.0, bob, 0.0))
-    from moyai.flexible import explicit_kernel as kernel
+    from moyai.flexible import explicit_rows as kernel
 
     sizes.append(run.packed.bar_row(kernel.RATE))
     assert rate == pytest.approx(max(values.max() for values in sizes), rel=1e-12)

@@ -1,0 +1,145 @@
+"""Velocities and places of the explicit scheme: kick and drift, a bed in between, driven nodes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from moyai.core.compiled import njit
+from moyai.flexible.explicit_rows import (
+    DAMP,
+    FAST,
+    FX,
+    FY,
+    FZ,
+    IXX,
+    IXY,
+    IXZ,
+    IYY,
+    IYZ,
+    IZZ,
+    ROW,
+    STIFF,
+    TINY,
+    TX,
+    TY,
+    TZ,
+    U,
+    V,
+    W,
+    X,
+    Y,
+    Z,
+)
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def kick_and_drift(A: Any, count: int, push: float, move: float) -> None:
+    """Advance velocities by ``push`` times inverse mass times force, positions by ``move`` times velocity.
+
+    The element before the first of a force row belongs to the unused end of another row and is zero.
+    """
+    for i in range(count):
+        fx = push * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = push * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = push * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + A[IZZ + i] * fz
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
+        A[Z + i] += move * w
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def kick_contact_and_drift(A: Any, count: int, level: float, time: float, move: float) -> None:
+    """Do what :func:`kick_and_drift` does, with the impulses of a smooth bed in between.
+
+    Implicit spring and dashpot [eq:flexible-bed], without branches, for whole vectors.
+    """
+    for i in range(count):
+        share = A[IZZ + i]
+        fx = time * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = time * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = time * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + share * fz
+        depth = level - A[Z + i]
+        # depth - time w replaces depth: a stiff bed then needs no smaller step
+        grip = A[STIFF + i] * time + A[DAMP + i]
+        push = time * (A[STIFF + i] * depth - grip * w) / (1.0 + time * grip * share)
+        # contact is told by where the node would end: a hard bed stops it at its face instead of throwing it back
+        push = push if depth > time * w else 0.0
+        push = push if push > 0.0 else 0.0
+        u += A[IXZ + i] * push
+        v += A[IYZ + i] * push
+        w += share * push
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
+        A[Z + i] += move * w
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def kick_with_friction_and_drift(A: Any, count: int, level: float, friction: float, time: float, move: float) -> None:
+    """Do the same on a rough bed: Coulomb friction that sticks.
+
+    The body is repeated from :func:`kick_contact_and_drift`: a shared function in the loop would hinder the compiler,
+    and the
+    roots and divisions of friction cost as much as all the rest.
+    """
+    for i in range(count):
+        share = A[IZZ + i]
+        fx = time * (A[TX + i] + A[FX + i] - A[FX + i - 1])
+        fy = time * (A[TY + i] + A[FY + i] - A[FY + i - 1])
+        fz = time * (A[TZ + i] + A[FZ + i] - A[FZ + i - 1])
+        u = A[U + i] + A[IXX + i] * fx + A[IXY + i] * fy + A[IXZ + i] * fz
+        v = A[V + i] + A[IXY + i] * fx + A[IYY + i] * fy + A[IYZ + i] * fz
+        w = A[W + i] + A[IXZ + i] * fx + A[IYZ + i] * fy + share * fz
+        depth = level - A[Z + i]
+        # depth - time w replaces depth: a stiff bed then needs no smaller step
+        grip = A[STIFF + i] * time + A[DAMP + i]
+        push = time * (A[STIFF + i] * depth - grip * w) / (1.0 + time * grip * share)
+        # contact is told by where the node would end: a hard bed stops it at its face instead of throwing it back
+        push = push if depth > time * w else 0.0
+        push = push if push > 0.0 else 0.0
+        u += A[IXZ + i] * push
+        v += A[IYZ + i] * push
+        w += share * push
+        light = A[IXX + i] if A[IXX + i] > A[IYY + i] else A[IYY + i]
+        # the impulse that stops the node, or the one that friction can give
+        speed, bound = math.sqrt(u * u + v * v) + TINY, friction * push
+        stop = speed / (light + TINY)
+        hold = (stop if stop < bound else bound) / speed
+        px, py = hold * u, hold * v
+        u, v = u - A[IXX + i] * px - A[IXY + i] * py, v - A[IXY + i] * px - A[IYY + i] * py
+        A[U + i], A[V + i], A[W + i] = u, v, w
+        A[X + i] += move * u
+        A[Y + i] += move * v
+        A[Z + i] += move * w
+
+
+@njit(cache=True, error_model="numpy", fastmath=FAST)
+def drive(A: Any, driven: Any, rest: Any, tables: Any, start: float, step: float, now: float, time: float) -> None:
+    """Put driven nodes at their place at ``now``; their velocity is the mean over the last ``time``."""
+    last = tables.shape[1] - 1
+    place = (now - start) / step
+    row = int(place)
+    row = 0 if row < 0 else (last - 1 if row > last - 1 else row)
+    s = place - row
+    # cubic through displacement and velocity at both ends of the interval
+    h1 = s * s * (3.0 - 2.0 * s)
+    h2, h3 = s * (1.0 - s) * (1.0 - s) * step, s * s * (s - 1.0) * step
+    per = 1.0 / time if time > 0.0 else 0.0
+    for d in range(driven.shape[0]):
+        node, table = driven[d, 0], driven[d, 1]
+        for axis in range(3):
+            p0, p1 = tables[table, row, axis], tables[table, row + 1, axis]
+            v0, v1 = tables[table, row, 3 + axis], tables[table, row + 1, 3 + axis]
+            target = rest[d, axis] + p0 + h1 * (p1 - p0) + h2 * v0 + h3 * v1
+            if time > 0.0:
+                # The step has carried the node on with its last velocity already: what is missing corrects it
+                A[U + axis * ROW + node] += (target - A[X + axis * ROW + node]) * per
+            A[X + axis * ROW + node] = target
