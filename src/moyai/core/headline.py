@@ -81,8 +81,8 @@ class Headline:
     analysis : str
         ``dynamic``, ``quasi_static`` or ``static`` where criteria depend on the analysis that gave the number.
     condition : bool
-        Whether it is what the other numbers were found in (a current, the height of a sea) and not an answer: no limit
-        is looked for.
+        Whether it is what the other numbers were found in (a current, the height of a sea, the start of a run) and not
+        an answer: no limit is looked for.
 
     Notes
     -----
