@@ -44,6 +44,31 @@ class Pairing:
     column: str
 
 
+def pairing_of(text: str, result: Result) -> Pairing:
+    """Return the pairing that ``variable=column`` names; where a name holds the sign too, the variable decides.
+
+    Raises
+    ------
+    InputError
+        Without the sign, or where no part before one is a variable of the result.
+    """
+    variables = _variables(result)
+    places = [place for place, letter in enumerate(text) if letter == "="]
+    pairs = [(text[:place].strip(), text[place + 1 :].strip()) for place in places]
+    pairs = [pair for pair in pairs if all(pair)]
+    if not pairs:
+        raise InputError(f"'{text}' has no '='", path="--pair", allowed="variable=column")
+    faults = []
+    for variable, column in pairs:
+        try:
+            _find(variable, variables)
+        except InputError as error:
+            faults.append(error)
+        else:
+            return Pairing(variable, column)
+    raise faults[0]
+
+
 def compare_result(
     result: Result,
     path: Path,
