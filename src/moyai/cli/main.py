@@ -38,6 +38,7 @@ from moyai.cli.query import query
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
+from moyai.core.wording import counted
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
@@ -162,7 +163,7 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
         print_derived(rich_console(), case.title, numbers)
         print_criteria(rich_console(), criteria)
         count = len(case.warnings)
-        say(f"{file}: no faults" + (f", {count} warning{'s' if count > 1 else ''}" if count else ""))
+        say(f"{file}: no faults" + (f", {counted(count, 'warning')}" if count else ""))
 
 
 @app.command()
@@ -239,7 +240,7 @@ def run(
         if not as_json and not quiet:
             count = len(case.warnings)
             if count:
-                tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
+                tell(f"{counted(count, 'warning')} on the case, see below")
         with progress_bars(quiet) as progress, when_compiling(lambda: None if quiet else tell(COMPILING)):
             result = run_case(case, progress, keep=folder / "coefficients")
         files, document = [result.write(folder / "results.nc")], None

@@ -266,3 +266,11 @@ def test_a_study_that_is_cut_off_can_be_asked(tmp_path, monkeypatch):
     execute.run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, watch=look)
     # the case that just ended comes with the next gathering
     assert left == [(done, done - 1, 1) for done in range(2, 7)]
+
+
+def test_one_case_is_one_case(tmp_path):
+    study = load_study(study_cases.write_study(tmp_path, 1, 1))
+    result = run_study(study, tmp_path / "out", study_cases.fast_case, workers=1)
+    assert result.message.startswith("1 of 1 case run")
+    result.write(tmp_path / "out" / "study.nc")
+    assert ": 1 case (1 converged)" in CliRunner().invoke(app, ["query", str(tmp_path / "out")]).output

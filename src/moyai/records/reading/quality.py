@@ -18,6 +18,7 @@ from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
+from moyai.core.wording import counted
 from moyai.records.reading import record as bits
 from moyai.records.reading.record import Record, instant_text
 
@@ -499,7 +500,7 @@ def quality_notices(
         notices.append(
             Notice(
                 "record-gaps",
-                f"{len(gaps)} gaps, the longest {duration:.4g} s from {instant_text(start, dated)}; "
+                f"{counted(len(gaps), 'gap')}, the longest {duration:.4g} s from {instant_text(start, dated)}; "
                 "spectra fill only short ones, and say so",
                 float(len(gaps)),
             )
@@ -509,7 +510,7 @@ def quality_notices(
             notices.append(
                 Notice(
                     "record-quality",
-                    f"{channel}: {count} sample{'' if count == 1 else 's'} ({_percent(count, samples)}) flagged as "
+                    f"{channel}: {counted(count, 'sample')} ({_percent(count, samples)}) flagged as "
                     f"{kind}; values were left as they are",
                     float(count),
                 )
