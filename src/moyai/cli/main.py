@@ -93,7 +93,7 @@ def _options(
 @app.command()
 def new(
     kind: Annotated[
-        str | None, typer.Argument(metavar="[KIND]", help="Kind of file; left out, all are listed.", show_default=False)
+        str | None, typer.Argument(metavar="KIND", help="Kind of file; left out, all are listed.", show_default=False)
     ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
@@ -170,9 +170,7 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
 def schema(
     kind: Annotated[
         str | None,
-        typer.Argument(
-            metavar="[KIND]", help="Kind of file; left out, the cases of all structures.", show_default=False
-        ),
+        typer.Argument(metavar="KIND", help="Kind of file; left out, the cases of all structures.", show_default=False),
     ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
