@@ -55,6 +55,17 @@ class QuantityOf:
     words: tuple[tuple[str, float | None], ...] = ()
 
     @property
+    def example(self) -> str:
+        """An example of the kind; empty for a plain number out of the range."""
+        text = str(self.kind.example)
+        try:
+            value = float(text)
+        except ValueError:
+            return text
+        inside = self.least <= value <= self.most and self.above < value < self.below
+        return text if inside else ""
+
+    @property
     def allowed(self) -> str:
         """The range in words, empty when there is none."""
         unit = f" {self.kind.unit}" if self.kind.unit else ""
