@@ -263,7 +263,7 @@ class Translator:
         if field is not None:
             described = (field.description or "").rstrip(".")
             example = next(
-                (f", for instance '{m.kind.example}'" for m in field.metadata if isinstance(m, QuantityOf)), ""
+                (f", for instance '{m.example}'" for m in field.metadata if isinstance(m, QuantityOf) and m.example), ""
             )
             remedy = f"give it: {described}{example}" if described else ""
         return self.document.fault(path, f"the key '{name}' is missing", remedy=remedy, of_key=True)

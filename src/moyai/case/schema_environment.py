@@ -200,7 +200,7 @@ class Tma(_Irregular):
 
 
 Column = Annotated[
-    Annotated[int, Field(strict=True, ge=0, le=1000), Tag("<number>")] | Annotated[str, Tag("<name>")],
+    Annotated[int, Field(strict=True, ge=1, le=1000), Tag("<number>")] | Annotated[str, Tag("<name>")],
     Discriminator(lambda value: "<number>" if isinstance(value, int) else "<name>"),
 ]
 
@@ -219,8 +219,8 @@ class SpectrumFile(_Irregular):
     place: Annotated[int, Field(strict=True, ge=0, le=1_000_000)] = Field(
         default=0, description="Number of the place in such a file, from 0."
     )
-    frequency_column: Column = Field(default=0, description="Column of the frequency: number from 0, or its name.")
-    density_column: Column = Field(default=1, description="Column of the density: number from 0, or its name.")
+    frequency_column: Column = Field(default=1, description="Column of the frequency: number from 1, or its name.")
+    density_column: Column = Field(default=2, description="Column of the density: number from 1, or its name.")
 
 
 SeaState = Annotated[

@@ -55,6 +55,17 @@ class QuantityOf:
     words: tuple[tuple[str, float | None], ...] = ()
 
     @property
+    def example(self) -> str:
+        """An example of the kind; empty for a plain number out of the range."""
+        text = str(self.kind.example)
+        try:
+            value = float(text)
+        except ValueError:
+            return text
+        inside = self.least <= value <= self.most and self.above < value < self.below
+        return text if inside else ""
+
+    @property
     def allowed(self) -> str:
         """The range in words, empty when there is none."""
         unit = f" {self.kind.unit}" if self.kind.unit else ""
@@ -304,7 +315,7 @@ class Range(Block):
     @model_validator(mode="after")
     def _from_low_to_high(self) -> Range:
         first, last = getattr(self, "first", None), getattr(self, "last", None)
-        if first is not None and last is not None and first > last:
+        if isinstance(first, int | float) and isinstance(last, int | float) and first > last:
             raise refuse(
                 f"the range runs backwards: 'from' {first:g} is not below 'to' {last:g}",
                 allowed="'from' below 'to'",
@@ -314,9 +325,12 @@ class Range(Block):
 
     @staticmethod
     def spread(first: float, last: float, count: int) -> tuple[float, ...]:
-        """Return ``count`` values from ``first`` to ``last``, both included, exactly at the ends."""
+        """Return ``count`` values from ``first`` to ``last``, both included, exactly at the ends.
+
+        Those between are rounded to twelve figures: 0.64 and not 0.6400000000000001 stands in tables and on axes.
+        """
         step = (last - first) / (count - 1)
-        return (*(first + step * index for index in range(count - 1)), last)
+        return (first, *(float(f"{first + step * index:.12g}") for index in range(1, count - 1)), last)
 
 
 Auto = Literal["auto"]

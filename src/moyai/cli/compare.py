@@ -56,14 +56,15 @@ def compare(
             raise typer.Exit(OK)
         from moyai.cli.runner import prepare_output
         from moyai.core.results import read_result
-        from moyai.records.comparison.run import Pairing, compare_result
+        from moyai.records.comparison.run import compare_result, pairing_of
         from moyai.report.writer import write_report
 
         started = time.perf_counter()
-        pairs = [Pairing(*_split(entry, "pair")) for entry in pair or ()]
+        held = read_result(result)
+        pairs = [pairing_of(entry, held) for entry in pair or ()]
         state, edges = _state(by)
         found = compare_result(
-            read_result(result),
+            held,
             record,
             pairs,
             coordinate=along,
@@ -149,9 +150,10 @@ def _split(entry: str, option: str) -> tuple[str, str]:
 
 
 def _state(text: str) -> tuple[str, tuple[float, ...]]:
-    name, sign, numbers = text.partition("=")
+    # Names may hold the sign too: the edges follow the last one
+    name, sign, numbers = text.rpartition("=")
     if not sign:
-        return name.strip(), ()
+        return numbers.strip(), ()
     try:
         return name.strip(), tuple(float(part) for part in numbers.split(","))
     except ValueError:

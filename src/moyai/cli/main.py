@@ -42,6 +42,7 @@ from moyai.cli.query import query
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
+from moyai.core.wording import counted
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
@@ -96,7 +97,7 @@ def _options(
 @app.command()
 def new(
     kind: Annotated[
-        str | None, typer.Argument(metavar="[KIND]", help="Kind of file; left out, all are listed.", show_default=False)
+        str | None, typer.Argument(metavar="KIND", help="Kind of file; left out, all are listed.", show_default=False)
     ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
@@ -166,16 +167,14 @@ def check(file: CaseFile, as_json: AsJson = False) -> None:
         print_derived(rich_console(), case.title, numbers)
         print_criteria(rich_console(), criteria)
         count = len(case.warnings)
-        say(f"{file}: no faults" + (f", {count} warning{'s' if count > 1 else ''}" if count else ""))
+        say(f"{file}: no faults" + (f", {counted(count, 'warning')}" if count else ""))
 
 
 @app.command()
 def schema(
     kind: Annotated[
         str | None,
-        typer.Argument(
-            metavar="[KIND]", help="Kind of file; left out, the cases of all structures.", show_default=False
-        ),
+        typer.Argument(metavar="KIND", help="Kind of file; left out, the cases of all structures.", show_default=False),
     ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write; standard output when absent.")
@@ -243,7 +242,7 @@ def run(
             if not as_json and not quiet:
                 count = len(case.warnings)
                 if count:
-                    tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
+                    tell(f"{counted(count, 'warning')} on the case, see below")
             with progress_bars(quiet) as progress:
                 result = run_case(case, progress, keep=folder / "coefficients")
         files, document = [result.write(folder / "results.nc")], None

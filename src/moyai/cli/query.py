@@ -13,6 +13,7 @@ import typer
 from moyai.cli.console import OK, guard, print_json, rich_console, say
 from moyai.core.errors import InputError
 from moyai.core.files import write_whole
+from moyai.core.wording import counted
 
 if TYPE_CHECKING:
     from moyai.study.query import StudyTable
@@ -65,7 +66,10 @@ def query(
             _print(
                 _short(header), rows, None if output is not None or top is not None or pivot is not None else _MOST_ROWS
             )
-            say(f"{len(index)} of {table.count} cases" + (f"; written to {output}" if output is not None else ""))
+            say(
+                f"{len(index)} of {counted(table.count, 'case')}"
+                + (f"; written to {output}" if output is not None else "")
+            )
         raise typer.Exit(OK)
 
 
@@ -141,7 +145,8 @@ def _overview(table: StudyTable, as_json: bool) -> None:
             }
         )
         return
-    say(f"{table.title}: {table.count} cases ({', '.join(f'{number} {word}' for word, number in counts.items())})")
+    stand = ", ".join(f"{number} {word}" for word, number in counts.items())
+    say(f"{table.title}: {counted(table.count, 'case')} ({stand})")
     for axis in table.axes:
         labels = [str(label) for label in axis["labels"]]
         text = ", ".join(labels) if len(labels) <= 8 else f"{', '.join(labels[:3])}, ... {labels[-1]}"

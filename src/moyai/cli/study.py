@@ -11,6 +11,7 @@ import typer
 
 from moyai.cli.console import BAD_INPUT, FAILED, OK, guard, print_json, progress_bars, say, tell
 from moyai.core.errors import InputError
+from moyai.core.wording import counted
 
 if TYPE_CHECKING:
     from moyai.core.progress import Progress
@@ -64,7 +65,7 @@ def study(
         count = workers if workers is not None else max(1, min(os.cpu_count() or 1, len(plan.cases)))
         if not quiet and not as_json:
             points = " x ".join(f"{len(axis.points)} {axis.name}" for axis in plan.axes)
-            tell(f"{plan.title}: {_count(len(plan.cases), 'case')}" + (f" ({points})" if points else ""))
+            tell(f"{plan.title}: {counted(len(plan.cases), 'case')}" + (f" ({points})" if points else ""))
         for word in _refused(plan) if not quiet and not as_json else ():
             tell(word)
         teller = _Teller(plan, quiet or as_json, each)
@@ -203,21 +204,21 @@ def _refused(plan: Study) -> list[str]:
     """Return what is to be said of cases that the check refused."""
     if not plan.refused:
         return []
-    return [f"{_count(len(plan.refused), 'case')} refused by the check: rows with the reason, not run"]
+    return [f"{counted(len(plan.refused), 'case')} refused by the check: rows with the reason, not run"]
 
 
 def _print_plan(file: Path, record: dict[str, Any]) -> None:
     say(f"{file}: no faults")
     for axis in record["axes"]:
-        say(f"  {axis['name']}: {_count(axis['points'], 'point')}")
+        say(f"  {axis['name']}: {counted(axis['points'], 'point')}")
     runs = f", a search of up to {record['runs_per_case']} runs" if record["runs_per_case"] > 1 else ""
     each = f"{record['seconds_per_case']:.2f} s each as tried now ({record['trial_status']})"
-    say(f"  {_count(record['cases'], 'case')}, {each}{runs}")
+    say(f"  {counted(record['cases'], 'case')}, {each}{runs}")
     if record["refused"]:
-        say(f"  {_count(record['refused'], 'case')} refused by the check: rows with the reason, not run")
+        say(f"  {counted(record['refused'], 'case')} refused by the check: rows with the reason, not run")
     if record["trial_message"]:
         say(f"  the trial said: {record['trial_message']}")
-    say(f"  about {_duration(record['expected_seconds'])} on {_count(record['workers'], 'worker')}")
+    say(f"  about {_duration(record['expected_seconds'])} on {counted(record['workers'], 'worker')}")
     say(f"  about {record['expected_megabytes']:.2g} MB of results")
 
 
@@ -241,12 +242,8 @@ def answers_of_search(result: Result, most: int = 12) -> list[str]:
         parts.append(f"governed by {' and '.join(one.governing)}" if one.governing else "no limit governs")
         lines.append((f"{where}: " if where else "") + "; ".join(parts))
     if len(found) > most:
-        lines.append(f"and {_count(len(found) - most, 'case')} more in the report and study.csv")
+        lines.append(f"and {counted(len(found) - most, 'case')} more in the report and study.csv")
     return lines
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"
 
 
 def _duration(seconds: float) -> str:

@@ -80,6 +80,9 @@ class Headline:
         Whether it stands on the first page; one that does not and has a sea is judged only by a criterion at that sea.
     analysis : str
         ``dynamic``, ``quasi_static`` or ``static`` where criteria depend on the analysis that gave the number.
+    condition : bool
+        Whether it is what the other numbers were found in (a current, the height of a sea, the start of a run) and not
+        an answer: no limit is looked for.
 
     Notes
     -----
@@ -101,6 +104,7 @@ class Headline:
     mean: float | None = None
     shown: bool = True
     analysis: str = ""
+    condition: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", self.label[:1].upper() + self.label[1:])

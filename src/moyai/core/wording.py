@@ -26,3 +26,15 @@ def spoken(value: float, unit: str, digits: int = 4, *, like: float | None = Non
     size = abs(float(f"{value if like is None else like:.{digits}g}"))
     factor, prefix = next((entry for entry in _PREFIXES if size >= entry[0]), (1.0, ""))
     return f"{value / factor:.{digits}g} {prefix}{unit}"
+
+
+def counted(number: int, word: str) -> str:
+    """Return how many there are of something: ``1 case``, ``2 cases``.
+
+    Parameters
+    ----------
+    number : int
+    word : str
+        For one of them; several take an s.
+    """
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"

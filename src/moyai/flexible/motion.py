@@ -21,6 +21,22 @@ def _three(values: ArrayLike, path: str) -> Array:
     return np.asarray(np.broadcast_to(given, (3,)), dtype=np.float64)
 
 
+#: Speed at the begin of a run over the largest, and distance from the place of rest over the range, that are a jerk.
+JERK = 0.05
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """How a motion begins: distance from the place of rest [m], speed [m/s], mean period where that is a jerk [s].
+
+    The period is NaN where the motion begins smoothly, or does not swing.
+    """
+
+    away: float
+    speed: float
+    period: float
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Displacement of a driven point over time: a cubic through displacement and velocity at each grid time.
@@ -184,6 +200,30 @@ class Motion:
                 float(given[0]), wanted, values[0] + (grid - given[0])[:, None] * slope, np.tile(slope, (count + 1, 1))
             )
         return cls(float(given[0]), wanted, spline(grid), spline(grid, 1))
+
+    def beginning(self, duration: float) -> Beginning:
+        """Return how a run over ``duration`` seconds from 0 s begins, with the mean period of the widest component."""
+        time = np.linspace(0.0, duration, max(round(duration / self.step), 2) + 1)
+        place, velocity = self.at(time)
+        speed = np.linalg.norm(velocity, axis=1)
+        wide = np.ptp(place, axis=0)
+        swing = place[:, int(np.argmax(wide))]
+        away, begin = float(np.linalg.norm(place[0])), float(speed[0])
+        about = swing - 0.5 * (swing.max() + swing.min())
+        (before,) = np.nonzero(np.diff(about > 0.0))
+        crossings = time[before] - about[before] * time[1] / (about[before + 1] - about[before])
+        smooth = begin <= JERK * speed.max() and away <= JERK * wide.max()
+        swings = crossings.size > 1 and not smooth
+        return Beginning(away, begin, 2.0 * float(np.mean(np.diff(crossings))) if swings else math.nan)
+
+    def grown(self, ramp: float) -> Motion:
+        """Return the motion that grows from nothing at 0 s to all of it at ``ramp``, by half a cosine."""
+        time = self.start + self.step * np.arange(len(self.displacement))
+        angle = math.pi * np.clip(time / ramp, 0.0, 1.0)[:, None]
+        share, rate = 0.5 * (1.0 - np.cos(angle)), 0.5 * math.pi / ramp * np.sin(angle)
+        return Motion(
+            self.start, self.step, share * self.displacement, rate * self.displacement + share * self.velocity
+        )
 
     def at(self, time: ArrayLike) -> tuple[Array, Array]:
         """Return displacement and velocity at any times of the range, shape (..., 3).

@@ -131,7 +131,8 @@ def without_limit(result: Result) -> str:
     judged = {item.criterion.headline for item in result.verdict.judgements}
     # a tension is judged by its utilisation
     judged |= {name.replace("utilisation", "tension") for name in judged}
-    left = [item for item in result.headlines if item.shown and item.name not in judged and math.isfinite(item.value)]
+    answers = [item for item in result.headlines if item.shown and not item.condition]
+    left = [item for item in answers if item.name not in judged and math.isfinite(item.value)]
     names = dict.fromkeys(_within_a_sentence(item.label) for item in left)
     return f"No limit is given for: {', '.join(names)}." if names else ""
 

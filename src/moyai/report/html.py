@@ -37,6 +37,8 @@ from moyai.report.notices import grouped
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
+_ONE_LINE = 24  # letters of a cell that is not broken
+_HYPHENATED = re.compile(r"(?<![\w-])(?=[\w.-]{3,40}(?![\w.-]))\w[\w.]*(?:-[\w.]+)+")
 """Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
 _SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
@@ -270,6 +272,8 @@ class _Page:
                 kind = ' class="text"' if is_text_column(column) else ""
                 link = column.links[row] if column.links else ""
                 shown = words(shown_texts[row])
+                if kind:
+                    kind, shown = _unbroken(shown_texts[row], shown)
                 cells.append(f"<td{kind}>" + (f'<a href="{escape(link)}">{shown}</a>' if link else shown) + "</td>")
             rows.append(f'<tr class="{" ".join(kinds)}">' + "".join(cells) + "</tr>")
         body = f"""<div class="scroll" tabindex="0" role="region" aria-label="{escape(table.title)}"><table>
@@ -345,6 +349,13 @@ def least_width(svg: str) -> float:
     box = re.search(r'viewBox="[-\d.]+ [-\d.]+ ([\d.]+) ', svg)
     sizes = [float(size) for size in re.findall(r'font-size="([\d.]+)"', svg)]
     return 0.0 if box is None or not sizes else math.ceil(float(box.group(1)) * LEAST_LETTER / min(sizes))
+
+
+def _unbroken(text: str, shown: str) -> tuple[str, str]:
+    """Return class and content of a cell of words: short ones stay on one line, names and dates keep their hyphens."""
+    if len(text) <= _ONE_LINE:
+        return ' class="text whole"', shown
+    return ' class="text"', _HYPHENATED.sub(r'<span class="whole">\g<0></span>', shown)
 
 
 def _caption(text: str) -> str:

@@ -320,7 +320,7 @@ def from_table(frequency: ArrayLike, density: ArrayLike, name: str = "table") ->
     return Spectrum(hertz * turn, values / turn, name, {"rows": hertz.size})
 
 
-def from_file(path: Any, *, frequency_column: int | str = 0, density_column: int | str = 1) -> Spectrum:
+def from_file(path: Any, *, frequency_column: int | str = 1, density_column: int | str = 2) -> Spectrum:
     """Return a measured spectrum from a text file.
 
     Parameters
@@ -329,7 +329,7 @@ def from_file(path: Any, *, frequency_column: int | str = 0, density_column: int
         CSV, semicolon, tab or blank separated; lines starting with ``#`` or ``%`` are skipped, one header line is
         allowed.
     frequency_column, density_column : int or str
-        Column of the frequency [Hz] and of the density [m2/Hz]: number from 0, or name in the header.
+        Column of the frequency [Hz] and of the density [m2/Hz]: number from 1, or name in the header.
 
     Raises
     ------

@@ -101,9 +101,9 @@ def _column(wanted: int | str, header: list[str] | None, width: int, file: Path)
             shown = ", ".join(names) if names else "none: the file has no header"
             raise InputError(f"no column {wanted!r}", path=str(file), allowed=f"columns {shown}")
         return names.index(wanted)
-    if not 0 <= wanted < width:
-        raise InputError(f"no column {wanted}", path=str(file), allowed=f"0 to {width - 1}")
-    return wanted
+    if not 1 <= wanted <= width:
+        raise InputError(f"no column {wanted}", path=str(file), allowed=f"1 to {width}")
+    return wanted - 1
 
 
 def read_spectrum_file(

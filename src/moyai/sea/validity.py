@@ -31,6 +31,7 @@ __all__ = [
     "BreakingLimit",
     "TheoryAdvice",
     "breaking_limit",
+    "check_realised_height",
     "check_sea_state",
     "check_spectrum",
     "check_wave",
@@ -49,6 +50,8 @@ NEGLECTED_HARMONIC_WARNING = 0.10
 URSELL_LIMIT = 26.0
 #: Part of the breaking height above which a wave is called near breaking.
 NEAR_BREAKING = 0.8
+#: Realised over asked significant height below which a record is called too low: forces with its square lack a tenth.
+REALISED_HEIGHT = 0.95
 
 
 @dataclass(frozen=True)
@@ -263,6 +266,38 @@ def check_sea_state(significant_height: float, peak_period: float, water: Water)
             )
         )
     return tuple(notices)
+
+
+def check_realised_height(name: str, realised: float, asked: float) -> tuple[Notice, ...]:
+    """Check the significant height of a record against the one that was asked for.
+
+    Parameters
+    ----------
+    name : str
+        Name of the sea state.
+    realised : float
+        Four standard deviations of the surface over the part of the record that counts [m].
+    asked : float
+        Significant height of the spectrum [m].
+
+    Returns
+    -------
+    tuple of Notice
+        ``sea-realised-low``; empty when the record is high enough.
+    """
+    if asked <= 0.0 or not realised < REALISED_HEIGHT * asked:
+        return ()
+    share = realised / asked
+    return (
+        Notice(
+            "sea-realised-low",
+            f"{name}: the record has a significant height of {realised:.3g} m, {asked:.3g} m were asked: forces are "
+            f"up to {100.0 * (1.0 - share**2):.2g} % low (those that go with the square of the height)",
+            share,
+            REALISED_HEIGHT,
+            remedy="lengthen the duration, or take the largest of several seeds (moyai study)",
+        ),
+    )
 
 
 def _parameter(spectrum: Spectrum, name: str) -> float:

@@ -14,6 +14,7 @@ from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.core.validity import Notice
+from moyai.core.wording import counted
 from moyai.series.detrend import Detrend, detrended
 
 Rounding = Literal["nearest", "down", "up"]
@@ -289,7 +290,9 @@ def _notices(
     broken = int(np.count_nonzero(np.diff(time) > gap))
     if missing or broken:
         message = (
-            f"{missing} samples and {broken} stretches of the clock are missing; waves that touch them are left out"
+            f"missing: {counted(missing, 'sample')}"
+            + (f" and {broken} stretch{'es' if broken > 1 else ''} of the clock" if broken else "")
+            + "; waves that touch them are left out"
         )
         notices.append(Notice("waves-broken", message, float(missing + broken), 0.0))
     dropped = count - int(kept.sum())
@@ -297,7 +300,7 @@ def _notices(
         notices.append(
             Notice(
                 "waves-periods",
-                f"{dropped} waves with periods outside {options.shortest:g} to {options.longest:g} s are left out",
+                f"{counted(dropped, 'wave')} outside {options.shortest:g} to {options.longest:g} s left out",
                 float(dropped),
                 0.0,
                 severity="information",
@@ -307,7 +310,7 @@ def _notices(
         notices.append(
             Notice(
                 "few-waves",
-                f"only {int(kept.sum())} waves in the block: statistics of so few are uncertain",
+                f"only {counted(int(kept.sum()), 'wave')} in the block: statistics of so few are uncertain",
                 float(kept.sum()),
                 50.0,
             )

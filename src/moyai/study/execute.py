@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import math
 import time
@@ -55,6 +56,12 @@ class Standing:
 
 
 Watcher = Callable[[Standing], None]
+RESULTS = "study.nc"
+"""Name of the results of a study in its folder."""
+_OFTEN = 2.0
+"""Least time between two gatherings of a study that runs [s]."""
+_COST = 20.0
+"""Least time between two gatherings over the time that one takes [-]."""
 
 
 def run_study(
@@ -111,12 +118,14 @@ def run_study(
         if left:
             kept = _require_watched(study, known)
             watching = _Watching(study, known, watch, progress)
+            so_far = _SoFar(study, folder)
             records = _backend(on, workers, progress)(task, left)
             try:
                 for record in records:
                     ledger.add(record)
                     known[record.index] = record
                     watching.tell(record)
+                    so_far.keep(known)
                     kept = kept or _require_watched(study, known)
             except KeyboardInterrupt:
                 stopped = True
@@ -166,6 +175,26 @@ def _backend(on: Any, workers: int, progress: Progress) -> Backend:
     if workers == 1:
         return lambda task, cases: run_here(task, cases, progress)
     return lambda task, cases: run_processes(task, cases, workers)
+
+
+class _SoFar:
+    """Gathers the cases that ended into ``study.nc`` while the study runs, so that one that is killed can be asked.
+
+    Written after a case, but no oftener than every two seconds nor in more than a twentieth of the time.
+    """
+
+    def __init__(self, study: Study, folder: Path) -> None:
+        self.study, self.path = study, folder / RESULTS
+        self.next = time.monotonic() + _OFTEN
+
+    def keep(self, known: dict[int, Record]) -> None:
+        begun = time.monotonic()
+        if begun < self.next or len(known) == len(self.study.cases):
+            return
+        # The diary holds every case: what goes wrong here is told where the study ends
+        with contextlib.suppress(InputError, OSError):
+            study_result(self.study, known.values(), interrupted=True).write(self.path)
+        self.next = time.monotonic() + max(_OFTEN, _COST * (time.monotonic() - begun))
 
 
 class _Watching:

@@ -297,7 +297,7 @@ def read_study_results(path: Path) -> StudyTable:
         found = next((one for one in inside if one.exists()), None)
         if found is None:
             begun = (path / "study.jsonl").exists()
-            remedy = "the study has begun only: run it on" if begun else "run 'moyai study FILE' first"
+            remedy = "no case was gathered yet: run the study on" if begun else "run 'moyai study FILE' first"
             raise InputError(f"{path} holds no results of a study (study.nc)", path="results", remedy=remedy)
         path = found
     if path.is_dir():

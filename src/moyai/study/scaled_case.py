@@ -131,7 +131,7 @@ def scale_case(case: Case, scale: Scale, *, from_model: bool = False, digits: in
     for path, (name, _) in files.items():
         edits.replace(_node_at(root, path), name, f"scaled from {_value_at(case.document.data, path)}")
         block = _node_at(root, path[:-1])
-        for key, column in (("frequency_column", "0"), ("density_column", "1"), ("place", "0")):
+        for key, column in (("frequency_column", "1"), ("density_column", "2"), ("place", "0")):
             node = _child(block, key)
             if node is not None:
                 edits.replace(node, column, "", quote=False)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.results import Result, Status, make_provenance
+from moyai.core.wording import counted
 from moyai.study.axes import Axis
 from moyai.study.ledger import Record
 from moyai.study.plan import Study
@@ -68,7 +69,7 @@ def _status(study: Study, known: dict[int, Record], interrupted: bool) -> tuple[
     failed = sum(record.status == "failed" for record in known.values())
     refused = sum(record.status == "refused" for record in known.values())
     doubtful = sum(record.status not in ("converged", "failed", "refused") for record in known.values())
-    parts = [f"{len(known)} of {len(study.cases)} cases run"]
+    parts = [f"{len(known)} of {counted(len(study.cases), 'case')} run"]
     if failed:
         parts.append(f"{failed} failed")
     if refused:

@@ -70,6 +70,12 @@ def _short_names(paths: list[str]) -> dict[str, str]:
 
 def _spread(values: schema.Spread, path: str) -> tuple[Any, ...]:
     first, last, unit = common_unit(values.first, values.last, path)
+    if first > last:
+        raise InputError(
+            f"the range at '{path}' runs backwards: 'from' {values.first} is not below 'to' {values.last}",
+            path=path,
+            remedy=f"write from: {values.last}, to: {values.first}",
+        )
     numbers = values.spread(first, last, values.count)
     if all(isinstance(end, int) for end in (values.first, values.last)) and all(one.is_integer() for one in numbers):
         # Whole numbers stay whole: the case may ask for them (seeds, numbers of lines)

@@ -149,3 +149,13 @@ def test_every_kind_has_a_root_schema_and_a_template():
     for kind in structure_kinds():
         assert "structure" in root_schema(kind).model_fields
         assert f"kind: {kind}" in template(kind)
+
+
+def test_an_example_lies_in_the_range_of_its_key() -> None:
+    """A missing peak enhancement of 1 to 20 was to be given 'for instance 0.15'."""
+    from moyai.case.schema_types import QuantityOf
+    from moyai.core import quantities
+
+    assert QuantityOf(quantities.NUMBER, least=1.0, most=20.0).example == ""
+    assert QuantityOf(quantities.NUMBER, above=0.0).example
+    assert QuantityOf(quantities.LENGTH, above=0.0).example

@@ -209,7 +209,7 @@ def test_measured_points_and_spectra_are_scaled(tmp_path):
     assert table[:, 0] == pytest.approx(5.0 * frequency)
     assert np.trapezoid(table[:, 1], table[:, 0]) * 625.0 == pytest.approx(np.trapezoid(density, frequency), rel=1e-12)
     own = scaled.case.model.waves[2]
-    assert (own.file, own.frequency_column, own.density_column) == ("model_sea.csv", 0, 1)
+    assert (own.file, own.frequency_column, own.density_column) == ("model_sea.csv", 1, 2)
     for name, content in scaled.files:
         (tmp_path / name).write_text(content, encoding="utf-8")
     back = scale_case(read(scaled.text, tmp_path, "m.yaml"), scale, from_model=True, digits=17)

@@ -1,6 +1,7 @@
 """Planted faults are found where they were planted, clean seas are left alone, nothing is ever filled."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -115,6 +116,46 @@ def test_unit_slips_over_blocks(factor, seed):
     clean = [m if not 20 <= m.index < 30 else BlockMoments(m.index, m.middle, m.mean / factor, m.deviation / factor,
              m.scale / factor) for m in moments]  # fmt: skip
     assert find_slips(clean, "level") == ()
+
+
+def blocks_of(scale, seed, mean=0.0):
+    """Return blocks of given scales, each with the scatter of some hundred waves."""
+    random = np.random.default_rng(seed)
+    found = np.asarray(scale) * 10.0 ** (0.03 * random.normal(size=len(scale)))
+    return [BlockMoments(i, 600.0 * i, mean, float(value), float(value)) for i, value in enumerate(found)]
+
+
+def storm_of(factor, blocks=20):
+    return np.where((np.arange(100) >= 40) & (np.arange(100) < 40 + blocks), factor, 1.0)
+
+
+@pytest.mark.parametrize("factor", [4.5, 5.5, 6.5, 15.0, 17.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_an_ordinary_storm_is_no_unit(factor, seed):
+    """A sea that grows between two blocks by what lies between the factors of units."""
+    assert find_slips(blocks_of(storm_of(factor), seed), "level") == ()
+
+
+def test_what_lasts_one_block_is_an_event():
+    assert find_slips(blocks_of(storm_of(10.0, 1), 1), "level") == ()
+    assert len(find_slips(blocks_of(storm_of(10.0, 2), 1), "level")) == 1
+    assert len(find_slips(blocks_of(storm_of(100.0, 1), 1), "level")) == 1
+
+
+def test_a_tension_about_its_pretension_keeps_its_mean_in_a_storm():
+    """A wrong unit multiplies mean and fluctuation alike, a storm the fluctuation alone."""
+    moments = blocks_of(0.1 * storm_of(10.0), 2, mean=5.0)
+    assert find_slips(moments, "tension") == ()
+    slipped = [replace(m, mean=m.mean * (10.0 if 40 <= m.index < 60 else 1.0)) for m in moments]
+    assert [(slip.first, slip.last) for slip in find_slips(slipped, "tension")] == [(40, 59)]
+
+
+def test_what_all_channels_do_is_weather():
+    level, speed = blocks_of(storm_of(10.0), 3), blocks_of(storm_of(7.0), 4)
+    assert len(find_slips(level, "level")) == 1
+    assert find_slips(level, "level", others=[speed]) == ()
+    # no weather multiplies a sea by a hundred
+    assert len(find_slips(blocks_of(storm_of(100.0), 3), "level", others=[speed])) == 1
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -398,3 +398,19 @@ def test_a_comparison_of_dates_is_drawn_since_its_start(tmp_path: Path) -> None:
     figure = next(block for section in page.sections for block in section.blocks if isinstance(block, Figure))
     assert figure.abscissae[0].label == "time since 2024-01-01 00:00:00.000Z"
     assert figure.series[0].x["x"][0] == 0.0
+
+
+def test_a_pair_whose_names_hold_the_sign_is_read_by_the_variable(tmp_path: Path) -> None:
+    import xarray as xr
+
+    from moyai.core.results import Result
+    from moyai.records.comparison.run import Pairing, pairing_of
+
+    series = xr.Dataset({"sway": ("time", np.zeros(3))}, coords={"time": np.arange(3.0)})
+    result = Result(xr.DataTree.from_dict({"/": xr.Dataset(), "/SWL/time/H=2, T=6": series}))
+    assert pairing_of("sway=H=2 [m]", result) == Pairing("sway", "H=2 [m]")
+    assert pairing_of("/SWL/time/H=2, T=6/sway = a=b", result) == Pairing("/SWL/time/H=2, T=6/sway", "a=b")
+    with pytest.raises(InputError, match="no '='"):
+        pairing_of("sway", result)
+    with pytest.raises(InputError, match="no variable 'heave'"):
+        pairing_of("heave=a=b", result)

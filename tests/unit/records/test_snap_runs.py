@@ -203,3 +203,20 @@ def test_template_and_help_name_the_command() -> None:
     call = RUN.invoke(app, ["new", "snaps"])
     assert call.exit_code == 0 and "origin: measured" in call.output
     assert "snaps" in RUN.invoke(app, ["measure", "--help"]).output
+
+
+def test_the_table_of_runs_fits_a_page_and_keeps_names_whole(tmp_path: Path) -> None:
+    """Thirteen columns and a name ran off the page; names like 'line-u15-d15-l80' broke at their hyphens."""
+    from moyai.records.snaps.report.page import compose
+    from moyai.records.snaps.result import snap_runs_result
+    from moyai.report.document import Table
+    from moyai.report.html import render_html
+
+    runs, text = load_snaps(write_set(tmp_path))
+    document = compose(snap_runs_result(measure_snaps(runs), text=text.text))
+    tables = {block.key: block for section in document.sections for block in section.blocks if isinstance(block, Table)}
+    assert [column.label for column in tables["numbers"].columns][2:] == ["C_T", "Fr", "B/l", "d/h", "C_E"]
+    assert len(tables["runs"].columns) <= 10
+    names = tables["runs"].columns[0].values
+    page = render_html(document)
+    assert all(f'<td class="text whole">{name}</td>' in page for name in names)

@@ -36,11 +36,11 @@ def test_columns_by_name_and_number(tmp_path):
     rows = "".join(f"{i},{s!r},{f!r}\n" for i, (f, s) in enumerate(zip(FREQUENCY.tolist(), DENSITY.tolist())))
     file.write_text("bin,density,frequency\n" + rows)
     named = spectra.from_file(file, frequency_column="frequency", density_column="density")
-    numbered = spectra.from_file(file, frequency_column=2, density_column=1)
+    numbered = spectra.from_file(file, frequency_column=3, density_column=2)
     np.testing.assert_array_equal(named.omega, numbered.omega)
     with pytest.raises(InputError, match=r"no column 'hz'.*bin, density, frequency"):
         spectra.from_file(file, frequency_column="hz")
-    with pytest.raises(InputError, match=r"no column 7.*0 to 2"):
+    with pytest.raises(InputError, match=r"no column 7.*1 to 3"):
         spectra.from_file(file, frequency_column=7)
 
 

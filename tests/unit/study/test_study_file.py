@@ -399,3 +399,27 @@ def test_lines_that_stand_below_the_structure_by_name_are_lost_too():
         lines_lost(True, Ground({"lines": {"name": "a", "length": "1 m"}}, Path(), Path()))
     with pytest.raises(InputError, match="the only line"):
         lines_lost(True, Ground({"lines": {"a": {"length": "1 m"}}}, Path(), Path()))
+
+
+@pytest.mark.parametrize(("first", "last", "count"), [(0.16, 1.6, 10), ("0.04 m", "1 m", 9), (0.08, 0.8, 10)])
+def test_spread_values_are_the_ones_a_person_would_write(first, last, count):
+    """0.64 and not 0.6400000000000001 stands on axes and in tables."""
+    from moyai.study import schema
+    from moyai.study.variations import _spread
+
+    given = _spread(schema.Spread(**{"from": first, "to": last, "count": count}), "x")
+    numbers = [float(str(one).split()[0]) for one in given]
+    ends = [float(str(one).split()[0]) for one in (first, last)]
+    np.testing.assert_allclose(numbers, np.linspace(*ends, count), rtol=1e-11)
+    assert not any("00000" in str(one) or "99999" in str(one) for one in given)
+
+
+def test_a_range_of_two_units_is_judged_by_its_size():
+    """'40 cm' stands behind '1 m' as text."""
+    from moyai.study import schema
+    from moyai.study.variations import _spread
+
+    rising = _spread(schema.Spread(**{"from": "40 cm", "to": "1 m", "count": 3}), "x")
+    assert rising == ("40.0 cm", "70.0 cm", "100.0 cm")
+    with pytest.raises(InputError, match="runs backwards"):
+        _spread(schema.Spread(**{"from": "1 m", "to": "40 cm", "count": 3}), "x")

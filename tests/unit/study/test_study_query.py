@@ -246,3 +246,31 @@ def test_the_largest_motion_is_one_of_metres_and_roll_is_asked_for_by_its_label(
     assert read_response(tree, "SWL/significant_motion[dof=roll]") == 3.0
     roll = find_response(tree, "SWL/significant_motion[dof=roll]")
     assert roll.attrs == {"units": "rad", "long_name": "significant double amplitude of the motion"}
+
+
+def test_a_study_that_is_cut_off_can_be_asked(tmp_path, monkeypatch):
+    """What a study leaves behind that ends without a word: looked at while it runs, after every case."""
+    from moyai.study import execute
+
+    monkeypatch.setattr(execute, "_OFTEN", 0.0)
+    monkeypatch.setattr(execute, "_COST", 0.0)
+    study = load_study(study_cases.write_study(tmp_path, 2, 3))
+    left = []
+
+    def look(standing):
+        if standing.done > 1:
+            table = read_study_results(tmp_path / "out")
+            chosen = table.chosen(["seed < 9"], "SWL/response", 1, False)
+            left.append((standing.done, table.status.count("converged"), len(chosen)))
+
+    execute.run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, watch=look)
+    # the case that just ended comes with the next gathering
+    assert left == [(done, done - 1, 1) for done in range(2, 7)]
+
+
+def test_one_case_is_one_case(tmp_path):
+    study = load_study(study_cases.write_study(tmp_path, 1, 1))
+    result = run_study(study, tmp_path / "out", study_cases.fast_case, workers=1)
+    assert result.message.startswith("1 of 1 case run")
+    result.write(tmp_path / "out" / "study.nc")
+    assert ": 1 case (1 converged)" in CliRunner().invoke(app, ["query", str(tmp_path / "out")]).output

@@ -18,6 +18,7 @@ from moyai.core.results import Result, make_provenance
 from moyai.core.units import parse_unit
 from moyai.core.validity import Notice
 from moyai.core.vocabulary import NO_UNIT, Vocabulary, former
+from moyai.core.wording import counted
 from moyai.records.comparison.model import Agreement, agreement_by_state, overlay
 from moyai.records.reading.reader import read_record
 from moyai.records.reading.record import Record
@@ -42,6 +43,31 @@ class Pairing:
 
     variable: str
     column: str
+
+
+def pairing_of(text: str, result: Result) -> Pairing:
+    """Return the pairing that ``variable=column`` names; where a name holds the sign too, the variable decides.
+
+    Raises
+    ------
+    InputError
+        Without the sign, or where no part before one is a variable of the result.
+    """
+    variables = _variables(result)
+    places = [place for place, letter in enumerate(text) if letter == "="]
+    pairs = [(text[:place].strip(), text[place + 1 :].strip()) for place in places]
+    pairs = [pair for pair in pairs if all(pair)]
+    if not pairs:
+        raise InputError(f"'{text}' has no '='", path="--pair", allowed="variable=column")
+    faults = []
+    for variable, column in pairs:
+        try:
+            _find(variable, variables)
+        except InputError as error:
+            faults.append(error)
+        else:
+            return Pairing(variable, column)
+    raise faults[0]
 
 
 def compare_result(
@@ -116,7 +142,7 @@ def compare_result(
     tree = xr.DataTree.from_dict(VOCABULARY.close({f"/{name}": dataset for name, dataset in groups.items()}))
     title = str(result.tree.attrs.get("title", "")) or "result"
     tree.attrs = {"title": f"{title} against {path.name}", "structure": "comparison", "case_text": "", "case_hash": ""}
-    message = f"{len(groups)} variables compared with {path.name}"
+    message = f"{counted(len(groups), 'variable')} compared with {path.name}"
     case_hash = str(result.tree.attrs.get("case_hash", ""))
     provenance = make_provenance(title=tree.attrs["title"], record=path.name, compared_case=case_hash)
     return Result(tree, "converged", message, (), tuple(notices), provenance)

@@ -10,6 +10,7 @@ import numpy as np
 from moyai.core.results import Result, Status, make_provenance
 from moyai.core.validity import IdentityCheck
 from moyai.core.vocabulary import Vocabulary
+from moyai.core.wording import counted
 from moyai.records.nets.campaign import NetFindings
 from moyai.records.nets.regression import TERMS
 
@@ -172,7 +173,7 @@ def nets_result(found: NetFindings, *, text: str = "") -> Result:
     return Result(
         tree=xr.DataTree.from_dict(VOCABULARY.close(groups)),
         status=status,
-        message=grave[0].message if grave else f"{count} runs were evaluated",
+        message=grave[0].message if grave else f"evaluated: {counted(count, 'run')}",
         checks=_checks(found),
         notices=found.notices,
         provenance=make_provenance(title=campaign.title, structure="nets", seeds=[campaign.seed]),

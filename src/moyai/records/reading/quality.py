@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from moyai.core.arrays import Array
 from moyai.core.compiled import njit
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
+from moyai.core.wording import counted
 from moyai.records.reading import record as bits
 from moyai.records.reading.record import Record, instant_text
 
@@ -296,8 +297,14 @@ def find_gaps(time: Array, step: float, gap_steps: float) -> tuple[tuple[tuple[f
 # ------------------------------------------------------------------------- over the blocks of a long record
 
 
-SLIP_FACTORS = (10.0, 100.0, 1000.0, 9.80665, 9806.65, 3.28084, 1.0 / 0.5144444, 57.29578)
-"""Factors between units that people mix: powers of ten, kgf and N, ft and m, kn and m/s, deg and rad."""
+SLIP_FACTORS = (10.0, 100.0, 1000.0, 9.80665, 9806.65, 57.29578)
+"""Factors between units that people mix: powers of ten, kgf and N, deg and rad.
+
+Smaller ones (ft and m, kn and m/s) are left out: weather changes a block as much.
+"""
+_SMALLEST_JUMP = 0.6  # decades: seas grow fourfold from one block to the next
+_NEAREST, _FARTHEST = 0.02, 0.1  # decades: bounds of the distance from a factor that counts as near
+_WEATHER = 1.3  # decades: a calm and a storm may differ so much, and then all that they move changes with them
 
 
 @dataclass(frozen=True)
@@ -336,33 +343,59 @@ class Slip:
     unit_factor: float
 
 
-def find_slips(moments: Sequence[BlockMoments], channel: str, *, nearness: float = 0.25) -> tuple[Slip, ...]:
-    """Find stretches of blocks whose fluctuation is a unit's factor larger or smaller than before and after.
+def find_slips(
+    moments: Sequence[BlockMoments], channel: str, *, others: Iterable[Sequence[BlockMoments]] = ()
+) -> tuple[Slip, ...]:
+    """Find stretches of blocks that are in another unit than those before and after [eq:records-slip].
 
-    The scale of a block is compared with that of the blocks beside it; a sea does not grow tenfold from one block to
-    the next, a wrong unit does. ``nearness`` is the accepted distance from the factor in its logarithm to base 10.
+    Parameters
+    ----------
+    moments : sequence of BlockMoments
+        Of the channel, in the order of time.
+    channel : str
+    others : iterable of sequences of BlockMoments
+        Of the other channels: what changes in several of them is weather, not a unit.
+
+    Notes
+    -----
+    A jump of the scale counts when it stands out of the jumps of the other blocks, lies as near to a factor between
+    units as those jumps allow, and the mean, where it is larger than the fluctuation, jumps with it.
     """
     known = [entry for entry in moments if entry.scale > 0.0]
     if len(known) < 3:
         return ()
     scale = np.log10([entry.scale for entry in known])
     jumps = np.diff(scale)
-    slips: list[Slip] = []
+    spread = 1.4826 * float(np.median(np.abs(jumps - np.median(jumps))))
+    stands_out = max(_SMALLEST_JUMP, 5.0 * spread)
+    sizes = [_by_block(other) for other in others]
     edges = [0]
-    edges += [i + 1 for i in range(len(jumps)) if abs(jumps[i]) > 0.6 and _near_factor(jumps[i], nearness) > 0.0]
+    edges += [
+        i + 1
+        for i, jump in enumerate(jumps)
+        if abs(jump) > stands_out
+        and _near_factor(jump, spread, 2.0 * _FARTHEST) > 0.0
+        and _mean_follows(known[i], known[i + 1], float(jump))
+        and not _weather(sizes, known[i].index, known[i + 1].index, float(jump))
+    ]
     edges.append(len(known))
     if len(edges) == 2:
         return ()
     pieces = list(itertools.pairwise(edges))
     levels = [float(np.median(scale[a:b])) for a, b in pieces]
     longest = max(range(len(pieces)), key=lambda i: pieces[i][1] - pieces[i][0])
+    slips: list[Slip] = []
     for place, (a, b) in enumerate(pieces):
         ends = [jumps[a - 1] if a else None, -jumps[b - 1] if b < len(known) else None]
         found = [jump for jump in ends if jump is not None]
         factor = float(np.mean(found))
         same_sign = all(np.sign(jump) == np.sign(factor) for jump in found)
-        usual = _near_factor(factor, nearness)
-        if place == longest or usual == 0.0 or not same_sign or abs(levels[place] - levels[longest]) < 0.3:
+        usual = _near_factor(factor, spread / math.sqrt(len(found)), _FARTHEST)
+        event = b - a == 1 and abs(factor) < _WEATHER  # a ship, a squall
+        away = abs(levels[place] - levels[longest])
+        # Without a way back the record has to stay where it jumped to; a storm dies down
+        stays = away >= 0.3 if len(found) == 2 else abs(away - abs(factor)) < 0.3
+        if place == longest or usual == 0.0 or not same_sign or not stays or event:
             continue
         slips.append(
             Slip(channel, known[a].index, known[b - 1].index, 10.0**factor, usual if factor > 0 else 1 / usual)
@@ -370,10 +403,30 @@ def find_slips(moments: Sequence[BlockMoments], channel: str, *, nearness: float
     return tuple(slips)
 
 
-def _near_factor(jump: float, nearness: float) -> float:
-    distances = [(abs(abs(jump) - math.log10(factor)), factor) for factor in SLIP_FACTORS]
-    distance, factor = min(distances)
-    return factor if distance <= nearness else 0.0
+def _near_factor(jump: float, spread: float, farthest: float) -> float:
+    """Return the factor between units that a jump [decades] lies near, within what others scatter; 0 for none."""
+    reach = min(max(2.5 * spread, _NEAREST), farthest)
+    distance, factor = min((abs(abs(jump) - math.log10(factor)), factor) for factor in SLIP_FACTORS)
+    return factor if distance <= reach else 0.0
+
+
+def _mean_follows(before: BlockMoments, after: BlockMoments, jump: float) -> bool:
+    """Whether the mean changed by the factor of the scale; true where the mean is too small to say."""
+    if min(abs(before.mean) - before.deviation, abs(after.mean) - after.deviation) <= 0.0:
+        return True
+    return abs(math.log10(abs(after.mean) / abs(before.mean)) - jump) < 0.3
+
+
+def _by_block(moments: Sequence[BlockMoments]) -> dict[int, float]:
+    return {entry.index: math.log10(entry.scale) for entry in moments if entry.scale > 0.0}
+
+
+def _weather(others: Sequence[Mapping[int, float]], before: int, after: int, jump: float) -> bool:
+    """Whether another channel changes at that block by half of a jump as weather can make."""
+    if abs(jump) > _WEATHER:
+        return False
+    changes = [other[after] - other[before] for other in others if before in other and after in other]
+    return any(change / jump > 0.5 for change in changes)
 
 
 @dataclass(frozen=True)
@@ -447,7 +500,7 @@ def quality_notices(
         notices.append(
             Notice(
                 "record-gaps",
-                f"{len(gaps)} gaps, the longest {duration:.4g} s from {instant_text(start, dated)}; "
+                f"{counted(len(gaps), 'gap')}, the longest {duration:.4g} s from {instant_text(start, dated)}; "
                 "spectra fill only short ones, and say so",
                 float(len(gaps)),
             )
@@ -457,7 +510,7 @@ def quality_notices(
             notices.append(
                 Notice(
                     "record-quality",
-                    f"{channel}: {count} sample{'' if count == 1 else 's'} ({_percent(count, samples)}) flagged as "
+                    f"{channel}: {counted(count, 'sample')} ({_percent(count, samples)}) flagged as "
                     f"{kind}; values were left as they are",
                     float(count),
                 )

@@ -20,6 +20,7 @@ from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.units import Unit, parse_unit
 from moyai.core.validity import Notice
+from moyai.core.wording import counted
 from moyai.records.reading import arrays as read_arrays
 from moyai.records.reading.record import Record, concatenate, instant_text
 from moyai.records.reading.sources import SECONDS_PER, ColumnSource, LoggerSource
@@ -353,7 +354,9 @@ class _Clock:
         if kept.any():
             self.last = float(time[kept][-1])
         count = int(late.sum())
-        notice = Notice("time-order", f"{count} rows left out: {told}", float(count), 0.0, remedy="check the logger")
+        notice = Notice(
+            "time-order", f"{counted(count, 'row')} left out: {told}", float(count), 0.0, remedy="check the logger"
+        )
         return time[kept], kept, (notice,)
 
     def _corrected(self, time: Array) -> Array:

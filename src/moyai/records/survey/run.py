@@ -332,9 +332,10 @@ def _quality(
     rows.extend(("(clock)", "gap", start, start + length, 0, f"{length:.6g} s") for start, length in gaps)
     samples = sum(block.samples for block in found)
     notices = list(quality_notices(totals, samples, gaps, dated))
-    for name in names:
-        moments = [block.moments[name] for block in found if name in block.moments]
-        slips = find_slips(moments, name) if survey.use_of(name).quality.unit_slips else ()
+    by_channel = {name: [block.moments[name] for block in found if name in block.moments] for name in names}
+    for name, moments in by_channel.items():
+        others = [by_channel[other] for other in names if other != name]
+        slips = find_slips(moments, name, others=others) if survey.use_of(name).quality.unit_slips else ()
         if len(slips) > MOST_SLIPS:
             words = (
                 f"{name}: {len(slips)} stretches of blocks differ from their neighbours by a factor near a unit's; "

@@ -15,6 +15,7 @@ import numpy as np
 
 from moyai.core.headline import Band, Headline
 from moyai.series.block_maxima import maximum_of
+from moyai.structures.cage.conditions import condition_headlines, runs_of, sea_words
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
 
 if TYPE_CHECKING:
@@ -94,6 +95,7 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         *_offset(states, runs),
         *_anchor(states, runs),
         *_stress(states, runs),
+        *condition_headlines(groups),
     ]
     return tuple(items)
 
@@ -113,11 +115,10 @@ def _state(level: str, groups: Groups) -> _State | None:
 
 def _runs(level: str, groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
     """Yield level, words and series of every run through time."""
-    for path, run in groups.items():
-        parts = path.strip("/").split("/")
-        if len(parts) == 4 and parts[0] == level and parts[1] == "time":
-            label = "" if parts[3] == "sea" else f", {run.attrs['wave']}"
-            yield level, f"{parts[2]}{label}, {level}", run
+    current = float(groups[f"/{level}"].attrs["current"])
+    for at, name, run in runs_of(groups):
+        if at == level:
+            yield level, f"{sea_words(name, run, current)}, {level}", run
 
 
 def volume_text(volume: float) -> str:
@@ -158,10 +159,9 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
         if abs(share) > 5e-3 * value
     ]
     detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
-    largest = [(float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()), where) for _, where, run in runs]
+    largest = [float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()) for _, _, run in runs]
     if largest:
-        most, where = max(largest)
-        detail += f"; up to {most / 1e3:.3g} kN for moments in {where}"
+        detail += f"; up to {max(largest) / 1e3:.3g} kN for moments in the sea"
     band = worst.band("drag")
     return [Headline("drag", "drag in the current", value, "N", worst.where, STATICS, band, detail=detail)]
 
@@ -213,9 +213,6 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
         name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
         details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
     if not int(run.attrs["regular"]):
-        details.append(
-            f"realised Hs {float(run.attrs['realised_height']):.2f} m of {float(run.attrs['wave_height']):.2f} m asked"
-        )
         late = run["time"].values >= float(run.attrs["ramp"])
         chance = maximum_of(
             run["time"].values[late], run["line_tension_peak_since_row"].values[late, line], float(run.attrs["period"])
@@ -319,7 +316,8 @@ def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:
         for path, group in groups.items()
         if len(parts := path.strip("/").split("/")) == 3 and parts[1] == "waves"
     ]
-    return (*_rigid_tension(seas, groups), *_rigid_motions(seas), *_rigid_rest(groups))
+    items = (*_rigid_tension(seas, groups), *_rigid_motions(seas, groups), *_rigid_rest(groups))
+    return (*items, *condition_headlines(groups))
 
 
 Seas = list[tuple[str, str, "xr.Dataset"]]
@@ -335,8 +333,7 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     if best is None:
         return []
     value, level, name, wave, line, sea = best
-    line_name, label = str(sea["line"].values[line]), str(sea["wave"].values[wave])
-    where = ", ".join(part for part in (line_name, name, "" if label == "sea" else label, level) if part)
+    where = f"{sea['line'].values[line]}, {_rigid_where(level, name, sea, wave, groups)}"
     laws, band, details = groups.get(f"/{level}/laws"), None, []
     if laws is not None and laws.sizes["law"] > 1 and laws.attrs["sea"] == name:
         peaks = laws["law_line_tension_maximum"].values
@@ -360,23 +357,26 @@ def _rigid_tension(seas: Seas, groups: Groups) -> list[Headline]:
     return items
 
 
+def _rigid_where(level: str, name: str, sea: xr.Dataset, wave: int, groups: Groups) -> str:
+    """Return sea, wave or seed, current and level of a number of a rigid cage."""
+    label = f"wave {wave + 1}" if sea.attrs["kind"] == "regular" else "sea"
+    run = groups[f"/{level}/time/{name}/{label}"]
+    return f"{sea_words(name, run, float(groups[f'/{level}'].attrs['current']))}, {level}"
+
+
 def _rigid_chance(run: xr.Dataset, line: int) -> list[str]:
     late = run["time"].values >= float(run.attrs["ramp"])
     time = run["time"].values[late]
-    said = [
-        f"realised Hs {4.0 * float(run['surface_elevation'].values[late].std()):.3g} m of "
-        f"{float(run.attrs['wave_height']):.3g} m asked"
-    ]
     chance = maximum_of(time, run["line_tension_peak_since_row"].values[late, line], float(run.attrs["period"]))
-    if chance is not None:
-        said.append(
-            f"one seed: largest of others about {chance.mean:.3g} ± {chance.deviation:.2g} N, from {chance.blocks} "
-            "blocks of the record"
-        )
-    return said
+    if chance is None:
+        return ["one seed, too short to tell the scatter of its maximum"]
+    return [
+        f"one seed: largest of others about {chance.mean:.3g} ± {chance.deviation:.2g} N, from {chance.blocks} blocks "
+        "of the record"
+    ]
 
 
-def _rigid_motions(seas: Seas) -> list[Headline]:
+def _rigid_motions(seas: Seas, groups: Groups) -> list[Headline]:
     best: dict[str, tuple[float, str, str, str]] = {}
     for level, name, sea in seas:
         regular = sea.attrs["kind"] == "regular"
@@ -384,11 +384,11 @@ def _rigid_motions(seas: Seas) -> list[Headline]:
             values = sea["range_ratio"].values[:, number]
             at = int(np.argmax(values))
             words = f"{mode} range over wave height" if regular else f"{mode}: 4 standard deviations over Hs"
-            entry = (float(values[at]), f"{name}, {sea['wave'].values[at]}, {level}", "1", words)
+            entry = (float(values[at]), _rigid_where(level, name, sea, at, groups), "1", words)
             best[words] = max(best.get(words, entry), entry)
         turned = 0.5 * sea["range"].values[:, 2]
         at = int(np.argmax(turned))
-        entry = (float(turned[at]), f"{name}, {sea['wave'].values[at]}, {level}", "rad", "rotation, half its range")
+        entry = (float(turned[at]), _rigid_where(level, name, sea, at, groups), "rad", "rotation, half its range")
         best["rotation"] = max(best.get("rotation", entry), entry)
     return [
         Headline(f"{words.split()[0].strip(':,')}_range", words, value, unit, where, RIGID)

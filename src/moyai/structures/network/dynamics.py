@@ -130,12 +130,12 @@ def run(
     series, frames = series_of(assembly, plan, history), frames_of(plan, history)
     if coupled is not None:
         series, frames = with_bodies(series, with_ends(frames, coupled.ends), coupled)
-    series.attrs["skip"] = problem.settings.skip
+    series.attrs |= {"skip": plan.skip, "skip_rule": plan.skip_rule}
     if earlier is not None:
         series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
     snaps = snaps_of(problem, series)
     governing = _governing(series)
-    worst = _worst_bar(assembly, history, governing, problem.settings.skip)
+    worst = _worst_bar(assembly, history, governing, plan.skip)
     notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
     notices += peak_inside(assembly, series, governing, worst)
     if coupled is not None:
@@ -192,7 +192,7 @@ def _worth(
             return None, [unchecked(why)] if why else [], history
         motions = motions_of(problem, plan.duration)
         checked = check_peak(
-            assembly, history, motions, governing, starts[0], problem.settings.skip, options_of(problem, plan), told
+            assembly, history, motions, governing, starts[0], plan.skip, options_of(problem, plan), told
         )
         return checked, [unchecked(why)] if checked is None and why else [], history
     except (ConvergenceError, InputError) as error:
@@ -226,7 +226,7 @@ def _sensitivity(
 ) -> PeakSensitivity:
     """Run again with half the step, half the bars, half and twice the viscosity."""
     (begin, hung), (history, coupled) = starts, made
-    after, motions = problem.settings.skip, motions_of(problem, plan.duration)
+    after, motions = plan.skip, motions_of(problem, plan.duration)
     options = options_of(problem, plan)
     if coupled is not None:
         peak = float(np.nanmax(history.peak_at(bar)[history.time >= after]))

@@ -17,6 +17,7 @@ from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import band_of
+from moyai.structures.network.start_up import ASKED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,6 +53,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items: list[Headline] = []
     if peak is not None:
         items += _tension(problem, groups, peak)
+        items += _start_up(groups, peak)
         items += _utilisation(problem, peaks)
     items += _anchor(groups)
     items += _offsets(groups)
@@ -129,6 +131,34 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
                 )
             )  # fmt: skip
     return items
+
+
+def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
+    """Return the highest tension of the beginning that does not count: the program chose it, or it is the larger."""
+    best: tuple[float, str, str] | None = None
+    for path, series in groups.items():
+        pieces = path.strip("/").split("/")
+        if len(pieces) != 3 or pieces[1] != "time" or "line_tension_peak_since_row" not in series:
+            continue
+        skip, rule = float(series.attrs["skip"]), str(series.attrs["skip_rule"])
+        time = series["time"].values
+        early = series["line_tension_peak_since_row"].isel(time=time < time[0] + skip)
+        if not rule or not early.size or not np.isfinite(early.values).any():
+            continue
+        row, line = np.unravel_index(int(np.nanargmax(early.values)), early.shape)
+        value = float(early.values[row, line])
+        if (rule == ASKED and value <= peak.value) or (best is not None and value <= best[0]):
+            continue
+        at = f"{early['line'].values[line]}, {pieces[2]}, t = {time[row]:.2f} s"
+        best = (value, at, f"not in the highest tension: the first {skip:.3g} s are left out ({rule})")
+    if best is None:
+        return []
+    return [
+        Headline(
+            "start_up_tension", "tension while the run starts", best[0], "N", best[1], DYNAMIC, detail=best[2],
+            condition=True,
+        )
+    ]  # fmt: skip
 
 
 def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list[str]]:

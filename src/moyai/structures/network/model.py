@@ -11,7 +11,7 @@ from typing import Literal
 from moyai.core.errors import InputError
 from moyai.core.headline import Criterion
 from moyai.core.options import checks_words
-from moyai.flexible.motion import Motion
+from moyai.flexible.motion import Beginning, Motion
 from moyai.flexible.network import BOX, BarType
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
@@ -216,7 +216,10 @@ class BedPlan:
 @checks_words
 @dataclass(frozen=True, eq=False)
 class MotionPlan:
-    """A prescribed motion: its table, made for any duration, its typical period [s] and its last time [s]."""
+    """A prescribed motion: its table, made for any duration, its typical period [s] and its last time [s].
+
+    ``ramp`` is the time over which it grows from nothing [s]; ``None``: one mean period where it begins with a jerk.
+    """
 
     name: str
     kind: Literal["harmonic", "circular", "table"]
@@ -224,11 +227,35 @@ class MotionPlan:
     end: float
     amplitude: Place = (0.0, 0.0, 0.0)
     phase: Place = (0.0, 0.0, 0.0)
-    ramp: float = 0.0
+    ramp: float | None = 0.0
     table: Motion | None = None
 
     def over(self, duration: float) -> Motion:
-        """Return the motion over a run.
+        """Return the motion over a run, grown from nothing where it has a ramp.
+
+        Raises
+        ------
+        InputError
+            When a table ends before the run does.
+        """
+        given, growth = self._given(duration), self.growth(duration)
+        return given if self.table is None or growth == 0.0 else given.grown(growth)
+
+    def beginning(self, duration: float) -> Beginning:
+        """Return how a run over a duration begins, before a table is grown."""
+        if self.table is None:  # each period is like the others
+            duration = min(duration, 3.0 * self.period + (self.ramp or 0.0))
+        return self._given(duration).beginning(duration)
+
+    def growth(self, duration: float) -> float:
+        """Return the time over which the motion grows from nothing [s]."""
+        if self.ramp is not None:
+            return self.ramp
+        period = self.beginning(duration).period
+        return 0.0 if math.isnan(period) else min(period, 0.5 * duration)
+
+    def _given(self, duration: float) -> Motion:
+        """Return the motion over a run as it was given.
 
         Raises
         ------
@@ -236,7 +263,9 @@ class MotionPlan:
             When a table ends before the run does.
         """
         if self.table is None:
-            return Motion.harmonic(self.amplitude, self.period, duration=duration, ramp=self.ramp, phase=self.phase)
+            return Motion.harmonic(
+                self.amplitude, self.period, duration=duration, ramp=self.ramp or 0.0, phase=self.phase
+            )
         if self.table.start > 1e-9 or self.table.end < duration * (1.0 - 1e-9):
             raise InputError(
                 f"the motion '{self.name}' covers {self.table.start:g} to {self.table.end:g} s, the run 0 to "
@@ -266,7 +295,7 @@ class Settings:
     wave_front: bool = False
     tolerance: float = 1e-4
     stretching: Stretching = "wheeler"
-    skip: float = 0.0
+    skip: float | None = None
     sensitivity: bool = False
     mesh_check: Literal["auto", "off"] = "auto"
     peak_goal: float = 0.05

@@ -48,10 +48,10 @@ def run_notices(
                 remedy="a shorter run or a longer output step keeps all",
             )
         )
-    if problem.settings.skip >= plan.duration:
+    if plan.skip >= plan.duration:
         notices.append(
-            Notice("nothing-counted", f"settings.skip of {problem.settings.skip:g} s leaves nothing of the run",
-                   problem.settings.skip, plan.duration, "warning", "lower settings.skip")
+            Notice("nothing-counted", f"settings.skip of {plan.skip:g} s leaves nothing of the run",
+                   plan.skip, plan.duration, "warning", "lower settings.skip")
         )  # fmt: skip
     for sheet in problem.sheets:
         if "added_mass_per_area" not in sheet.properties:

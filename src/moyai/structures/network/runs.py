@@ -18,6 +18,7 @@ from moyai.sea.irregular import synthesise
 from moyai.sea.states import ComponentSea, IrregularSea, RegularSea
 from moyai.sea.water import Water
 from moyai.structures.network.model import STILL, NetworkProblem
+from moyai.structures.network.start_up import start_up
 
 #: Periods of a run whose length is left to the program, rows in its shortest period, most components of a sea.
 PERIODS, ROWS_PER_PERIOD, COMPONENTS = 20, 100, 150
@@ -44,6 +45,10 @@ class RunPlan:
     irregular : bool
     seed : int
         -1 without one.
+    skip : float
+        Beginning that peaks and statistics leave out [s].
+    skip_rule : str
+        Why so much; empty where all counts.
     """
 
     name: str
@@ -56,6 +61,8 @@ class RunPlan:
     heading: float = math.nan
     irregular: bool = False
     seed: int = -1
+    skip: float = 0.0
+    skip_rule: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +100,15 @@ def run_plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     InputError
         When there is nothing to tell how long a run should be.
     """
+    found = []
+    for plan in _plans(problem, water):
+        used = [problem.motions[name] for name in _used_motions(problem) if name]
+        skip, rule = start_up(problem.settings.skip, used, plan.duration)
+        found.append(replace(plan, skip=skip, skip_rule=rule))
+    return tuple(found)
+
+
+def _plans(problem: NetworkProblem, water: Water) -> tuple[RunPlan, ...]:
     plans: list[RunPlan] = []
     for sea in problem.environment.sea_states:
         if isinstance(sea, RegularSea):
@@ -207,10 +223,15 @@ def motions_of(problem: NetworkProblem, duration: float) -> dict[str, Motion]:
     InputError
         When a table ends before the run does.
     """
-    used = {point.motion for point in problem.points if point.kind == "driven"}
-    used |= {net.motion for net in problem.nets if net.first_row == "driven"}
-    used |= {sheet.motion for sheet in problem.sheets if sheet.first_row == "driven"}
+    used = _used_motions(problem)
     found = {name: problem.motions[name].over(duration) for name in used if name}
     if "" in used:
         found[STILL] = Motion(0.0, duration, np.zeros((2, 3)), np.zeros((2, 3)))
     return found
+
+
+def _used_motions(problem: NetworkProblem) -> set[str]:
+    """Return the names of the motions that something follows; an empty one for what is held still."""
+    used = {point.motion for point in problem.points if point.kind == "driven"}
+    used |= {net.motion for net in problem.nets if net.first_row == "driven"}
+    return used | {sheet.motion for sheet in problem.sheets if sheet.first_row == "driven"}

@@ -182,7 +182,7 @@ def snaps_of(problem: NetworkProblem, series: xr.Dataset) -> dict[str, SnapRecor
         return {}
     settings, found = problem.settings, {}
     time = series["time"].values
-    chosen = time >= time[0] + settings.skip
+    chosen = time >= time[0] + series.attrs["skip"]
     if chosen.sum() < 2:
         return {}
     for name in series["line"].values:

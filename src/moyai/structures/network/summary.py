@@ -45,13 +45,13 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
     for item in runs:
         for key, value in _line_summary(problem, item, lines).items():
             rows.setdefault(key, []).append(value)
-        for key, value in _point_summary(problem, item, names, rest).items():
+        for key, value in _point_summary(item, names, rest).items():
             data.setdefault(key, []).append(value)
     out: dict[str, Any] = {key: (("run", "line"), np.array(value)) for key, value in rows.items() if lines}
     out |= {key: (("run", "point"), np.array(value)) for key, value in data.items() if names}
     solids = [body.name for body in problem.bodies]
     for item in runs if solids else ():
-        for key, found in _solid_summary(problem, item).items():
+        for key, found in _solid_summary(item).items():
             out.setdefault(key, (("run", "solid"), []))[1].append(found)
     known = [item for item in runs if item.sensitivity is not None]
     if known:
@@ -71,13 +71,13 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
     return made
 
 
-def _counted(problem: NetworkProblem, item: Run) -> NDArray[np.bool_]:
+def _counted(item: Run) -> NDArray[np.bool_]:
     time = item.series["time"].values
-    return np.asarray(time >= time[0] + problem.settings.skip)
+    return np.asarray(time >= time[0] + item.series.attrs["skip"])
 
 
 def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[str, list[float]]:
-    chosen = _counted(problem, item)
+    chosen = _counted(item)
     breaking = {line.name: line.breaking_load for line in problem.lines}
     keys = (
         "line_tension_maximum", "peak_time", "start_peak", "end_peak", "line_tension_mean", "deviation", "utilisation",
@@ -117,8 +117,8 @@ def _line_summary(problem: NetworkProblem, item: Run, lines: list[str]) -> dict[
     return out
 
 
-def _point_summary(problem: NetworkProblem, item: Run, names: list[str], rest: Array | None) -> dict[str, list[float]]:
-    chosen = _counted(problem, item)
+def _point_summary(item: Run, names: list[str], rest: Array | None) -> dict[str, list[float]]:
+    chosen = _counted(item)
     out: dict[str, list[float]] = {key: [] for key in (*LOADS, "excursion")}
     for number, name in enumerate(names):
         load = item.series["highest_load"].sel(point=name).values[chosen]
@@ -139,9 +139,9 @@ def lean_of(angles: Array) -> Array:
     return np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
 
 
-def _solid_summary(problem: NetworkProblem, item: Run) -> dict[str, Array]:
+def _solid_summary(item: Run) -> dict[str, Array]:
     """Return how far the bodies go and turn from where the run begins."""
-    chosen = _counted(problem, item)
+    chosen = _counted(item)
     place, angle = (item.series[key].values for key in ("solid_position", "solid_angle"))
     if not chosen.any():
         return dict.fromkeys(SOLID, np.full(place.shape[1], np.nan))

@@ -123,12 +123,15 @@ def _run_tables(runs: Group) -> list[Block]:
         ("impact_tension", "impact", "N"), ("rise_time", "rise", "s"), ("tension_coefficient", "C_T", ""),
         ("froude", "Fr", ""), ("span_ratio", "B/l", ""), ("depth_ratio", "d/h", ""), ("cauchy", "C_E", ""),
     )  # fmt: skip
-    columns = [Column("Run", names), Column("Cable", _texts(runs))]
     # tensions with their own decimals: the impact of a steel wire is a hundred times that of a fishing line
-    columns += [
+    columns = [
         Column(title, list(_values(runs, name, "run")), unit, uniform=unit != "N" and name != "tension_coefficient")
         for name, title, unit in singles
     ]
+    head = [Column("Run", names), Column("Cable", _texts(runs))]
+    # two tables: one of all columns is wider than a page
+    measured = tuple(column for column in columns if column.unit)
+    numbers = tuple(column for column in columns if not column.unit)
     cables = runs.labels("cable")
     apart = [Column("Run", names)]
     for place, cable in enumerate(cables):
@@ -140,7 +143,10 @@ def _run_tables(runs: Group) -> list[Block]:
     over = tension / _values(runs, "impact_tension", "run")[:, None]
     ratios = [Column("Run", names)] + [Column(model, list(over[:, k])) for k, model in enumerate(models)]
     return [
-        Table("runs", "Runs", tuple(columns), note="Tensions are sums of both cables."),
+        Table("runs", "Runs", (*head, *measured), note="Tensions are sums of both cables."),
+        Table(
+            "numbers", "Numbers of the runs", (*head, *numbers), note="C_T is the impact by the speed of the current."
+        ),
         Table("cables", "Each cable", tuple(apart), note="Impact is peak less drag level of the cable."),
         Table("models", "Model over record, run by run", tuple(ratios)),
     ]

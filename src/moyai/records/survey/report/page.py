@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -11,6 +12,8 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.results import Result
+from moyai.records.survey.report.compass import come_from, with_bearings
+from moyai.records.survey.report.lanes import Span, flag_lanes
 from moyai.report.document import (
     Abscissa,
     Block,
@@ -113,6 +116,10 @@ class _Clock:
         span = float(self.start[-1] - self.start[0]) + self.length
         self.unit, divisor = ("d", 86400.0) if span > 3 * 86400.0 else (("h", 3600.0) if span > 7200.0 else ("s", 1.0))
         self.x = (self.start - self.start[0]) / divisor
+        # One block is a point in its middle, not a line
+        self.alone = self.start.size == 1
+        if self.alone:
+            self.x = self.x + 0.5 * self.length / divisor
         self.divisor = divisor
         self.label = f"time since {self.text(float(self.start[0]))}" if self.dated else "time"
 
@@ -130,6 +137,9 @@ class _Clock:
         return Column("start of block", list(self.start), "s", fixed=True)
 
     def figure(self, key: str, title: str, panels: Sequence[Panel], series: Sequence[Series], **more: Any) -> Figure:
+        if self.alone:
+            series = [replace(one, style="points") for one in series]
+            more["window"] = (0.0, self.length / self.divisor)
         return Figure(key, title, (Abscissa("time", self.label, self.unit),), tuple(panels), tuple(series), **more)
 
 
@@ -254,7 +264,9 @@ def _spectra(tree: Any, clock: _Clock) -> list[Block]:
         words = clock.text(float(clock.start[order[0]]))
         suffix = f" {gauge}" if len(gauges) > 1 else ""
         series.append(Series(f"block of {words}{suffix}", {"f": frequency}, density[order[0], column], 0, 2 * column))
-        series.append(Series(f"mean of the blocks{suffix}", {"f": frequency}, mean, 0, 2 * column + 1, dash="dash"))
+        if not clock.alone:
+            label = f"mean of the blocks{suffix}"
+            series.append(Series(label, {"f": frequency}, mean, 0, 2 * column + 1, dash="dash"))
     freedom = np.asarray(group["degrees_of_freedom"].values, dtype=float)
     caption = f"One-sided density; {np.nanmedian(freedom):.3g} degrees of freedom in a block."
     return [
@@ -272,11 +284,18 @@ def _spectra(tree: Any, clock: _Clock) -> list[Block]:
 def _directions(tree: Any, clock: _Clock) -> list[Block]:
     names = [name for name in ("mean_heading", "peak_heading", "spread", "peak_spread") if name in tree["directions"]]
     bearing = float(tree.attrs.get("x_axis_bearing_deg", math.nan))
+    compass = math.isfinite(bearing)
+    shown = {
+        name: come_from(_values(tree, "directions", name), bearing)
+        if compass and "heading" in name
+        else np.degrees(_values(tree, "directions", name))
+        for name in names
+    }
     series = [
         Series(
-            name.replace("_", " "),
+            name.replace("heading", "direction" if compass else "heading").replace("_", " "),
             {"time": clock.x},
-            np.degrees(_values(tree, "directions", name)),
+            shown[name],
             1 if "spread" in name else 0,
             tone,
             "points",
@@ -284,11 +303,18 @@ def _directions(tree: Any, clock: _Clock) -> list[Block]:
         for tone, name in enumerate(names)
     ]
     caption = "Headings are directions of travel: 0 along +x, 90 along +y."
-    if math.isfinite(bearing):
-        caption += f" +x points to the bearing {bearing:g} degrees."
-    panels = (Panel("heading", "deg"), Panel("spread", "deg", from_zero=True))
+    first = Panel("heading", "deg")
+    if compass:
+        caption = (
+            "Directions that the waves come from, clockwise from north: N 0, E 90, S 180, W 270. Headings of the table "
+            f"are directions of travel from +x, which points to the bearing {bearing:g} degrees."
+        )
+        first = Panel("coming from", "deg", limits=(0.0, 360.0))
+    panels = (first, Panel("spread", "deg", from_zero=True))
     columns = [(name, name.replace("_", " ")) for name in names]
     table = _block_table(tree, clock, "directions", "directions", "Directions of every block", columns, None)
+    if compass:
+        table = with_bearings(table, {name.split("_")[0]: shown[name] for name in names if "heading" in name}, "from")
     return [clock.figure("directions", "Directions of the waves", panels, series, caption=caption), table]
 
 
@@ -308,6 +334,10 @@ def _current(tree: Any, clock: _Clock) -> list[Block]:
     ]
     columns = [(name, words[name]) for name in words]
     table = _block_table(tree, clock, "current", "current", "Mean currents of every block", columns, None)
+    bearing = float(tree.attrs.get("x_axis_bearing_deg", math.nan))
+    if math.isfinite(bearing) and "current_heading" in tree["current"]:
+        towards = np.mod(come_from(_values(tree, "current", "current_heading"), bearing) + 180.0, 360.0)
+        table = with_bearings(table, {"current": towards}, "towards")
     return [clock.figure("current", "Mean currents", (Panel("current", "m/s"),), series), table]
 
 
@@ -433,10 +463,10 @@ def _whole(tree: Any, clock: _Clock) -> list[Block]:
         "Fits of the heights",
         (
             Column("gauge", gauges),
+            Column("waves", list(np.asarray(group["wave_count"].values, dtype=float))),
             *(
                 Column(label, list(np.asarray(group[name].values, dtype=float)), "", digits=4, uniform=False)
                 for name, label in (
-                    ("wave_count", "waves"),
                     ("weibull_shape", "Weibull shape (2: Rayleigh)"),
                     ("weibull_shape_error", "its standard error"),
                     ("weibull_scale", "Weibull scale"),
@@ -516,4 +546,10 @@ def _quality(tree: Any, clock: _Clock) -> list[Block]:
         ),
         collapsed=True,
     )
-    return [summary, listing]
+    channels = str(tree["blocks"].attrs.get("channels", "")).split("\n")
+    spans = [
+        Span(str(name), str(what), float(start), float(end))
+        for name, what, start, end in zip(channel, kind, group["start"].values, group["end"].values, strict=True)
+    ]
+    begin, end = float(clock.start[0]), float(clock.start[-1]) + clock.length
+    return [flag_lanes(channels, spans, begin, end, clock.text), summary, listing]

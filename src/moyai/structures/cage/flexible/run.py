@@ -15,6 +15,7 @@ from moyai.core.results import Result
 from moyai.flexible.flow import Current
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
+from moyai.structures.cage.conditions import height_notices
 from moyai.structures.cage.flexible.build import build_cage
 from moyai.structures.cage.flexible.checks import problem_notices, rest_checks, rest_notices, run_checks, run_notices
 from moyai.structures.cage.flexible.equilibrium import CageRest, solve_rest
@@ -85,7 +86,7 @@ def waves_of(problem: FlexibleCageProblem, sea: RegularWaves | IrregularSea, wat
     parts = sea_components(sea, water, (float(mean[0]), float(mean[1])))
     number = float(np.interp(2.0 * math.pi / period, np.sort(parts.omega), parts.wave_number[np.argsort(parts.omega)]))
     height = float(sea.spectrum.significant_height)
-    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
+    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
 
 
 def _steps(problem: FlexibleCageProblem, collected: Collected, progress: Progress) -> Iterator[None]:
@@ -152,13 +153,15 @@ def _sea_steps(
         label = f"wave {number + 1}" if wave.regular else "sea"
         if "time" in problem.settings.analyses:
             found = run_cage(model, rest, wave, problem.settings, progress=progress)
-            collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(model, found, problem.settings)
+            series = time_dataset(model, found, problem.settings)
+            collected.groups[f"{root}/time/{sea.name}/{label}"] = series
             collected.checks.extend(run_checks(sea.name, found))
             collected.notices.extend(run_notices(sea.name, found, problem.settings))
             if found.history.status == "interrupted":
                 raise KeyboardInterrupt
             if found.history.status == "not_converged":
                 collected.failures.append(f"{sea.name}, {wave.name}: {found.history.message}")
+            collected.notices.extend(height_notices(sea.name, series))
             yield
         if "sensitivity" in problem.settings.analyses and number == 0:
             collected.groups[f"{root}/sensitivity/{sea.name}"] = sensitivity_dataset(

@@ -166,6 +166,7 @@ def time_dataset(model: FlexibleCage, run: CageRun, settings: FlexibleSettings) 
                 "wavelength": run.wave.wavelength, "ramp": run.ramp, "step": history.step, "steps": history.steps,
                 "governing_time": float(time[governing]), "status": history.status, "regular": int(run.wave.regular),
                 "realised_height": 4.0 * float(surface[steady].std()), **wave_attributes(run.wave),
+                **({} if run.wave.seed is None else {"seed": run.wave.seed}),
             },
         )
     )  # fmt: skip

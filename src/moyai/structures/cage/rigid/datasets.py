@@ -173,6 +173,8 @@ def time_dataset(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...
     import xarray as xr
 
     motion = run.march.state[:, :3] - run.rest.place
+    ramp = problem.settings.ramp_periods * run.wave.period
+    steady = run.march.time >= min(ramp, float(run.march.time[-1]))
     return labelled(
         xr.Dataset(
             {
@@ -192,10 +194,12 @@ def time_dataset(problem: RigidCageProblem, run: Run, lines: tuple[CageLine, ...
                 "rest_x": run.rest.x,
                 "rest_z": run.rest.z,
                 "rest_roll": run.rest.theta,
-                "ramp": problem.settings.ramp_periods * run.wave.period,
+                "ramp": ramp,
                 "heading": float(run.wave.components.heading[0]),
                 "regular": int(run.wave.regular),
                 "size": size_of(problem.cage),
+                "realised_height": 4.0 * float(run.elevation[steady].std()),
+                **({} if run.wave.seed is None else {"seed": run.wave.seed}),
             },
         )
     )

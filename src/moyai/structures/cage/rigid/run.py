@@ -14,6 +14,7 @@ from moyai.core.results import Result
 from moyai.core.validity import Notice
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
+from moyai.structures.cage.conditions import height_notices
 from moyai.structures.cage.headlines import rigid_headlines
 from moyai.structures.cage.rigid.checks import (
     cage_notices,
@@ -159,7 +160,8 @@ def _sea_steps(
         found = run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else progress)
         runs.append(found)
         label = f"wave {number + 1}" if wave.regular else "sea"
-        collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(problem, found, lines)
+        series = time_dataset(problem, found, lines)
+        collected.groups[f"{root}/time/{sea.name}/{label}"] = series
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, water, runs, lines)
         told.extend(run_notices(problem, found))
         collected.checks.extend(run_checks(sea.name, problem, found, lines))
@@ -170,6 +172,7 @@ def _sea_steps(
             collected.failures.append(
                 f"{sea.name}, {wave.name}: the motion left all bounds at t = {found.march.time[-1]:.4g} s"
             )
+        collected.notices.extend(height_notices(sea.name, series))
         yield
     collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
     progress(f"time, {sea.name}", len(waves), len(waves))

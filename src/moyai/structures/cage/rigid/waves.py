@@ -34,6 +34,8 @@ class Wave:
     duration : float
         [s].
     regular : bool
+    seed : int or None
+        Of the phases of an irregular sea.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Wave:
     wavelength: float
     duration: float
     regular: bool
+    seed: int | None = None
 
 
 def current_along(problem: RigidCageProblem, water: Water) -> float:
@@ -74,7 +77,7 @@ def waves_of(problem: RigidCageProblem, sea: CageSea, water: Water) -> tuple[Wav
     parts = sea_components(sea, water, (flow, 0.0))
     number = float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, flow * sense))
     height = float(sea.spectrum.significant_height)
-    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False),)
+    return (Wave("sea", parts, height, period, 2.0 * math.pi / number, sea.duration, False, sea.seed),)
 
 
 def sea_components(sea: IrregularSea, water: Water, current: tuple[float, float]) -> WaveComponents:

@@ -442,4 +442,4 @@ def motion_of(name: str, entry: Any, folder: Path) -> model.MotionPlan:
             allowed="rising times",
         )  # fmt: skip
     table = Motion.from_table(rows[:, 0], rows[:, 1:])
-    return model.MotionPlan(name, "table", math.nan, table.end, table=table)
+    return model.MotionPlan(name, "table", math.nan, table.end, ramp=entry.ramp, table=table)

@@ -241,7 +241,7 @@ def _check_settings(model: NetworkCase, findings: Findings, folder: Path) -> Non
     dynamic = "dynamic" in model.analyses
     if model.waves and not dynamic:
         findings.warn(("analyses",), "the waves are not used: they need the analysis 'dynamic'")
-    if settings.duration is not None and dynamic and settings.skip >= settings.duration:
+    if dynamic and settings.duration is not None and (settings.skip or 0.0) >= settings.duration:
         findings.fault(("settings", "skip"), f"{settings.skip:g} s leave nothing of the run",
                        allowed=f"less than {settings.duration:g} s")  # fmt: skip
 

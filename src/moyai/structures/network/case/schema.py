@@ -165,8 +165,10 @@ class NetworkSettings(Block):
     stretching: Literal["wheeler", "linear", "constant"] = Field(
         default="wheeler", description="Kinematics of the waves above still water."
     )
-    skip: NonNegativeDuration = Field(
-        default=0.0, description="Beginning of each run that peaks and statistics leave out. Default: 0."
+    skip: NonNegativeDuration | None = Field(
+        default=None,
+        description="Beginning of each run that peaks and statistics leave out. Default: one mean period of a motion "
+        "that swings and begins displaced or at speed, else 0.",
     )
     sensitivity: Truth = Field(
         default=False,

@@ -192,6 +192,11 @@ class TableMotion(Block):
     rows: Annotated[tuple[tuple[NonNegativeDuration, Length, Length, Length], ...], Field(min_length=2)] | None = Field(
         default=None, description="Rows [time, x, y, z].", examples=[[["0 s", 0, 0, 0], ["10 s", 1, 0, 0]]]
     )
+    ramp: NonNegativeDuration | None = Field(
+        default=None,
+        description="Time over which it grows from nothing. Default: one mean period of a motion that swings and "
+        "begins displaced or at speed, else 0.",
+    )
 
 
 PointMotion = Annotated[HarmonicMotion | CircularMotion | TableMotion, Field(discriminator="kind")]

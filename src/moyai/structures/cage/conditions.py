@@ -1,0 +1,104 @@
+"""The conditions that the numbers of a cage's first page were found in: current, height and seed of the seas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from moyai.core.headline import Headline
+from moyai.core.validity import Notice
+from moyai.sea.validity import check_realised_height
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Groups = Mapping[str, "xr.Dataset"]
+
+
+def sea_words(name: str, run: xr.Dataset, current: float) -> str:
+    """Return a sea in words: its name or wave, the seed of an irregular one, and the current of the site.
+
+    Parameters
+    ----------
+    name : str
+        Name of the sea state.
+    run : xarray.Dataset
+        Its series over time.
+    current : float
+        Speed of the current of the site [m/s].
+    """
+    words = [name, str(run.attrs["wave"]) if int(run.attrs["regular"]) else f"seed {int(run.attrs['seed'])}"]
+    if current:
+        words.append(f"current {abs(current):.3g} m/s")
+    return ", ".join(words)
+
+
+def runs_of(groups: Groups) -> Iterator[tuple[str, str, xr.Dataset]]:
+    """Yield water level, name of the sea state and series of every run through time."""
+    for path, run in groups.items():
+        parts = path.strip("/").split("/")
+        if len(parts) == 4 and parts[1] == "time":
+            yield parts[0], parts[2], run
+
+
+def condition_headlines(groups: Groups) -> tuple[Headline, ...]:
+    """Return the current of the site, and the height of the irregular sea that fell shortest of what was asked.
+
+    Parameters
+    ----------
+    groups : mapping of str to xarray.Dataset
+        What was run, by its place in the result.
+    """
+    return (*_current(groups), *_height(groups))
+
+
+def height_notices(name: str, run: xr.Dataset) -> tuple[Notice, ...]:
+    """Tell of an irregular sea whose record is clearly lower than what was asked.
+
+    Parameters
+    ----------
+    name : str
+        Name of the sea state.
+    run : xarray.Dataset
+        Its series over time.
+    """
+    if int(run.attrs["regular"]):
+        return ()
+    return check_realised_height(name, float(run.attrs["realised_height"]), float(run.attrs["wave_height"]))
+
+
+def _current(groups: Groups) -> list[Headline]:
+    levels = {path[1:]: group.attrs for path, group in groups.items() if path.count("/") == 1}
+    speeds = {name: abs(float(attrs["current"])) for name, attrs in levels.items() if float(attrs["current"])}
+    if not speeds:
+        return []
+    level = max(speeds, key=lambda name: speeds[name])
+    swept = [
+        float(speed)
+        for name in levels
+        if (statics := groups.get(f"/{name}/statics")) is not None and "current_speed" in statics.coords
+        for speed in statics["current_speed"].values
+        if abs(float(speed) - speeds.get(name, 0.0)) > 1e-9 and speed > 0.0
+    ]
+    detail = f"the sweep of {min(swept):.3g} to {max(swept):.3g} m/s decides no number" if swept else ""
+    return [
+        Headline("current_speed", "design current speed", speeds[level], "m/s", level, detail=detail, condition=True)
+    ]
+
+
+def _height(groups: Groups) -> list[Headline]:
+    seas = [(level, name, run) for level, name, run in runs_of(groups) if not int(run.attrs["regular"])]
+    if not seas:
+        return []
+    level, name, run = min(seas, key=lambda sea: sea[2].attrs["realised_height"] / sea[2].attrs["wave_height"])
+    realised, asked = float(run.attrs["realised_height"]), float(run.attrs["wave_height"])
+    seeds = sorted({int(run.attrs["seed"]) for _, _, run in seas})
+    length = float(run["time"].values[-1]) - float(run.attrs["ramp"])
+    detail = f"{asked:.3g} m asked; {length:.4g} s after the start; seed{'s' if len(seeds) > 1 else ''} "
+    detail += ", ".join(map(str, seeds))
+    return [
+        Headline(
+            "realised_height", "realised significant wave height", realised, "m", f"{name}, {level}", detail=detail,
+            condition=True,
+        )
+    ]  # fmt: skip

@@ -1,0 +1,115 @@
+"""The report of a survey: flags over time, directions by the compass, a survey of one block."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from moyai.core.results import Result
+from moyai.records.survey.case.build import load_survey
+from moyai.records.survey.report.compass import come_from, name_of
+from moyai.records.survey.report.lanes import Span, flag_lanes
+from moyai.records.survey.report.page import compose
+from moyai.records.survey.run import run_survey
+from moyai.report.document import Document, Drawing, Figure, Table
+
+Blocks = dict[tuple[str, str], Any]
+BEARING = 30.0
+HEADING = math.atan2(0.15, 0.3)  # of the velocities below, from +x
+
+
+def survey(folder: Path, minutes: float) -> Result:
+    """Return a survey of waves that travel along HEADING, with a hole and a flat stretch."""
+    random = np.random.default_rng(1)
+    time = np.arange(0.0, 60.0 * minutes, 0.5)
+    level = 0.6 * np.sin(2.0 * np.pi * time / 6.3) + 0.02 * random.normal(size=time.size)
+    rows = ["time,level,u,v"]
+    for number, (now, value) in enumerate(zip(time, level, strict=True)):
+        shown = "" if 600 <= number < 700 else ("0.1234" if 800 <= number < 900 else f"{value:.4f}")
+        rows.append(f"{now:.1f},{shown},{0.1 + 0.3 * value:.4f},{0.05 + 0.15 * value:.4f}")
+    (folder / "a.csv").write_text("\n".join(rows))
+    (folder / "r.yaml").write_text(f"""
+moyai: 1
+title: survey
+site: {{water_depth: 10, density: 1025, gravity: 9.81, x_axis_bearing_deg: {BEARING}}}
+loggers:
+  - name: tower
+    file: a.csv
+    time: {{column: time}}
+    channels:
+      - {{name: elevation, column: level, unit: m, kind: elevation}}
+      - {{name: u, column: u, unit: m/s, kind: velocity_x, z: -4 m}}
+      - {{name: v, column: v, unit: m/s, kind: velocity_y, z: -4 m}}
+blocks: {{length: 5 min}}
+quality: {{flat: 10 s}}
+waves: {{channels: [elevation]}}
+spectrum: {{segment: 60 s, lowest: 0.04 Hz, highest: 0.5 Hz}}
+directions: {{channels: [elevation, u, v], estimator: moments}}
+current: {{velocity: [u, v]}}
+""")
+    return run_survey(load_survey(folder / "r.yaml"))
+
+
+def blocks_of(document: Document) -> Blocks:
+    """Return figures, drawings and tables by kind and key."""
+    found = [block for section in document.sections for block in section.blocks]
+    return {(type(block).__name__, block.key): block for block in found if isinstance(block, Drawing | Figure | Table)}
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Blocks:
+    return blocks_of(compose(survey(tmp_path_factory.mktemp("survey"), 15.0)))
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> Blocks:
+    return blocks_of(compose(survey(tmp_path_factory.mktemp("alone"), 5.0)))
+
+
+def test_bearings_are_the_way_back_clockwise_from_north() -> None:
+    """Waves that travel to the east come from the west; +x to the bearing 30 with a heading of 30 goes due north."""
+    assert come_from(0.0, 90.0) == pytest.approx(270.0)
+    assert come_from(math.radians(30.0), 30.0) == pytest.approx(180.0)
+    assert come_from(math.radians(-60.0), 30.0) == pytest.approx(270.0)
+    names = [name_of(value) for value in (0.0, 45.0, 90.0, 202.5, 359.0, math.nan)]
+    assert names == ["N", "NE", "E", "SSW", "N", ""]
+
+
+def test_the_table_of_directions_has_bearings(page: Blocks) -> None:
+    table = page["Table", "directions"]
+    want = (BEARING - math.degrees(HEADING) + 180.0) % 360.0
+    columns = {column.label: column.values for column in table.columns}
+    assert np.asarray(columns["mean from, bearing"], float)[0] == pytest.approx(want, abs=1.0)
+    assert columns["mean from"][0] == name_of(want)
+    columns = {column.label: column.values for column in page["Table", "current"].columns}
+    assert np.asarray(columns["current towards, bearing"], float)[0] == pytest.approx((want + 180.0) % 360.0, abs=1.0)
+
+
+def test_every_channel_has_a_lane_and_every_flag_its_span(page: Blocks) -> None:
+    drawing = page["Drawing", "flags"]
+    for name in ("elevation", "u", "v"):
+        assert f">{name}</text>" in drawing.svg
+    titles = re.findall(r"<title>(.*?)</title>", drawing.svg)
+    assert any(title.startswith("elevation: missing") for title in titles)
+    assert any(title.startswith("elevation: flat") for title in titles)
+
+
+def test_a_span_lies_where_its_time_is() -> None:
+    drawing = flag_lanes(("a", "bb"), [Span("bb", "spike", 25.0, 50.0)], 0.0, 100.0, str)
+    lanes = re.findall(r'<rect x="([\d.]+)" y="([\d.]+)" width="([\d.]+)"', drawing.svg)
+    (left, _, wide), (_, second, _), (x, y, width) = [tuple(map(float, lane)) for lane in lanes[:3]]
+    assert y == second
+    assert (x - left) / wide == pytest.approx(0.25, abs=1e-3) and width / wide == pytest.approx(0.25, abs=1e-3)
+
+
+def test_one_block_is_points_in_the_middle_of_its_time(alone: Blocks) -> None:
+    figure = alone["Figure", "waves"]
+    assert figure.window == (0.0, 300.0)
+    assert {series.style for series in figure.series} == {"points"}
+    assert all(list(series.x["time"]) == [150.0] for series in figure.series)
+    assert len(alone["Figure", "spectra"].series) == 1
