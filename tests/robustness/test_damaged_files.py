@@ -67,6 +67,17 @@ def test_a_matlab_variable_that_states_a_thousand_million_samples(tmp_path):
             list(read_mat(file, ["level"], 1000))
 
 
+def test_a_matlab_element_of_a_type_that_does_not_exist(tmp_path):
+    """A compiled reader follows the type past the end of its tables and takes the interpreter down."""
+    (file,) = KINDS["matlab_5"].write(tmp_path)
+    raw = bytearray(file.read_bytes())
+    place = raw.index(np.array([9, 3200], dtype="<u4").tobytes())
+    raw[place + 1] = 2
+    file.write_bytes(bytes(raw))
+    with pytest.raises(InputError, match=f"byte {place} begins an element of type 521, which does not exist"):
+        KINDS["matlab_5"].read(tmp_path)
+
+
 @pytest.mark.parametrize("kind", ["matlab_7_3", "netcdf_4", "bemio"])
 def test_an_hdf5_dataset_of_fill_values_that_states_a_thousand_million_samples(tmp_path, kind):
     import h5py

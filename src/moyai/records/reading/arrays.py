@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import math
 import re
 from collections.abc import Iterator, Sequence
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import open_netcdf, reads, require_plausible_size
+from moyai.records.reading.matlab_elements import check_elements
 from moyai.records.reading.text import RawChunk, plain_name, split_heading
 
 _ENTRY = re.compile(r"^(?P<name>.*?)\s*\[(?P<index>\s*-?\d+\s*(,\s*-?\d+\s*)*)\]\s*$")
@@ -267,10 +269,17 @@ def _mat_column(path: Path, column: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+@functools.lru_cache(maxsize=8)
+def _check_once(path: Path, size: int, changed: int) -> None:
+    """Walk through a file once for all its columns, as long as it stays as it is."""
+    check_elements(path)
+
+
 def _mat_variable(path: Path, name: str) -> Any:
     from scipy.io import loadmat, whosmat
 
     parts = name.split(".")
+    _check_once(path, path.stat().st_size, path.stat().st_mtime_ns)
     try:
         held = {str(entry[0]): entry[1] for entry in whosmat(path)}
     except NotImplementedError:
