@@ -93,6 +93,17 @@ def test_an_hdf5_dataset_of_fill_values_that_states_a_thousand_million_samples(t
         KINDS[kind].read(tmp_path)
 
 
+@pytest.mark.parametrize("kind", ["netcdf_4", "result", "capytaine"])
+def test_a_heap_of_hdf5_that_the_library_does_not_come_back_from(tmp_path, kind):
+    (file,) = KINDS[kind].write(tmp_path)
+    raw = bytearray(file.read_bytes())
+    place = raw.index(b"GCOL")
+    raw[place + 16 : place + 32] = bytes(16)
+    file.write_bytes(bytes(raw))
+    with pytest.raises(InputError, match=f"the heap at byte {place} holds an object of size zero"):
+        KINDS[kind].read(tmp_path)
+
+
 def test_a_line_longer_than_the_csv_module_takes(tmp_path):
     for kind in ("flume", "measured_points", "scatter", "study_rows", "csv"):
         (file,) = KINDS[kind].write(tmp_path)

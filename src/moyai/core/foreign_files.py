@@ -15,8 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 from moyai.core.errors import InputError, MoyaiError
+from moyai.core.hdf5_heaps import stuck_heap
 
 if TYPE_CHECKING:
+    import h5py
     import xarray as xr
 
 LARGEST_COMPRESSION = 1100.0
@@ -183,12 +185,28 @@ def netcdf_engine(path: Path, kind: str, *, named: str = "file") -> Literal["h5n
             head = stream.read(8)
         if head[:3] == b"CDF":
             return "scipy"
-        import h5py
-
         # The HDF5 library speaks first: xarray's engine leaves a half-made object that complains when it is collected
-        with h5py.File(path, "r") as stored:
+        with open_hdf5(path) as stored:
             stored.attrs.get("_nc3_strict")
         return "h5netcdf"
+
+
+@contextmanager
+def open_hdf5(path: Path) -> Iterator[h5py.File]:
+    """Open an HDF5 file to be read, after a look for what the library would not come back from.
+
+    Raises
+    ------
+    OSError
+        When it is no HDF5 file or damaged; :func:`reading` words it.
+    """
+    import h5py
+
+    heap = stuck_heap(path) if path.stat().st_size else -1
+    if heap >= 0:
+        raise OSError(f"the heap at byte {heap} holds an object of size zero")
+    with h5py.File(path, "r") as stored:
+        yield stored
 
 
 def _first_line(error: BaseException) -> str:

@@ -16,7 +16,7 @@ import xarray as xr
 
 from moyai.core.arrays import ComplexArray
 from moyai.core.errors import InputError
-from moyai.core.foreign_files import reads, require_plausible_size
+from moyai.core.foreign_files import open_hdf5, reads, require_plausible_size
 from moyai.interop.coefficients import DOFS, assemble
 
 
@@ -43,12 +43,10 @@ def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int 
     InputError
         Not such a file, no such body, coupling with other bodies.
     """
-    import h5py
-
     file = Path(path)
     if not file.is_file():
         raise InputError(f"no such file: {file}", path="coefficients")
-    with h5py.File(file, "r") as stored:
+    with open_hdf5(file) as stored:
         stored.visititems(lambda name, item: _require_size(file, name, item))
         for name in ("simulation_parameters", f"body{body}/hydro_coeffs/added_mass/all"):
             if name not in stored:

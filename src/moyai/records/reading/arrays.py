@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
-from moyai.core.foreign_files import open_netcdf, reads, require_plausible_size
+from moyai.core.foreign_files import open_hdf5, open_netcdf, reads, require_plausible_size
 from moyai.records.reading.matlab_elements import check_elements
 from moyai.records.reading.text import RawChunk, plain_name, split_heading
 
@@ -301,7 +301,7 @@ def _mat_hdf5(path: Path, parts: Sequence[str]) -> Any:
     """Read a variable of a version 7.3 file, which is HDF5 with its axes reversed."""
     import h5py
 
-    with h5py.File(path, "r") as file:
+    with open_hdf5(path) as file:
         node: Any = file
         for part in parts:
             if not isinstance(node, h5py.Group) or part not in node:
