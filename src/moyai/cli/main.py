@@ -41,6 +41,7 @@ from moyai.cli.study import study
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
+    from moyai.report.document import Document
 
 # Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
 # commands, reads these at its import; whoever sets them keeps his own.
@@ -229,6 +230,7 @@ def run(
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
         from moyai.core.compiled import when_compiling
+        from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
@@ -240,20 +242,15 @@ def run(
             count = len(case.warnings)
             if count:
                 tell(f"{count} warning{'s' if count > 1 else ''} on the case, see below")
-        with progress_bars(quiet) as progress, when_compiling(lambda: None if quiet else tell(COMPILING)):
-            result = run_case(case, progress, keep=folder / "coefficients")
-        files, document = [result.write(folder / "results.nc")], None
-        if report:
-            from moyai.report.writer import compose_document, write_report
-
-            with progress_bars(quiet) as progress:
-                progress("report", 0, 1)
-                document = compose_document(result)
-                if others:
-                    from moyai.report.differences import with_others
-
-                    document = with_others(document, result, others)
-                files += write_report(result, folder, pdf=pdf, document=document)
+        document = None
+        with alone_in(folder), staged_outputs(folder) as staged:
+            with progress_bars(quiet) as progress, when_compiling(lambda: None if quiet else tell(COMPILING)):
+                result = run_case(case, progress, keep=folder / "coefficients")
+            files = [result.write(staged / "results.nc")]
+            if report:
+                document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
+                files += pages
+            files = put_in_place(staged, folder, files)
         if document is not None and getattr(case.model, "measured", None):
             from moyai.report.overlay import misplaced_points
 
@@ -272,6 +269,22 @@ def run(
             if result.verdict.outcome == "does not hold":
                 tell(f"design does not hold: {result.verdict.message}")
         raise typer.Exit(exit_code(result, require_hold=require_hold))
+
+
+def _report(
+    result: Result, folder: Path, others: tuple[Any, ...], *, pdf: bool, quiet: bool
+) -> tuple[Document, list[Path]]:
+    """Write the report into a folder; return its document and files."""
+    from moyai.report.writer import compose_document, write_report
+
+    with progress_bars(quiet) as progress:
+        progress("report", 0, 1)
+        document = compose_document(result)
+        if others:
+            from moyai.report.differences import with_others
+
+            document = with_others(document, result, others)
+        return document, write_report(result, folder, pdf=pdf, document=document)
 
 
 def _others(paths: list[Path] | None, report: bool) -> tuple[Any, ...]:
