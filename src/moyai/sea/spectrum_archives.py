@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.foreign_files import netcdf_engine, open_netcdf, reads
+from moyai.sea.direction_widths import direction_widths
 from moyai.sea.spectra import from_table
 from moyai.sea.spectrum import Spectrum
 from moyai.sea.spectrum_wavespectra import kind_of, read_with_wavespectra
@@ -256,12 +257,10 @@ def _swan_block(
     factor = float(lines.next().split()[0])
     raw = lines.numbers(count * directions.size).reshape(count, directions.size)
     spread = np.where(raw == exception, 0.0, raw) * factor * unit
-    step = 360.0 / directions.size if directions.size > 1 else 1.0
-    if directions.size > 1 and abs(abs(directions[1] - directions[0]) - step) > 0.1:
-        step = float(abs(directions[1] - directions[0]))
+    widths = direction_widths(directions) if directions.size > 1 else np.ones(1)
     # Cartesian directions are where the waves go, counter-clockwise from east
     came_from = directions if nautical else (270.0 - directions) % 360.0
-    return spread.sum(axis=1) * step, mean_direction(spread, came_from, frequency)
+    return spread @ widths, mean_direction(spread * widths, came_from, frequency)
 
 
 def _ww3_text(text: str, file: Path) -> SpectrumArchive:
@@ -271,7 +270,7 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
         raise lines.fault("the heading lacks the numbers of frequencies, directions and points")
     count, turns, points = (int(item) for item in heading.groups())
     frequency, directions = lines.numbers(count), lines.numbers(turns)
-    step = 2.0 * math.pi / turns
+    widths = np.radians(direction_widths(np.degrees(directions)))
     times: list[str] = []
     places: list[str] = []
     density: list[list[Array]] = []
@@ -287,9 +286,9 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
                 places.append(name)
             # Fortran order: frequency runs first; values per radian and hertz
             spread = lines.numbers(count * turns).reshape(turns, count).T
-            density[-1].append(spread.sum(axis=1) * step)
+            density[-1].append(spread @ widths)
             # Like in its NetCDF files, directions are where the waves go, clockwise from north (here in radians)
-            mean[-1].append(mean_direction(spread, (np.degrees(directions) + 180.0) % 360.0, frequency))
+            mean[-1].append(mean_direction(spread * widths, (np.degrees(directions) + 180.0) % 360.0, frequency))
     return SpectrumArchive("ww3", tuple(times), tuple(places), frequency, np.array(density), np.array(mean))
 
 
@@ -323,16 +322,25 @@ def _ww3_netcdf(file: Path) -> SpectrumArchive:
         if name is None:
             spread = spread[:, None]
         times = tuple(str(value)[:16] for value in data["time"].values)
-        step = 2.0 * math.pi / directions.size
+        widths = np.radians(direction_widths(directions))
         # In WAVEWATCH III's point files the directions are where the waves go, clockwise from north
         came_from = (directions + 180.0) % 360.0
-        mean = np.array([[mean_direction(np.nan_to_num(one), came_from, frequency) for one in row] for row in spread])
+        mean = np.array(
+            [[mean_direction(np.nan_to_num(one) * widths, came_from, frequency) for one in row] for row in spread]
+        )
         places = tuple(f"station {number + 1}" for number in range(spread.shape[1]))
-        return SpectrumArchive("ww3", times, places, frequency, spread.sum(axis=-1) * step, mean)
+        return SpectrumArchive("ww3", times, places, frequency, spread @ widths, mean)
 
 
 def _ndbc(text: str, file: Path) -> SpectrumArchive:
     rows = [line for line in text.splitlines() if line.strip()]
+    if re.search(r"\b(WDIR|WSPD|WVHT|WTMP|PRES|BAR)\b", rows[0], re.IGNORECASE):
+        raise InputError(
+            f"{file.name} holds meteorological observations of NDBC, no spectra",
+            path="file",
+            allowed="NDBC's spectral wave density (swden, data_spec or the yearly file NNNNNwYYYY)",
+            remedy="fetch the station's spectral wave density",
+        )
     paired = "(" in rows[1] if len(rows) > 1 else False
     times, density = [], []
     if paired:
