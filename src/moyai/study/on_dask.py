@@ -216,8 +216,8 @@ def _client(on: Any) -> Iterator[Any]:
             raise InputError(
                 f"no scheduler answers at {on}: {type(error).__name__}",
                 path="on",
-                remedy="start one with 'dask scheduler --host HOST', workers with 'dask worker tcp://HOST:8786 --nthreads 1', "
-                "HOST 127.0.0.1 on one machine",
+                remedy="start one with 'dask scheduler --host HOST' (127.0.0.1 on one machine) and workers with "
+                "'dask worker tcp://HOST:8786 --nthreads 1'",
             ) from None
     try:
         # Not the client's own note of the scheduler: it is renewed beside, without the workers
