@@ -16,6 +16,7 @@ import numpy as np
 
 from moyai.case.yaml_text import decode
 from moyai.core.errors import CaseError, InputError
+from moyai.core.foreign_files import reads
 from moyai.core.quantities import Kind
 from moyai.core.units import Unit, parse_unit
 from moyai.core.vocabulary import MEASURED_GROUP
@@ -28,6 +29,7 @@ _HEADING = re.compile(r"^\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*$")
 _NAME = re.compile(r"[A-Za-z]\w*")
 
 
+@reads("a table of points")
 def read_points(
     path: Path, columns: Mapping[str, str], key: str, kinds: Mapping[str, Kind] | None = None
 ) -> dict[str, tuple[float, ...]]:
@@ -93,6 +95,7 @@ class Pairs:
     y_unit: str = ""
 
 
+@reads("a table of points")
 def read_pairs(path: Path, key: str) -> Pairs:
     """Read a CSV of two columns, x and y, with or without a header.
 

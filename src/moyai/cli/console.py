@@ -31,7 +31,11 @@ class Debug:
 
 
 def prepare_streams() -> None:
-    """Let the streams replace what the console's encoding cannot show, instead of failing."""
+    """Let the streams replace what the console's encoding cannot show; those that are closed lead to nowhere."""
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 - as long as the process
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
@@ -115,6 +119,11 @@ def guard(as_json: bool = False) -> Iterator[None]:
     except Exception as error:
         if Debug.on:
             raise
+        if type(error).__name__ == "LinAlgError":
+            # Numbers of the case that are each allowed, and too far apart for a system of equations
+            remedy = "look for a stiffness, mass or damping that is far larger or smaller than the others"
+            fault = Fault(f"the equations of the case cannot be solved: {error}", remedy=remedy)
+            stop([fault], FAILED, as_json=as_json)
         message = f"internal error, {type(error).__name__}: {error}"
         remedy = "this is a fault of moyai; run again with --debug and report what it prints"
         stop([Fault(message, remedy=remedy)], FAILED, as_json=as_json)

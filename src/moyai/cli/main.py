@@ -46,6 +46,7 @@ from moyai.core.wording import counted
 
 if TYPE_CHECKING:
     from moyai.core.results import Result
+    from moyai.report.document import Document
 
 # Small matrices by the thousand: threads of the linear algebra cost more than they give. Numpy, imported inside the
 # commands, reads these at its import; whoever sets them keeps his own.
@@ -231,6 +232,7 @@ def run(
         from moyai.case.reader import load_case
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
+        from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
@@ -243,20 +245,15 @@ def run(
                 count = len(case.warnings)
                 if count:
                     tell(f"{counted(count, 'warning')} on the case, see below")
-            with progress_bars(quiet) as progress:
-                result = run_case(case, progress, keep=folder / "coefficients")
-        files, document = [result.write(folder / "results.nc")], None
-        if report:
-            from moyai.report.writer import compose_document, write_report
-
-            with progress_bars(quiet) as progress:
-                progress("report", 0, 1)
-                document = compose_document(result)
-                if others:
-                    from moyai.report.differences import with_others
-
-                    document = with_others(document, result, others)
-                files += write_report(result, folder, pdf=pdf, document=document)
+            document = None
+            with alone_in(folder), staged_outputs(folder) as staged:
+                with progress_bars(quiet) as progress:
+                    result = run_case(case, progress, keep=folder / "coefficients")
+                files = [result.write(staged / "results.nc")]
+                if report:
+                    document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
+                    files += pages
+                files = put_in_place(staged, folder, files)
         if document is not None and getattr(case.model, "measured", None):
             from moyai.report.overlay import misplaced_points
 
@@ -297,6 +294,22 @@ def _compiling(kind: str, quiet: bool) -> Iterator[None]:
 
     with when_compiling(say_once), compiling_ahead(kind):
         yield
+
+
+def _report(
+    result: Result, folder: Path, others: tuple[Any, ...], *, pdf: bool, quiet: bool
+) -> tuple[Document, list[Path]]:
+    """Write the report into a folder; return its document and files."""
+    from moyai.report.writer import compose_document, write_report
+
+    with progress_bars(quiet) as progress:
+        progress("report", 0, 1)
+        document = compose_document(result)
+        if others:
+            from moyai.report.differences import with_others
+
+            document = with_others(document, result, others)
+        return document, write_report(result, folder, pdf=pdf, document=document)
 
 
 def _others(paths: list[Path] | None, report: bool) -> tuple[Any, ...]:

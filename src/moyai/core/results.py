@@ -18,6 +18,7 @@ import numpy as np
 
 from moyai.core.errors import InputError, MoyaiError
 from moyai.core.files import partial_file
+from moyai.core.foreign_files import netcdf_engine, reads, require_plausible_size
 from moyai.core.headline import Headline, Verdict, without_computation
 from moyai.core.validity import IdentityCheck, Notice
 
@@ -169,6 +170,7 @@ def write_result(result: Result, path: Path) -> Path:
     return path
 
 
+@reads("a result of moyai", named="result")
 def read_result(path: str | os.PathLike[str]) -> Result:
     """Read a result written by :meth:`Result.write`.
 
@@ -182,11 +184,12 @@ def read_result(path: str | os.PathLike[str]) -> Result:
     file = Path(path)
     if not file.exists():
         raise InputError(f"no such file: {file}", path="result")
-    try:
-        with xr.open_datatree(file, engine="h5netcdf") as stored:
-            tree = _map_tree(stored.load(), join_complex)
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"{file} cannot be read as a result: {error}", path="result") from error
+    if netcdf_engine(file, "a result of moyai", named="result") != "h5netcdf":
+        raise InputError(f"{file} was not written by moyai: it is NetCDF 3", path="result")
+    with xr.open_datatree(file, engine="h5netcdf") as stored:
+        for node in stored.subtree:
+            require_plausible_size(file, node.nbytes, f"group '{node.path}'", named="result")
+        tree = _map_tree(stored.load(), join_complex)
     attributes = tree.attrs
     if "status" not in attributes or "checks" not in attributes:
         raise InputError(f"{file} was not written by moyai (no status or checks in it)", path="result")

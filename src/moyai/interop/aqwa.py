@@ -14,12 +14,14 @@ import numpy as np
 import xarray as xr
 
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.interop.coefficients import DOFS, assemble
 from moyai.interop.textfiles import parse_number, read_lines
 
 Sections = dict[str, list[list[float]]]
 
 
+@reads("a file of AQWA", named="coefficients")
 def read_aqwa(path: str | Path) -> xr.Dataset:
     """Read one structure from an .AH1 file.
 

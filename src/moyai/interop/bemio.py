@@ -16,9 +16,11 @@ import xarray as xr
 
 from moyai.core.arrays import ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import open_hdf5, reads, require_plausible_size
 from moyai.interop.coefficients import DOFS, assemble
 
 
+@reads("a file of BEMIO", named="coefficients")
 def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int = 1) -> xr.Dataset:
     """Read one body of a BEMIO file.
 
@@ -41,16 +43,11 @@ def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int 
     InputError
         Not such a file, no such body, coupling with other bodies.
     """
-    import h5py
-
     file = Path(path)
     if not file.is_file():
         raise InputError(f"no such file: {file}", path="coefficients")
-    try:
-        stored = h5py.File(file, "r")
-    except OSError as error:
-        raise InputError(f"{file.name} is not HDF5: {error}", path="coefficients") from error
-    with stored:
+    with open_hdf5(file) as stored:
+        stored.visititems(lambda name, item: _require_size(file, name, item))
         for name in ("simulation_parameters", f"body{body}/hydro_coeffs/added_mass/all"):
             if name not in stored:
                 raise InputError(f"{file.name} holds no {name}", path="body", remedy="was it written by BEMIO?")
@@ -101,6 +98,10 @@ def read_bemio(path: str | Path, *, reference_point: Sequence[float], body: int 
         limits={"infinite_frequency_added_mass": infinite.T * mass_scale},
         hydrostatic_stiffness=stiffness * force_scale,
     )
+
+
+def _require_size(file: Path, name: str, item: Any) -> None:
+    require_plausible_size(file, getattr(item, "nbytes", 0), f"'{name}'", named="coefficients")
 
 
 def _scalar(dataset: Any) -> float:

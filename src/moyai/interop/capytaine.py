@@ -10,12 +10,14 @@ import xarray as xr
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import open_netcdf, reads
 from moyai.core.results import join_complex
 from moyai.interop.coefficients import assemble, require
 
 _FORCES = ("excitation_force", "Froude_Krylov_force", "diffraction_force")
 
 
+@reads("a file of Capytaine", named="coefficients")
 def read_capytaine(
     path: str | Path, *, reference_point: Sequence[float] | None = None, body: str | None = None
 ) -> xr.Dataset:
@@ -43,13 +45,8 @@ def read_capytaine(
     file = Path(path)
     if not file.is_file():
         raise InputError(f"no such file: {file}", path="coefficients")
-    with file.open("rb") as stream:
-        engine = "h5netcdf" if stream.read(4) == b"\x89HDF" else "scipy"
-    try:
-        with xr.open_dataset(file, engine=engine) as stored:
-            raw = join_complex(stored.load())
-    except (OSError, ValueError, TypeError, KeyError) as error:
-        raise InputError(f"{file.name} cannot be read as NetCDF: {error}", path="coefficients") from error
+    with open_netcdf(file, "a file of Capytaine", named="coefficients") as stored:
+        raw = join_complex(stored.load())
     for name in ("added_mass", "radiation_damping"):
         if name not in raw:
             raise InputError(f"{file.name} holds no {name}", path="coefficients", remedy="was it written by Capytaine?")

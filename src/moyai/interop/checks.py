@@ -72,9 +72,10 @@ def check_time_convention(dataset: xr.Dataset) -> tuple[Notice, ...]:
     forces = low["excitation_force"].values
     for j, angle in enumerate(low["wave_direction"].values):
         for name, part in (("Surge", math.cos(angle)), ("Sway", math.sin(angle))):
-            if name in names and abs(part) > 0.5:
+            if name in names and abs(part) > 0.4:
                 force = forces[j, names.index(name)]
-                if -force.imag * part < 0.5 * abs(force):
+                # Its size falls with the cosine of the direction, its phase does not
+                if -force.imag * math.copysign(1.0, part) < 0.5 * abs(force):
                     notices.append(
                         Notice(
                             "time-convention",

@@ -11,6 +11,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.interop.textfiles import parse_number, read_lines
 
 #: Factors to SI of the units that MoorDyn prints.
@@ -52,6 +53,7 @@ class MoorDynOutput:
         raise InputError(f"no channel {name!r}", path="channel", allowed=", ".join(self.channels))
 
 
+@reads("an output file of MoorDyn", named="output")
 def read_output(path: str | Path) -> MoorDynOutput:
     """Read an output file (``.out``) of MoorDyn, by itself or within OpenFAST.
 

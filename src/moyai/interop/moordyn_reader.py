@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from moyai.core.errors import CaseError
+from moyai.core.foreign_files import reads
 from moyai.interop import moordyn_keys as keys
 from moyai.interop.moordyn_bodies import (
     BODY_COLUMNS,
@@ -329,6 +330,7 @@ def _check_site(deck: MoorDynDeck, faults: Faults) -> None:
             faults.add(point.line, f"free point {point.number} hangs on no line", path="points")
 
 
+@reads("a deck of MoorDyn", named="deck")
 def read_deck(path: str | Path) -> MoorDynDeck:
     """Read a MoorDyn input file, version 1 or 2.
 

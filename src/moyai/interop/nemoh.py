@@ -17,6 +17,7 @@ import xarray as xr
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.interop.coefficients import DOFS, assemble
 from moyai.interop.textfiles import leading_numbers, parse_number, read_lines
 
@@ -36,6 +37,7 @@ class _Control:
     frequency_type: int
 
 
+@reads("results of NEMOH", named="coefficients")
 def read_nemoh(folder: str | Path) -> xr.Dataset:
     """Read the results of one body.
 

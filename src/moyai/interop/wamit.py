@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.core.options import checks_words
 from moyai.interop.coefficients import DOFS, assemble, require
 from moyai.interop.textfiles import find_companion, leading_numbers, read_lines, read_table
@@ -45,6 +46,7 @@ class _Surroundings:
 
 
 @checks_words
+@reads("a file of WAMIT", named="coefficients")
 def read_wamit(
     path: str | Path,
     *,

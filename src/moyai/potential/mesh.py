@@ -31,8 +31,8 @@ _LARGEST_CREST = 4.0
 _LARGEST_TURN = 0.3 * math.pi
 # exp(-_SHADE) is what is left of a wave where its short length no longer matters
 _SHADE = 7.0
-#: Most panels of one problem: dense matrices of some 8000 nodes, 1 GB each; ordinary sections have 20 to 300
-MOST_PANELS = 4000
+#: Most panels of one problem: dense matrices of some 5000 nodes, 0.4 GB each; ordinary sections have 20 to 300
+MOST_PANELS = 600
 
 
 @dataclass(frozen=True)
@@ -312,12 +312,12 @@ def _cut(
     return parts
 
 
-def too_many_panels(most: int = MOST_PANELS) -> InputError:
+def too_many_panels() -> InputError:
     """Return the error of a section that no reasonable number of panels resolves."""
     return InputError(
-        f"the section in its water needs more than {most} panels on one side",
+        f"the section in its water needs more than {MOST_PANELS} panels on one side",
         path="structure.section",
-        allowed=f"at most {most} panels",
+        allowed=f"at most {MOST_PANELS} panels",
         remedy="its largest length is far beyond its smallest gap, edge or draught, or beyond the shortest wave: check "
         "the units of beam, draught, points and periods",
     )

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import netcdf_engine, open_netcdf, reads
+from moyai.sea.direction_widths import direction_widths
 from moyai.sea.spectra import from_table
 from moyai.sea.spectrum import Spectrum
 from moyai.sea.spectrum_wavespectra import kind_of, read_with_wavespectra
@@ -72,6 +74,7 @@ class SpectrumArchive:
         return np.asarray(4.0 * np.sqrt(np.trapezoid(self.density, self.frequency, axis=-1)))
 
 
+@reads("a file of spectra")
 def read_archive(path: str | Path) -> SpectrumArchive:
     """Read a file of spectra; its format is found from its content.
 
@@ -254,12 +257,10 @@ def _swan_block(
     factor = float(lines.next().split()[0])
     raw = lines.numbers(count * directions.size).reshape(count, directions.size)
     spread = np.where(raw == exception, 0.0, raw) * factor * unit
-    step = 360.0 / directions.size if directions.size > 1 else 1.0
-    if directions.size > 1 and abs(abs(directions[1] - directions[0]) - step) > 0.1:
-        step = float(abs(directions[1] - directions[0]))
+    widths = direction_widths(directions) if directions.size > 1 else np.ones(1)
     # Cartesian directions are where the waves go, counter-clockwise from east
     came_from = directions if nautical else (270.0 - directions) % 360.0
-    return spread.sum(axis=1) * step, mean_direction(spread, came_from, frequency)
+    return spread @ widths, mean_direction(spread * widths, came_from, frequency)
 
 
 def _ww3_text(text: str, file: Path) -> SpectrumArchive:
@@ -269,7 +270,7 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
         raise lines.fault("the heading lacks the numbers of frequencies, directions and points")
     count, turns, points = (int(item) for item in heading.groups())
     frequency, directions = lines.numbers(count), lines.numbers(turns)
-    step = 2.0 * math.pi / turns
+    widths = np.radians(direction_widths(np.degrees(directions)))
     times: list[str] = []
     places: list[str] = []
     density: list[list[Array]] = []
@@ -285,14 +286,15 @@ def _ww3_text(text: str, file: Path) -> SpectrumArchive:
                 places.append(name)
             # Fortran order: frequency runs first; values per radian and hertz
             spread = lines.numbers(count * turns).reshape(turns, count).T
-            density[-1].append(spread.sum(axis=1) * step)
+            density[-1].append(spread @ widths)
             # Like in its NetCDF files, directions are where the waves go, clockwise from north (here in radians)
-            mean[-1].append(mean_direction(spread, (np.degrees(directions) + 180.0) % 360.0, frequency))
+            mean[-1].append(mean_direction(spread * widths, (np.degrees(directions) + 180.0) % 360.0, frequency))
     return SpectrumArchive("ww3", tuple(times), tuple(places), frequency, np.array(density), np.array(mean))
 
 
 def _netcdf(file: Path) -> SpectrumArchive:
     """Read point spectra of WAVEWATCH III; other programs' files by wavespectra."""
+    netcdf_engine(file, "a file of spectra")
     try:
         return _ww3_netcdf(file)
     except InputError as error:
@@ -308,13 +310,7 @@ def _netcdf(file: Path) -> SpectrumArchive:
 
 
 def _ww3_netcdf(file: Path) -> SpectrumArchive:
-    import xarray as xr
-
-    try:
-        data = xr.open_dataset(file, engine="scipy" if file.read_bytes()[:3] == b"CDF" else "h5netcdf")
-    except (OSError, ValueError) as error:
-        raise InputError(f"{file.name} cannot be read: {error}", path="file") from None
-    with data:
+    with open_netcdf(file, "a file of spectra") as data:
         if "efth" not in data or "frequency" not in data or "direction" not in data:
             held = ", ".join(map(str, list(data.data_vars)[:6]))
             raise InputError(f"{file.name} holds no WAVEWATCH III spectra (efth)", path="file", allowed=f"found {held}")
@@ -326,16 +322,25 @@ def _ww3_netcdf(file: Path) -> SpectrumArchive:
         if name is None:
             spread = spread[:, None]
         times = tuple(str(value)[:16] for value in data["time"].values)
-        step = 2.0 * math.pi / directions.size
+        widths = np.radians(direction_widths(directions))
         # In WAVEWATCH III's point files the directions are where the waves go, clockwise from north
         came_from = (directions + 180.0) % 360.0
-        mean = np.array([[mean_direction(np.nan_to_num(one), came_from, frequency) for one in row] for row in spread])
+        mean = np.array(
+            [[mean_direction(np.nan_to_num(one) * widths, came_from, frequency) for one in row] for row in spread]
+        )
         places = tuple(f"station {number + 1}" for number in range(spread.shape[1]))
-        return SpectrumArchive("ww3", times, places, frequency, spread.sum(axis=-1) * step, mean)
+        return SpectrumArchive("ww3", times, places, frequency, spread @ widths, mean)
 
 
 def _ndbc(text: str, file: Path) -> SpectrumArchive:
     rows = [line for line in text.splitlines() if line.strip()]
+    if re.search(r"\b(WDIR|WSPD|WVHT|WTMP|PRES|BAR)\b", rows[0], re.IGNORECASE):
+        raise InputError(
+            f"{file.name} holds meteorological observations of NDBC, no spectra",
+            path="file",
+            allowed="NDBC's spectral wave density (swden, data_spec or the yearly file NNNNNwYYYY)",
+            remedy="fetch the station's spectral wave density",
+        )
     paired = "(" in rows[1] if len(rows) > 1 else False
     times, density = [], []
     if paired:
@@ -344,21 +349,23 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
             values = [float(item) for item in re.findall(r"([\d.]+)\s+\(", row)]
             if len(values) != frequency.size:
                 raise InputError(f"{file.name}, line {number}: {len(values)} values, not {frequency.size}", path="file")
-            times.append(_stamp(*row.split()[:5]))
+            times.append(_stamp(row.split()[:5], f"{file.name}, line {number}"))
             # 999 stands for missing
             density.append([math.nan if value >= 999.0 else value for value in values])
     else:
         header = rows[0].lstrip("#").split()
         leading = 5 if "mm" in header[:6] else 4
-        frequency = np.array([float(item) for item in header[leading:]])
+        frequency = np.array([_number(item, f"{file.name}, line 1") for item in header[leading:]])
         for number, row in enumerate(rows[1:], start=2):
             words = row.split()
             if words[0].startswith("#"):
                 continue
             if len(words) != len(header):
                 raise InputError(f"{file.name}, line {number}: {len(words)} values, not {len(header)}", path="file")
-            times.append(_stamp(words[0], words[1], words[2], words[3], words[4] if leading == 5 else "00"))
-            density.append([math.nan if float(item) >= 999.0 else float(item) for item in words[leading:]])
+            where = f"{file.name}, line {number}"
+            times.append(_stamp([*words[:leading], "00"][:5], where))
+            values = [_number(item, where) for item in words[leading:]]
+            density.append([math.nan if value >= 999.0 else value for value in values])
     order = np.argsort(times)
     table = np.array(density)[order][:, None, :]
     direction = _ndbc_direction(file, len(times), order)
@@ -390,7 +397,19 @@ def _ndbc_direction(file: Path, count: int, order: NDArray[np.intp]) -> Array:
     return np.asarray((mean % 360.0)[order][:, None])
 
 
-def _stamp(year: str, month: str, day: str, hour: str, minute: str) -> str:
-    whole = int(year) if int(year) > 100 else 1900 + int(year)
-    moment = datetime(whole, int(month), int(day), int(hour), int(minute), tzinfo=UTC)
+def _number(word: str, place: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        raise InputError(f"{place}: {word[:40]!r} is not a number", path="file") from None
+
+
+def _stamp(words: list[str], place: str) -> str:
+    """Return ISO 8601 of year, month, day, hour and minute; years of two digits are of the last century."""
+    try:
+        year, month, day, hour, minute = map(int, words)
+        moment = datetime(year if year > 100 else 1900 + year, month, day, hour, minute, tzinfo=UTC)
+    except ValueError:
+        shown = " ".join(words)[:40]
+        raise InputError(f"{place}: {shown!r} is no year, month, day, hour, minute", path="file") from None
     return moment.strftime("%Y-%m-%dT%H:%M")

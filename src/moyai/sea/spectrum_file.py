@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 
 
 def spectrum_table(
@@ -106,6 +107,7 @@ def _column(wanted: int | str, header: list[str] | None, width: int, file: Path)
     return wanted - 1
 
 
+@reads("a table of a spectrum")
 def read_spectrum_file(
     path: Any, frequency_column: int | str, density_column: int | str
 ) -> tuple[list[float], list[float], list[int]]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from moyai.core.errors import InputError
+from moyai.sea.direction_widths import direction_widths
 
 if TYPE_CHECKING:
     from moyai.sea.spectrum_archives import SpectrumArchive
@@ -120,10 +121,11 @@ def _archive(data: Any, name: str) -> SpectrumArchive | None:
         directions = np.asarray(data["dir"].values, dtype=float)
         # A circle that is closed twice (0 and 360 degrees) counts once
         _, once = np.unique(np.mod(directions, 360.0), return_index=True)
-        whole = np.nan_to_num(table[..., once])
+        widths = direction_widths(directions[once])
+        whole = np.nan_to_num(table[..., once]) * widths
         for place in np.ndindex(*mean.shape):
             mean[place] = mean_direction(whole[place], directions[once], frequency)
-        density = np.where(np.isfinite(table).any(axis=-1), whole.sum(axis=-1) * 360.0 / once.size, math.nan)
+        density = np.where(np.isfinite(table).any(axis=-1), whole.sum(axis=-1), math.nan)
     else:
         density = table
     if "time" in spread.coords:

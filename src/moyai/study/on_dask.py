@@ -25,6 +25,8 @@ _ASK = 1.0
 _ASKS = 100.0
 """Every task asks the scheduler once a second whether the study was stopped; many of them more rarely, so that no more
 than a hundred questions come a second."""
+_LOST = frozenset({"ClosedClientError", "CommClosedError", "FutureCancelledError", "FuturesCancelledError"})
+"""Errors of the client whose scheduler is gone; their modules differ between versions of dask."""
 _POST = 100_000
 """Bytes of a record above which it is fetched from its worker instead of being posted by the scheduler."""
 
@@ -129,6 +131,9 @@ def _records(client: Any, ended: list[tuple[Any, Combination]], posted: dict[int
         record = found.get(future.key) if letter is None else pickle.loads(letter)
         if record is not None:
             yield record
+        elif future.status in ("cancelled", "lost"):
+            # The case did not fail: whoever knew of it is gone. Without a record it is run again
+            raise _lost_scheduler()
         elif future.status != "finished":
             yield Record(combination.index, "failed", f"the cluster gave it up: {future.exception()}", 0.0, {})
     # All of them in the client's own thread: from here each would wake it up once
@@ -211,7 +216,8 @@ def _client(on: Any) -> Iterator[Any]:
             raise InputError(
                 f"no scheduler answers at {on}: {type(error).__name__}",
                 path="on",
-                remedy="start one with 'dask scheduler' and workers with 'dask worker tcp://HOST:8786 --nthreads 1'",
+                remedy="start one with 'dask scheduler --host HOST' (127.0.0.1 on one machine) and workers with "
+                "'dask worker tcp://HOST:8786 --nthreads 1'",
             ) from None
     try:
         # Not the client's own note of the scheduler: it is renewed beside, without the workers
@@ -222,9 +228,21 @@ def _client(on: Any) -> Iterator[Any]:
                 remedy="start some with 'dask worker tcp://HOST:8786 --nthreads 1'",
             )
         yield client
+    except Exception as error:
+        if type(error).__name__ in _LOST:
+            raise _lost_scheduler() from error
+        raise
     finally:
         if ours:
             client.close(timeout=5)
+
+
+def _lost_scheduler() -> InputError:
+    return InputError(
+        "the connection to the scheduler of the cluster was lost",
+        path="on",
+        remedy="start the scheduler and its workers and give the same command again: it goes on with the cases left",
+    )
 
 
 def _address(text: str) -> str:

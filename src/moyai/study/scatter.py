@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 
 _TOLERANCE = 1e-3
 
@@ -31,6 +32,7 @@ class SeaState:
     probability: float
 
 
+@reads("a scatter diagram", named="scatter.file")
 def read_scatter(file: Path, *, counts: bool = False) -> tuple[SeaState, ...]:
     """Read a scatter diagram from CSV.
 

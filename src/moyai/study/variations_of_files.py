@@ -9,6 +9,7 @@ from typing import Any
 
 from moyai.case.paths import resolve, value_of
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.study import schema
 from moyai.study.axes import Axis, Ground, Point
 from moyai.study.scatter import read_scatter
@@ -37,6 +38,7 @@ def table(given: schema.TableOfCases, ground: Ground) -> tuple[Axis, ...]:
     return (Axis(given.name, tuple(points)),)
 
 
+@reads("a table")
 def read_rows(file: Path) -> list[dict[str, str]]:
     """Return the rows of a CSV file by column.
 

@@ -65,3 +65,12 @@ def test_signals_end_a_long_run_with_a_partial_result(case_file, tmp_path, numbe
     assert b"interrupted" in output
     assert read_result(out / "results.nc").status == "interrupted"
     assert [path.name for path in out.iterdir()] == ["results.nc"]
+
+
+@pytest.mark.parametrize("closing", [">&-", ">&- 2>&-", "| true"])
+@pytest.mark.parametrize("command", ["new", "new breakwater --json", "schema"])
+def test_closed_standard_output_ends_without_a_traceback(tmp_path, command, closing):
+    line = f"{sys.executable} -m moyai {command} 2>{tmp_path / 'errors'} {closing}"
+    subprocess.run(["/bin/sh", "-c", line], check=False)
+    errors = (tmp_path / "errors").read_text(encoding="utf-8")
+    assert "Traceback" not in errors and "internal error" not in errors

@@ -202,14 +202,12 @@ def test_aqwa_round_trip(tmp_path):
         read_aqwa(tmp_path / "off.AH1")
 
 
-@pytest.mark.parametrize("scaled", [False, True])
-def test_bemio_round_trip(tmp_path, scaled):
+def write_bemio(path, body, *, scaled=False):
     h5py = pytest.importorskip("h5py")
-    body = random_body(17)
     density, gravity = 1013.0, 9.8
     mass, force = (1.0, 1.0) if scaled else (density, density * gravity)
     damping = np.ones(4) if scaled else density * body["omega"]
-    with h5py.File(tmp_path / "b.h5", "w") as file:
+    with h5py.File(path, "w") as file:
         parameters = {"rho": density, "g": gravity, "scaled": float(scaled)}
         for name, value in parameters.items():
             file[f"simulation_parameters/{name}"] = [[value]]
@@ -223,6 +221,12 @@ def test_bemio_round_trip(tmp_path, scaled):
         group["linear_restoring_stiffness"] = np.diag([0.0, 0.0, 5.0, 6.0, 7.0, 0.0])
         group["excitation/re"] = body["force"].real.transpose(2, 1, 0) / force
         group["excitation/im"] = -body["force"].imag.transpose(2, 1, 0) / force
+
+
+@pytest.mark.parametrize("scaled", [False, True])
+def test_bemio_round_trip(tmp_path, scaled):
+    body = random_body(17)
+    write_bemio(tmp_path / "b.h5", body, scaled=scaled)
     dataset = read_bemio(tmp_path / "b.h5", reference_point=(0.0, 0.0, -2.0))
     check(dataset, body, 1e-12)
     assert math.isinf(dataset.water_depth)

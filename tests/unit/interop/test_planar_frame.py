@@ -204,3 +204,16 @@ def test_checks_see_a_conjugated_force_and_a_negative_damping():
     wrong["added_mass"].values[:, 0, 4] += wrong["added_mass"].values[:, 0, 0]
     assert not check_coefficients(wrong)[0].passed
     assert neglected_coupling(dataset, "beam") > 0.01
+
+
+@pytest.mark.parametrize("degrees", [-120.0, -60.0, -30.0, 0.0, 30.0, 60.0, 120.0, 180.0])
+def test_the_time_convention_is_judged_by_the_phase_in_oblique_waves(degrees):
+    """The force of long waves falls with the cosine of the direction; its phase, and with it the verdict, stays."""
+    part = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    dataset = random_dataset(np.random.default_rng(5), (0.0, 0.0, 0.0), np.radians([degrees]))
+    lag = np.exp(0.3j)  # the lowest frequency of a file is not quite the limit
+    dataset["excitation_force"].values[0, 0, :3] = [-3.0j * part[0] * lag, -3.0j * part[1] * lag, 10.0]
+    assert check_time_convention(dataset) == ()
+    wrong = dataset.copy(deep=True)
+    wrong["excitation_force"] = wrong["excitation_force"].conj()
+    assert {notice.code for notice in check_time_convention(wrong)} == {"time-convention"}

@@ -7,6 +7,7 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.potential import shapes
+from moyai.potential.mesh import MOST_PANELS, Resolution
 from moyai.potential.modes import Modes, rigid_modes
 from moyai.potential.sections import Hull, Outline
 from moyai.potential.solver import solve
@@ -385,3 +386,11 @@ def test_a_hull_that_is_not_set_into_the_water_says_what_to_do():
         solve(hull, water, [1.0], modes=rigid_modes((0.0, 0.0)))
     with pytest.raises(InputError, match="tuple is no Modes"):
         solve(hull.immersed(draught=1.0), water, [1.0], modes=("sway",))
+
+
+def test_a_section_that_memory_does_not_hold_is_refused_before_it_is_built():
+    """The dense matrix of the most panels stays below half a gigabyte; 4000 of eight nodes would take 16."""
+    section = shapes.rectangle(3000.0, 4.0).immersed(3.0)
+    with pytest.raises(InputError, match=f"more than {MOST_PANELS} panels"):
+        solve(section, Water(200.0, 1025.0, GRAVITY), [math.pi], modes=rigid_modes((0.0, -1.0)))
+    assert (Resolution().order * MOST_PANELS) ** 2 * 16 < 0.5e9

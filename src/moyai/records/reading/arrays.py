@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import functools
+import math
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -12,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import open_hdf5, open_netcdf, reads, require_plausible_size
+from moyai.records.reading.matlab_elements import check_elements
 from moyai.records.reading.text import RawChunk, plain_name, split_heading
 
 _ENTRY = re.compile(r"^(?P<name>.*?)\s*\[(?P<index>\s*-?\d+\s*(,\s*-?\d+\s*)*)\]\s*$")
@@ -39,16 +43,10 @@ def _entry(column: str) -> tuple[str, tuple[int, ...]]:
 
 
 def _netcdf(path: Path) -> Any:
-    import xarray as xr
-
-    try:
-        return xr.open_dataset(path, decode_times=False, cache=False)
-    except (OSError, ValueError, KeyError) as error:
-        # xarray's own words go on about engines
-        told = str(error).splitlines()[0][:120] if isinstance(error, OSError) and str(error) else "it holds none"
-        raise InputError(f"{path.name} cannot be read as NetCDF: {told}", path="file") from None
+    return open_netcdf(path, "a NetCDF file", decode_times=False, cache=False)
 
 
+@reads("a NetCDF file")
 def read_netcdf(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]:
     """Yield chunks of NetCDF variables, with fill value, scale and offset applied.
 
@@ -137,6 +135,7 @@ def _reference(text: str) -> float | None:
     return day.timestamp() + 3600.0 * hours + 60.0 * minutes + seconds - zone
 
 
+@reads("a NetCDF file")
 def netcdf_unit(path: Path, column: str) -> str:
     """Return the unit attribute of a variable, empty where there is none."""
     with _netcdf(path) as dataset:
@@ -154,12 +153,17 @@ def _parquet(path: Path) -> Any:
         raise InputError(
             f"{path.name}: reading Parquet needs pyarrow", path="file", remedy="pip install 'moyai[parquet]'"
         ) from None
-    try:
-        return parquet.ParquetFile(path, pre_buffer=False, buffer_size=1 << 20)
-    except (OSError, ValueError) as error:  # ArrowInvalid is a ValueError
-        raise InputError(f"{path.name} cannot be read as Parquet: {error}", path="file") from None
+    file = parquet.ParquetFile(path, pre_buffer=False, buffer_size=1 << 20)
+    require_plausible_size(path, _parquet_bytes(file.metadata), "columns")
+    return file
 
 
+def _parquet_bytes(stated: Any) -> int:
+    """Return the bytes of the largest group of rows, the part that is taken into memory at a time."""
+    return max((stated.row_group(place).total_byte_size for place in range(stated.num_row_groups)), default=0)
+
+
+@reads("a Parquet file")
 def read_parquet(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]:
     """Yield chunks of Parquet columns; stamps come as seconds since 1970, in UTC where they know their zone."""
     import pyarrow as pa
@@ -196,6 +200,7 @@ def _parquet_name(path: Path, column: str, names: Sequence[str]) -> str:
     raise _missing("column", path, column, names)
 
 
+@reads("a Parquet file")
 def parquet_unit(path: Path, column: str) -> str:
     """Return the unit that a column states in its name or metadata, empty where it states none."""
     file = _parquet(path)
@@ -208,6 +213,7 @@ def parquet_unit(path: Path, column: str) -> str:
     return split_heading(name)[1]
 
 
+@reads("a Parquet file")
 def parquet_stamps(path: Path, column: str) -> tuple[bool, str]:
     """Return whether a Parquet column holds time stamps, and the time zone they know (then stored in UTC)."""
     import pyarrow as pa
@@ -220,6 +226,7 @@ def parquet_stamps(path: Path, column: str) -> tuple[bool, str]:
 # --------------------------------------------------------------------------------------------------- MATLAB
 
 
+@reads("a MATLAB file")
 def read_mat(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]:
     """Yield chunks of MATLAB variables (all versions); ``data[2]`` is the third column of a matrix, ``s.x`` a field."""
     arrays = {column: _mat_column(path, column) for column in wanted}
@@ -234,6 +241,7 @@ def read_mat(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]
         yield RawChunk({column: array[first : first + rows] for column, array in arrays.items()}, first)
 
 
+@reads("a MATLAB file")
 def check_mat(path: Path, column: str) -> None:
     """Say what is wrong where a MATLAB file has no such column of numbers."""
     _mat_column(path, column)
@@ -261,23 +269,26 @@ def _mat_column(path: Path, column: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+@functools.lru_cache(maxsize=8)
+def _check_once(path: Path, size: int, changed: int) -> None:
+    """Walk through a file once for all its columns, as long as it stays as it is."""
+    check_elements(path)
+
+
 def _mat_variable(path: Path, name: str) -> Any:
-    from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
+    from scipy.io import loadmat, whosmat
 
     parts = name.split(".")
+    _check_once(path, path.stat().st_size, path.stat().st_mtime_ns)
     try:
-        content = loadmat(path, variable_names=[parts[0]], squeeze_me=True, struct_as_record=False)
-        content = {key: value for key, value in content.items() if not key.startswith("__")}
+        held = {str(entry[0]): entry[1] for entry in whosmat(path)}
     except NotImplementedError:
         return _mat_hdf5(path, parts)
-    except (OSError, ValueError, MatReadError, TypeError, IndexError) as error:
-        raise InputError(f"{path.name} cannot be read as a MATLAB file: {error}", path="file") from None
-    found: Any = content.get(parts[0])
-    if found is None:
-        from scipy.io import whosmat
-
-        raise _missing("variable", path, parts[0], [entry[0] for entry in whosmat(path)])
+    if parts[0] not in held:
+        raise _missing("variable", path, parts[0], list(held))
+    # At least a byte an entry is stored, before compression
+    require_plausible_size(path, math.prod(map(float, held[parts[0]])), f"'{parts[0]}'")
+    found: Any = loadmat(path, variable_names=[parts[0]], squeeze_me=True, struct_as_record=False)[parts[0]]
     for part in parts[1:]:
         fields = getattr(found, "_fieldnames", [])
         if part not in fields:
@@ -290,7 +301,7 @@ def _mat_hdf5(path: Path, parts: Sequence[str]) -> Any:
     """Read a variable of a version 7.3 file, which is HDF5 with its axes reversed."""
     import h5py
 
-    with h5py.File(path, "r") as file:
+    with open_hdf5(path) as file:
         node: Any = file
         for part in parts:
             if not isinstance(node, h5py.Group) or part not in node:
@@ -298,4 +309,5 @@ def _mat_hdf5(path: Path, parts: Sequence[str]) -> Any:
             node = node[part]
         if not isinstance(node, h5py.Dataset):
             raise InputError(f"{path.name}: '{'.'.join(parts)}' is a structure", path="column", remedy="name a field")
+        require_plausible_size(path, node.nbytes, f"'{'.'.join(parts)}'")
         return np.asarray(node[()]).T

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.records.reading.sources import LoggerSource
 
 _UNIT = re.compile(r"^(?P<name>.*?)\s*[\[\(](?P<unit>[^\[\]\(\)]*)[\]\)]\s*$")
@@ -121,6 +122,7 @@ class TextLayout:
     width: int
 
 
+@reads("a table")
 def find_layout(path: Path, source: LoggerSource) -> TextLayout:
     """Find out encoding, delimiter, headings and the first line of samples."""
     encoding = find_encoding(path, source.encoding)
@@ -229,6 +231,7 @@ def place_of(column: str | int, headings: Sequence[str], width: int, file: str) 
     )
 
 
+@reads("a table")
 def read_text(
     path: Path, source: LoggerSource, wanted: Sequence[str | int], stamps: Sequence[str | int], rows: int
 ) -> Iterator[RawChunk]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.foreign_files import reads
 from moyai.core.validity import Notice
 from moyai.records.survey.reflection import Separation, separate_waves
 from moyai.sea.dispersion import group_velocity, wave_number
@@ -167,6 +168,7 @@ class RegularRun:
         return self.names.index(channel)
 
 
+@reads("a table of comma-separated columns", named="record")
 def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = None) -> FlumeRecord:
     """Read a comma-separated record: one heading row ``name [unit]``, then numbers.
 

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 #: Longest line that is looked for, over the line of the case
 _LONGEST = 3.0
-#: Panels of a case: matrices of some 5000 nodes, 0.4 GB each
-_MOST_PANELS = 600
 
 
 def count_panels(unit: FloatingUnit) -> None:
@@ -30,16 +28,14 @@ def count_panels(unit: FloatingUnit) -> None:
     InputError
         For a section that needs more panels than memory and time allow.
     """
-    from moyai.potential.mesh import Resolution, lay_out, too_many_panels
+    from moyai.potential.mesh import Resolution, lay_out
     from moyai.sea.dispersion import wave_number
     from moyai.structures.breakwater.hydrodynamics import band
 
     omega = band(unit).omega
     water = unit.water
     numbers = wave_number(np.array([omega.min(), omega.max()]), water.depth, water.gravity)
-    layout = lay_out(unit.section, water.depth, (float(numbers[0]), float(numbers[1])), Resolution())
-    if len(layout.panels.pieces) > _MOST_PANELS:
-        raise too_many_panels(_MOST_PANELS)
+    lay_out(unit.section, water.depth, (float(numbers[0]), float(numbers[1])), Resolution())
 
 
 def check_chain_on_bed(
