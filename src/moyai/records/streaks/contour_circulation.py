@@ -299,6 +299,18 @@ def _summary(
                 remedy="choose smaller contours, or give pictures of a larger field",
             )
         )
+    used = ratio[inside & (ratio >= least - 1e-12)]
+    if used.size < 3:
+        notices.append(
+            Notice(
+                "contours-few",
+                f"{used.size} contours of Bc/B >= {least:g} carry the circulation to the section: two unknowns pass "
+                "through two values, so that no misfit shows and the interval holds the scatter of the particles only",
+                value=float(used.size),
+                limit=3.0,
+                remedy="ask for more contours beyond this size, or give pictures of a larger field",
+            )
+        )
     return Circulation(
         ratio,
         value,
