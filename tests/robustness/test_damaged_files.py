@@ -1,7 +1,7 @@
 """Damaged files of every kind that is read end in a sound result or in one error of moyai's, never in a traceback.
 
-The seeds are fixed; ``MOYAI_FUZZ_SEED`` sets another. A failure names kind and seed: ``python
-tests/robustness/mutation.py KIND SEED 1`` makes it again.
+The seeds are fixed; ``MOYAI_FUZZ_SEED`` sets another, ``MOYAI_FUZZ_COUNT`` the number of files a kind. A failure names
+kind and seed: ``python tests/robustness/mutation.py KIND SEED 1`` makes it again.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from sample_files import KINDS  # noqa: E402
 from moyai.core.errors import InputError  # noqa: E402
 
 SEED = int(os.environ.get("MOYAI_FUZZ_SEED", "1000"))
+COUNT = os.environ.get("MOYAI_FUZZ_COUNT", "150")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -36,7 +37,7 @@ def test_damage_ends_in_an_error_of_moyai(kind):
 def test_much_damage_ends_in_an_error_of_moyai(kind):
     print(f"seed {SEED + 10_000}")
     ended = subprocess.run(
-        [sys.executable, HERE / "mutation.py", kind, str(SEED + 10_000), "1500"],
+        [sys.executable, HERE / "mutation.py", kind, str(SEED + 10_000), COUNT],
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert (ended.returncode, ended.stdout.strip(), ended.stderr) == (0, "", "")

@@ -33,6 +33,8 @@ _LARGEST_TURN = 0.3 * math.pi
 _SHADE = 7.0
 #: Most panels of one problem: dense matrices of some 5000 nodes, 0.4 GB each; ordinary sections have 20 to 300
 MOST_PANELS = 600
+# Rays that serve all frequencies of an oblique heading are never solved as a whole: each frequency has shorter ones
+_MOST_ON_A_RAY = 4000
 
 
 @dataclass(frozen=True)
@@ -312,6 +314,18 @@ def _cut(
     return parts
 
 
+def require_memory(layout: Layout) -> None:
+    """Refuse panels whose dense matrices memory does not hold.
+
+    Raises
+    ------
+    InputError
+        For more than :data:`MOST_PANELS`.
+    """
+    if len(layout.panels.pieces) > MOST_PANELS:
+        raise too_many_panels()
+
+
 def too_many_panels() -> InputError:
     """Return the error of a section that no reasonable number of panels resolves."""
     return InputError(
@@ -394,7 +408,7 @@ def _ray(
         pieces.append(Piece(x + s * RAY_DIRECTION, size * RAY_DIRECTION, 0.0, grade, RAY, -1))
         s += size
         size = min(resolution.growth * s, around.longest)
-        if len(pieces) > MOST_PANELS:
+        if len(pieces) > _MOST_ON_A_RAY:
             raise too_many_panels()
     return pieces
 
@@ -511,6 +525,4 @@ def lay_out(
     else:
         pieces = list(body.panels.pieces[: body.body_count // body.panels.order])
     surface = _surface_pieces(section, around, axis, band, resolution)
-    if len(pieces) + len(surface) > MOST_PANELS:
-        raise too_many_panels()
     return Layout(make_panels(pieces + surface, resolution.order), len(pieces) * resolution.order, axis)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray
-from moyai.potential.mesh import Layout
+from moyai.potential.mesh import Layout, require_memory
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
 from moyai.potential.quadrature import add_helmholtz, add_helmholtz_slopes, add_rankine, add_rankine_slopes
 
@@ -131,6 +131,7 @@ def influence(
 
 def reduce_blocks(layout: Layout, depth: float, lid: float, crest_wave_number: float = 0.0) -> list[Block]:
     """Assemble the problem and eliminate the body; ``lid`` damps the enclosed free surface [eq:potential-lid]."""
+    require_memory(layout)
     body = slice(0, layout.body_count)
     surface = slice(layout.body_count, None)
     absorbing = np.where(layout.panels.kind[surface] == GAP, 1.0 + 1j * lid, 1.0)

@@ -20,6 +20,8 @@ from moyai.records.streaks.camera_calibration import Calibration
 from moyai.records.streaks.circulation_law import PUBLISHED, check_amplitude, fit_circulation_law, inertia_reduction
 from moyai.records.streaks.contour_circulation import Circulation, measure_circulation
 from moyai.records.streaks.drift_interpolation import Interpolation
+from moyai.records.streaks.flow import SectionMap
+from moyai.records.streaks.orbital_bias import Orbits
 from moyai.records.streaks.overlay import overlay_picture
 from moyai.records.streaks.run import (
     BackgroundDrift,
@@ -96,6 +98,8 @@ class Campaign:
     resamples, seed : int
     notices : tuple of Notice
         What its calibration gave rise to.
+    shape : SectionMap or None
+        Map of the section, from which the bias of the circulation is found; ``None`` for a polygon.
     """
 
     title: str
@@ -117,6 +121,7 @@ class Campaign:
     confidence: float = 0.95
     seed: int = 0
     notices: tuple[Notice, ...] = ()
+    shape: SectionMap | None = None
 
     @property
     def breadth(self) -> float:
@@ -242,6 +247,9 @@ def _measure_run(
     drift = cloud.velocity - (background.at(cloud.position) if background is not None else 0.0)
     # One lucky fit must not outweigh all others
     floor = float(np.median(cloud.deviation))
+    orbits = None
+    if campaign.shape is not None:
+        orbits = Orbits(campaign.shape, run.period, run.amplitude_x, campaign.sense * run.amplitude_z)
     circulation = measure_circulation(
         cloud.position,
         drift,
@@ -253,6 +261,7 @@ def _measure_run(
         resamples=campaign.resamples,
         confidence=campaign.confidence,
         seed=campaign.seed,
+        orbits=orbits,
         progress=progress,
     )
     kept = ~circulation.outlier
@@ -404,6 +413,7 @@ def _run_dataset(campaign: Campaign, item: _Measured) -> xr.Dataset:
             "limit": found.limit,
             "limit_interval": np.array(found.limit_interval),
             "stokes_term": found.stokes_term,
+            "estimator_bias": found.bias,
             "linear": found.linear,
             "linear_interval": np.array(found.linear_interval),
             "measured_reduction": item.run.measured_reduction,

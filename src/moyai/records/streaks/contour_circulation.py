@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -19,8 +19,10 @@ from moyai.records.streaks.drift_interpolation import (
     interpolation_matrix,
     outliers,
     remainder_smoothing,
+    robust_deviation,
     trend,
 )
+from moyai.records.streaks.orbital_bias import Orbits, orbital_bias
 
 Extrapolation = Literal["stokes", "linear"]
 
@@ -34,7 +36,7 @@ class Circulation:
     size_ratio : ndarray
         Sizes Bc/B of the contours.
     value, deviation : ndarray
-        Circulation of each contour [m2/s] and its standard error from resampling the particles; NaN where the contour
+        Circulation of each contour [m2/s] and its standard error from drawn clouds; NaN where the contour
         leaves the cloud of particles.
     limit, limit_interval : float, (float, float)
         Circulation G without the Stokes drift, and its confidence interval [m2/s].
@@ -45,9 +47,11 @@ class Circulation:
     confidence : float
         Level of the intervals.
     samples : ndarray, shape (samples, contours)
-        Circulation of the resampled clouds [m2/s].
+        Circulation of the drawn clouds [m2/s].
     outlier : ndarray of bool, shape (particles,)
         Particles left out because they lie off their neighbours.
+    bias : float
+        What interpolation and extrapolation add, taken off ``limit`` and its interval [m2/s]; NaN where unknown.
     notices : tuple of Notice
     """
 
@@ -62,6 +66,7 @@ class Circulation:
     confidence: float
     samples: Array
     outlier: NDArray[np.bool_]
+    bias: float = math.nan
     notices: tuple[Notice, ...] = field(default_factory=tuple)
 
 
@@ -179,6 +184,7 @@ def measure_circulation(
     resamples: int = 200,
     confidence: float = 0.95,
     seed: int = 0,
+    orbits: Orbits | None = None,
     progress: Progress = silent,
 ) -> Circulation:
     """Measure the circulation around a section from scattered drift velocities.
@@ -199,11 +205,13 @@ def measure_circulation(
     least_ratio : float
         Smallest contour for the fit with the Stokes term.
     resamples : int
-        Number of resampled clouds behind the intervals; 0 for none.
+        Number of drawn clouds behind the intervals; 0 for none.
     confidence : float
         Level of the intervals.
     seed : int
         Of the resampling.
+    orbits : Orbits, optional
+        The waves past the section: what the estimate adds on their exact drift is taken off [eq:streaks-bias].
     progress : Progress
 
     Returns
@@ -228,42 +236,86 @@ def measure_circulation(
     error = np.ones(len(points)) if deviation is None else np.asarray(deviation, dtype=float)
     length = float(np.ptp(shape[:, 0]))
     outlier = outliers(points, vectors, error, length)
+    if orbits is not None:
+        # a place that no orbit leads around cannot be held against the exact drift
+        outlier = outlier | np.isnan(orbits.drift(points, 0.0)[0]).any(axis=1)
     points, vectors, error = points[~outlier], vectors[~outlier], error[~outlier]
     contours = [contour_points(shape, item) for item in ratio]
-    targets = np.vstack(contours)
-    limits = np.cumsum([0, *(len(item) for item in contours)])
-
-    def evaluate(weight: Array, smoothing: float | None) -> Array:
-        chosen = weight > 0.0
-        place, value = points[chosen], vectors[chosen]
-        spread = error[chosen] / np.sqrt(weight[chosen])
-        if method == "spline":
-            base, at_points = trend(place, value, spread, length, targets)
-            field_values = at_points + interpolation_matrix(place, targets, spread, smoothing or 0.0) @ (value - base)
-        else:
-            field_values = interpolation_matrix(place, targets, spread, None) @ value
-        pieces = [slice(limits[i], limits[i + 1]) for i in range(ratio.size)]
-        return np.array([line_integral(targets[piece], field_values[piece]) for piece in pieces])
-
-    whole = np.ones(len(points))
     smoothing = remainder_smoothing(points, vectors, error, length) if method == "spline" else None
+
+    def evaluate(place: Array, value: Array, spread: Array, robust: Array) -> Array:
+        return _along(contours, place, value, spread, robust, length, smoothing)
+
     inside = _covered(points, contours)
-    value = np.where(inside, evaluate(whole, smoothing), np.nan)
+    robust = robust_deviation(points, vectors, error, length)
+    value = np.where(inside, evaluate(points, vectors, error, robust), np.nan)
     if not np.isfinite(value).any():
         raise InputError(
             "no contour lies within the cloud of particles",
             path="contours",
             remedy="choose sizes Bc/B within the pictures",
         )
+    bias, exact = 0.0, np.full_like(points, np.nan)
+    if orbits is not None:
+
+        def limit_of(known: NDArray[np.bool_], place: Array, drift: Array) -> float:
+            # smoothed and weighted as the measured drift is: the estimate is linear then, errors do not shift its mean
+            values = np.where(inside, evaluate(place, drift, error[known], robust[known]), np.nan)
+            return extrapolate_stokes(ratio, values, least=least_ratio)[0]
+
+        bias, exact = orbital_bias(orbits, points, extrapolate_stokes(ratio, value, least=least_ratio)[0], limit_of)
     generator = np.random.default_rng(seed)
     samples = np.full((resamples, ratio.size), np.nan)
     for index in range(resamples):
         progress("circulation", index, resamples)
-        weight = np.bincount(generator.integers(0, len(points), len(points)), minlength=len(points)).astype(float)
-        samples[index] = np.where(inside, evaluate(weight, smoothing), np.nan)
+        drawn = _resampled(points, vectors, error, exact, generator)
+        samples[index] = np.where(inside, evaluate(*drawn, robust_deviation(*drawn, length)), np.nan)
     if resamples:
         progress("circulation", resamples, resamples)
-    return _summary(ratio, value, samples, least_ratio, confidence, inside, outlier)
+    summary = _summary(ratio, value, samples, least_ratio, confidence, inside, outlier)
+    if orbits is None:
+        return summary
+    low, high = summary.limit_interval
+    return replace(summary, limit=summary.limit - bias, limit_interval=(low - bias, high - bias), bias=bias)
+
+
+def _resampled(
+    points: Array, vectors: Array, error: Array, exact: Array, generator: np.random.Generator
+) -> tuple[Array, Array, Array]:
+    """Return places, drift and standard errors of a drawn cloud.
+
+    With the exact drift known, its misfits are drawn and the places stay. Without it, particles are drawn, some twice:
+    the interval then counts the error of an interpolation that misses a third of the places, and is too wide.
+    """
+    known = np.isfinite(exact).all(axis=1)
+    if known.any():
+        misfit = ((vectors - exact) / error[:, None])[known]
+        drawn = misfit[generator.integers(0, len(misfit), len(misfit))]
+        return points[known], exact[known] + error[known, None] * drawn, error[known]
+    weight = np.bincount(generator.integers(0, len(points), len(points)), minlength=len(points)).astype(float)
+    chosen = weight > 0.0
+    return points[chosen], vectors[chosen], error[chosen] / np.sqrt(weight[chosen])
+
+
+def _along(
+    contours: list[Array],
+    place: Array,
+    value: Array,
+    spread: Array,
+    robust: Array,
+    length: float,
+    smoothing: float | None,
+) -> Array:
+    """Return the circulation along contours; ``smoothing`` is ``None`` for triangles."""
+    targets = np.vstack(contours)
+    if smoothing is None:
+        field_values = interpolation_matrix(place, targets, spread, None) @ value
+    else:
+        base, at_points = trend(place, value, robust, length, targets)
+        field_values = at_points + interpolation_matrix(place, targets, spread, smoothing) @ (value - base)
+    limits = np.cumsum([0, *(len(item) for item in contours)])
+    pieces = [slice(limits[i], limits[i + 1]) for i in range(len(contours))]
+    return np.array([line_integral(targets[piece], field_values[piece]) for piece in pieces])
 
 
 def _summary(
@@ -305,7 +357,7 @@ def _summary(
             Notice(
                 "contours-few",
                 f"{used.size} contours of Bc/B >= {least:g} carry the circulation to the section: two unknowns pass "
-                "through two values, so that no misfit shows and the interval holds the scatter of the particles only",
+                "through two values, so that no misfit shows",
                 value=float(used.size),
                 limit=3.0,
                 remedy="ask for more contours beyond this size, or give pictures of a larger field",
@@ -323,7 +375,7 @@ def _summary(
         confidence,
         samples,
         outlier,
-        tuple(notices),
+        notices=tuple(notices),
     )
 
 

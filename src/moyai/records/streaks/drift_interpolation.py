@@ -17,15 +17,14 @@ _SMOOTHING = np.concatenate([[0.0], 10.0 ** np.arange(-4.0, 3.1, 0.5)])
 def trend(points: Array, vectors: Array, deviation: Array, length: float, targets: Array) -> tuple[Array, Array]:
     """Return the mean flow plus vortex plus Stokes drift that fits best, at the particles and at the targets.
 
-    Only what is left over is interpolated, so that the steep rise towards the section is not rounded off. The fit is
-    robust: particles far off it lose weight.
+    Only what is left over is interpolated, so that the steep rise towards the section is not rounded off.
 
     Parameters
     ----------
     points, vectors : ndarray, shape (n, 2)
         Positions about the centre [m] and velocities [m/s].
     deviation : ndarray, shape (n,)
-        Standard errors, up to a common factor.
+        Standard errors, up to a common factor; :func:`robust_deviation` keeps single wrong vectors out.
     length : float
         Breadth of the section [m].
     targets : ndarray, shape (m, 2)
@@ -36,21 +35,31 @@ def trend(points: Array, vectors: Array, deviation: Array, length: float, target
         Trend at the points and at the targets [m/s].
     """
     basis = _trend_basis(points, length)
-    values = np.concatenate([vectors[:, 0], vectors[:, 1]])
     scale = np.tile(1.0 / deviation, 2)
-    weight = np.ones(len(points))
-    solution = np.zeros(basis.shape[1])
-    for _ in range(8):
-        root = scale * np.tile(np.sqrt(weight), 2)
-        solution = np.linalg.lstsq(basis * root[:, None], values * root, rcond=None)[0]
-        misfit = ((values - basis @ solution) * scale).reshape(2, -1)
-        size = np.hypot(misfit[0], misfit[1])
-        median = float(np.median(size))
-        # Huber's weights; 1.18 medians of a plane error are one standard deviation
-        weight = np.minimum(1.0, 1.5 * 0.85 * median / np.maximum(size, 1e-300)) if median > 0.0 else weight
+    solution = np.linalg.lstsq(basis * scale[:, None], vectors.T.ravel() * scale, rcond=None)[0]
     at_points = (basis @ solution).reshape(2, -1).T
     at_targets = (_trend_basis(targets, length) @ solution).reshape(2, -1).T
     return at_points, at_targets
+
+
+def robust_deviation(points: Array, vectors: Array, deviation: Array, length: float) -> Array:
+    """Return the standard errors, larger for particles far off the trend (Huber's weights).
+
+    Parameters
+    ----------
+    points, vectors, deviation, length
+        As in :func:`trend`.
+    """
+    robust = deviation
+    for _ in range(7):
+        misfit = (vectors - trend(points, vectors, robust, length, points[:1])[0]) / deviation[:, None]
+        size = np.hypot(misfit[:, 0], misfit[:, 1])
+        median = float(np.median(size))
+        if median == 0.0:
+            break
+        # 1.18 medians of a plane error are one standard deviation
+        robust = deviation * np.sqrt(np.maximum(1.0, size / (1.5 * 0.85 * median)))
+    return robust
 
 
 def _trend_basis(points: Array, length: float) -> Array:
@@ -85,7 +94,7 @@ def outliers(
     count = min(8, len(points) - 2)
     if count < 3:
         return np.zeros(len(points), dtype=bool)
-    base, _ = trend(points, vectors, deviation, length, points[:1])
+    base, _ = trend(points, vectors, robust_deviation(points, vectors, deviation, length), length, points[:1])
     rest = vectors - base
     near = np.asarray(cKDTree(points).query(points, count + 1)[1])[:, 1:]
     middle = np.median(rest[near], axis=1)
@@ -102,7 +111,7 @@ def remainder_smoothing(points: Array, vectors: Array, deviation: Array, length:
     points, vectors, deviation, length
         As in :func:`trend`.
     """
-    base, _ = trend(points, vectors, deviation, length, points[:1])
+    base, _ = trend(points, vectors, robust_deviation(points, vectors, deviation, length), length, points[:1])
     rest = vectors - base
     best, smallest = 0.0, np.inf
     for candidate in _SMOOTHING[1:]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,7 @@ from moyai.records.streaks.case.schema import (
     StreaksFile,
     TimingFrames,
 )
+from moyai.records.streaks.flow import SectionMap
 from moyai.records.streaks.timing import PulseTrain, regular_pulses, require_time_order
 
 if TYPE_CHECKING:
@@ -142,7 +144,21 @@ def _build(model: StreaksFile, findings: Findings, folder: Path) -> Campaign | N
         confidence=contours.confidence,
         seed=contours.seed,
         notices=view_notices(calibration, centre),
+        shape=_map(model),
     )
+
+
+def _map(model: StreaksFile) -> SectionMap | None:
+    """Return the map of a circle, or of a rectangle that is not too thin for it."""
+    from moyai.records.streaks.flow import circle_map, rectangle_map
+
+    section = model.section
+    if isinstance(section, StreakCircle):
+        return circle_map(section.diameter)
+    if isinstance(section, StreakRectangle):
+        with suppress(InputError):
+            return rectangle_map(section.breadth, section.height)
+    return None
 
 
 def _section(model: StreaksFile, findings: Findings) -> tuple[Array, float, str]:

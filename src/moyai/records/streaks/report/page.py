@@ -278,6 +278,7 @@ def _contours(root: Group, run: Group) -> tuple[Block, ...]:
     samples = _CM2 * _along(root, 1.0) * _array(run, "circulation_samples")
     limit, term = _CM2 * _along(root, _number(run, "limit")), _CM2 * _along(root, _number(run, "stokes_term"))
     line = _CM2 * _along(root, _number(run, "linear"))
+    bias = np.nan_to_num(_CM2 * _along(root, _number(run, "estimator_bias")))
     least = _number(root, "least_ratio")
     known = np.isfinite(value)
     if not known.any():
@@ -288,7 +289,7 @@ def _contours(root: Group, run: Group) -> tuple[Block, ...]:
     slope = np.polyfit(ratio[known] - 1.0, value[known], 1)[0]
     series = [
         Series("used in the fit", {"ratio": ratio[used]}, value[used], style="points", tone=1),
-        Series("G + c (B/Bc)⁴", {"ratio": fine}, limit + term * fine**-4.0, tone=0),
+        Series("G + c (B/Bc)⁴", {"ratio": fine}, limit + bias + term * fine**-4.0, tone=0),
         Series("straight line (paper)", {"ratio": fine}, line + slope * (fine - 1.0), tone=6, dash="dash"),
         Series("G, without Stokes drift", {"ratio": fine}, np.full(fine.size, limit), tone=2, dash="dot"),
     ]

@@ -28,14 +28,14 @@ def count_panels(unit: FloatingUnit) -> None:
     InputError
         For a section that needs more panels than memory and time allow.
     """
-    from moyai.potential.mesh import Resolution, lay_out
+    from moyai.potential.mesh import Resolution, lay_out, require_memory
     from moyai.sea.dispersion import wave_number
     from moyai.structures.breakwater.hydrodynamics import band
 
     omega = band(unit).omega
     water = unit.water
     numbers = wave_number(np.array([omega.min(), omega.max()]), water.depth, water.gravity)
-    lay_out(unit.section, water.depth, (float(numbers[0]), float(numbers[1])), Resolution())
+    require_memory(lay_out(unit.section, water.depth, (float(numbers[0]), float(numbers[1])), Resolution()))
 
 
 def check_chain_on_bed(
