@@ -204,7 +204,7 @@ def open_hdf5(path: Path) -> Iterator[h5py.File]:
 
     heap = stuck_heap(path) if path.stat().st_size else -1
     if heap >= 0:
-        raise OSError(f"the heap at byte {heap} holds an object of size zero")
+        raise OSError(f"the heap at byte {heap} holds an object of an impossible size")
     with h5py.File(path, "r") as stored:
         yield stored
 

@@ -1,8 +1,9 @@
 """Whether the global heaps of an HDF5 file can be walked through: the HDF5 library does not come back from some.
 
 A heap holds references and words of variable length: 16 bytes of head, then objects of 16 bytes of head and their
-content, the last one, number 0, being the space that is left. The library takes its steps by the stated sizes, and a
-size of zero keeps it in place forever. Format: The HDF Group, HDF5 File Format Specification, level 1E.
+content, the last one, number 0, being the space that is left. The library takes its steps by the stated sizes: a size
+of zero, or one so large that 64 bits carry it back to zero, keeps it in place forever. Format: The HDF Group, HDF5 File
+Format Specification, level 1E.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ def _stuck(raw: mmap.mmap, place: int) -> bool:
         number, size = struct.unpack_from("<H6xQ", raw, at)
         # The space that is left counts its own head, an object does not and is padded to eight bytes
         step = size if number == 0 else _HEAD + (size + 7) // 8 * 8
-        if step == 0:
+        if step == 0 or at + step > end:
             return True
         at += step
     return False
