@@ -37,7 +37,7 @@ def test_results_and_report_are_of_one_run_after_every_kill(tmp_path):
     assert _start(tmp_path, "first").wait() == 0
     whole = time.monotonic() - began
     out, ended = tmp_path / "out", 0
-    for number in range(36):
+    for number in range(16):
         running = _start(tmp_path, ("second", "first")[number % 2])
         # Most kills fall into the second half, where files are written
         time.sleep(whole * drawn.uniform(0.5 if number % 3 else 0.0, 1.05))
@@ -47,6 +47,6 @@ def test_results_and_report_are_of_one_run_after_every_kill(tmp_path):
         if (out / "report.html").exists():
             found = set(re.findall(r"killed (first|second)", (out / "report.html").read_text(encoding="utf-8")))
             assert found == {title}, number
-    assert ended >= 20
+    assert ended >= 8
     assert _start(tmp_path, "first").wait() == 0
     assert not list(out.rglob("*.partial"))
