@@ -18,6 +18,7 @@ from moyai.case.faults import Translator, did_you_mean, nearest
 from moyai.case.paths import assign, resolve
 from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, Notes
+from moyai.case.templates import kind_by_keys, next_command
 from moyai.case.yaml_reader import Document, KeyPath, dotted, parse_yaml, read_yaml
 from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.kinds import structure_kinds
@@ -275,16 +276,19 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
     known = ", ".join(kinds)
     structure = data.get("structure")
     if "structure" not in data:
-        near = nearest("structure", data)
-        if near:
+        near, other = nearest("structure", data), kind_by_keys(data)
+        if other is not None:
+            found = document.fault(
+                (),
+                f"this is a file of the kind '{other}', no case",
+                remedy=f"its command: {next_command(other, 'FILE')}",
+            )
+        elif near:
             path: KeyPath = (near,)
             found = document.fault(path, f"unknown key '{near}'", remedy="did you mean 'structure'?", of_key=True)
         else:
             written = ", ".join(list(data)[:8])
-            others = [word for word in ("study", "fit") if word in data]
-            remedy = (
-                f"the file is a {others[0]}: 'moyai {others[0]} FILE'" if others else f"the file has the keys {written}"
-            )
+            remedy = f"the file has the keys {written}"
             found = document.fault((), "the key 'structure' is missing", remedy=remedy)
     elif not isinstance(structure, dict):
         found = document.fault(("structure",), "expected a block of keys with 'kind'", allowed=known)

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from moyai.case.faults import did_you_mean
 from moyai.core.errors import InputError
-from moyai.core.kinds import Kind, structure_kind, structure_kinds, templates
+from moyai.core.kinds import Kind, further_files, structure_kind, structure_kinds, templates
+
+# Keys that files of several kinds have
+_COMMON = ("moyai", "title", "site", "density", "gravity")
 
 
 def kinds_of_files() -> tuple[tuple[str, str], ...]:
@@ -47,3 +53,37 @@ def kind_of_file(name: str) -> Kind:
             remedy=did_you_mean(name, tuple(known)),
         )
     return known[name]
+
+
+def next_command(name: str, file: object) -> str:
+    """Return the command that reads a file of this kind."""
+    if name == "study":
+        return f"moyai study {file} --check"
+    if name == "fit":
+        return f"moyai fit {file}"
+    if name == "forces":
+        return f"moyai measure forces RECORD.csv --config {file}"
+    return f"moyai measure {name} {file}" if name in further_files() else f"moyai check {file}"
+
+
+def kind_by_keys(content: Mapping[str, Any]) -> str | None:
+    """Return the kind of a file that is no case of a structure: it knows three of four of its own keys.
+
+    Parameters
+    ----------
+    content : mapping
+        The keys of the file.
+
+    Returns
+    -------
+    str or None
+        Name as ``moyai new`` takes it; ``None`` when no kind knows enough of the keys.
+    """
+    own = [key for key in content if key not in _COMMON]
+    known = {name: _share(own, kind.file_schema(name).key_names()) for name, kind in further_files().items()}
+    best = max(known, key=lambda name: known[name])
+    return best if known[best] >= 0.75 else None
+
+
+def _share(keys: list[str], known: tuple[str, ...]) -> float:
+    return sum(key in known for key in keys) / max(len(keys), 1)

@@ -111,7 +111,7 @@ def new(
     Kinds: breakwater, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces, snaps; study, fit.
     """
     with guard(as_json):
-        from moyai.case.templates import kinds_of_files, template
+        from moyai.case.templates import kinds_of_files, next_command, template
 
         if kind is None:
             known = kinds_of_files()
@@ -130,10 +130,7 @@ def new(
         elif output is None:
             say(text.rstrip("\n"))
         else:
-            command = {"study": f"study {output} --check", "fit": f"fit {output}"}
-            command |= {key: f"measure {key} {output}" for key in ("nets", "records", "snaps", "streaks")}
-            command["forces"] = f"measure forces RECORD.csv --config {output}"
-            tell(f"wrote {output}; next: moyai {command.get(kind, f'check {output}')}")
+            tell(f"wrote {output}; next: {next_command(kind, output)}")
 
 
 @app.command()
