@@ -113,3 +113,30 @@ def test_one_block_is_points_in_the_middle_of_its_time(alone: Blocks) -> None:
     assert {series.style for series in figure.series} == {"points"}
     assert all(list(series.x["time"]) == [150.0] for series in figure.series)
     assert len(alone["Figure", "spectra"].series) == 1
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_gauges_of_unlike_rates_and_a_rope_on_one_page(tmp_path: Path) -> None:
+    fast = np.arange(0.0, 600.0, 0.5)
+    slow = np.arange(0.0, 300.0, 1.0 / 3.0)
+    for name, time in (("fast", fast), ("slow", slow)):
+        wave = np.sin(2.0 * np.pi * time / 8.0)
+        rows = [f"{now:.4f},{value:.5f},{2000.0 + 900.0 * value:.3f}" for now, value in zip(time, wave, strict=True)]
+        (tmp_path / f"{name}.csv").write_text("\n".join(["time,level,rope", *rows]))
+    (tmp_path / "r.yaml").write_text("""
+moyai: 1
+title: two rates
+site: {water_depth: 10, density: 1025, gravity: 9.81}
+loggers:
+  - {name: a, file: fast.csv, time: {column: time}, channels: [
+      {name: fast, column: level, unit: m, kind: elevation}, {name: rope, column: rope, unit: N, kind: tension}]}
+  - {name: b, file: slow.csv, time: {column: time}, channels: [{name: slow, column: level, unit: m, kind: elevation}]}
+blocks: {length: 5 min}
+waves: {channels: [fast, slow]}
+spectrum: {segment: 60 s, lowest: 0.04 Hz, highest: 0.5 Hz}
+tensions: {waves: fast, lines: [{channel: rope, group: new}]}
+""")
+    document = compose(run_survey(load_survey(tmp_path / "r.yaml")))
+    figures = {item.label: item for item in document.sections[0].blocks[0].items}
+    assert figures["largest wave tension"].text == "900 N"
+    assert figures["largest wave tension"].detail.startswith("above the steady 2.00 kN: 2.90 kN together; rope")

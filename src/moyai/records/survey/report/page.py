@@ -174,8 +174,11 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
         if np.isfinite(largest).any():
             row, column = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
             line = str(tree["tensions"]["line"].values[column])
-            detail = f"{line}, {clock.text(float(clock.start[row]))}"
-            items.append(KeyFigure("largest wave tension", format_quantity(float(largest[row, column]), "N"), detail))
+            wave = float(largest[row, column])
+            steady = float(_values(tree, "tensions", "steady")[row, column])
+            parts = f"above the steady {format_quantity(steady, 'N')}: {format_quantity(steady + wave, 'N')} together"
+            detail = f"{parts}; {line}, {clock.text(float(clock.start[row]))}"
+            items.append(KeyFigure("largest wave tension", format_quantity(wave, "N"), detail))
     for name, words in (("reflection_coefficient", "reflection"), ("transmission_coefficient", "transmission")):
         if "reflection" in tree.children and name in tree["reflection"]:
             values = _values(tree, "reflection", name)
@@ -259,8 +262,9 @@ def _spectra(tree: Any, clock: _Clock) -> list[Block]:
         if not energy[:, column].any():
             continue
         order = [int(np.argmax(energy[:, column]))]
-        with np.errstate(invalid="ignore"):
-            mean = np.nanmean(np.where(energy[:, column, None] > 0.0, density[:, column], np.nan), axis=0)
+        sound = density[energy[:, column] > 0.0, column]
+        count = np.isfinite(sound).sum(axis=0)
+        mean = np.nansum(sound, axis=0) / np.where(count > 0, count, np.nan)  # gauges may differ in their frequencies
         words = clock.text(float(clock.start[order[0]]))
         suffix = f" {gauge}" if len(gauges) > 1 else ""
         series.append(Series(f"block of {words}{suffix}", {"f": frequency}, density[order[0], column], 0, 2 * column))
