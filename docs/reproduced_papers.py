@@ -1,0 +1,73 @@
+"""Sphinx extension: the pages of the five papers, computed with the documentation, and a table of how they stand.
+
+A page is kept while no source of the package is newer. MOYAI_DOCS_QUICK=1 computes fewer waves and coarser curves.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.application import Sphinx
+from sphinx.util import logging
+from sphinx.util.docutils import SphinxDirective
+
+HEADS = ("paper", "equations", "figures drawn", "statements", "agree", "differ", "open")
+
+
+def compute(name: str, folder: Path) -> dict[str, int]:
+    """Return the counts of a paper; its page stands in the folder then."""
+    import moyai
+
+    counts = folder / "counts.json"
+    newest = max(path.stat().st_mtime for path in Path(moyai.__file__).parent.rglob("*.py"))
+    if counts.exists() and counts.stat().st_mtime > newest:
+        return dict(json.loads(counts.read_text(encoding="utf-8")))
+    from moyai.reproduce import as_result, reproduce
+    from moyai.reproduce.page import write
+
+    logging.getLogger(__name__).info(f"computing the page of {name}")
+    folder.mkdir(parents=True, exist_ok=True)
+    found = reproduce(name, quick=os.environ.get("MOYAI_DOCS_QUICK") == "1")
+    write(found, as_result(found), folder)
+    values = {
+        "equations": len(found.paper.equations),
+        "figures drawn": sum(one.drawn is not None for one in found.figures),
+        "statements": len(found.rows),
+        "agree": found.count("agrees"),
+        "differ": found.count("differs"),
+        "open": found.count("open"),
+    }
+    counts.write_text(json.dumps(values), encoding="utf-8")
+    return values
+
+
+class ReproducedPapers(SphinxDirective):
+    """A table of the papers, each with a link to its page."""
+
+    has_content = False
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        from moyai.reproduce import papers
+
+        root = Path(self.env.app.outdir)
+        lines = [".. list-table::", "   :header-rows: 1", ""]
+        lines += [f"   {'*' if not number else ' '} - {head}" for number, head in enumerate(HEADS)]
+        for paper in papers():
+            values = compute(paper.key, root / "papers" / paper.key)
+            link = f':raw-html:`<a href="papers/{paper.key}/report.html">{paper.authors} ({paper.year})</a>`'
+            lines += [f"   * - {link}", *(f"     - {values[head]}" for head in HEADS[1:])]
+        text = [".. role:: raw-html(raw)", "   :format: html", "", *lines]
+        container = nodes.container()
+        self.state.nested_parse(StringList(text, source="papers"), 0, container)
+        return container.children
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the directive."""
+    app.add_directive("reproduced-papers", ReproducedPapers)
+    return {"parallel_read_safe": False}
