@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 from moyai.core.exports import exports
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 if TYPE_CHECKING:
     from moyai.case.reader import load_case as load_case
