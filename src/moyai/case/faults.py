@@ -83,7 +83,7 @@ def value_at(data: Any, path: KeyPath) -> Any:
 
 
 class Translator:
-    """Turns the errors of one validation into faults, and mends the data so that later checks can still run."""
+    """Turns the errors of one validation into faults, and corrects the data so that later checks can still run."""
 
     def __init__(self, document: Document, notes: Notes, root: type[Block]) -> None:
         self.document = document

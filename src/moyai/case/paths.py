@@ -66,7 +66,7 @@ def resolve(data: Any, text: str) -> tuple[KeyPath, ...]:
     data : object
         Content of the case file as it was read.
     text : str
-        The path. An entry of a list is told by its number (from 0), its ``name``, or ``*`` for all. The last key may be
+        The path. An entry of a list is given by its number (from 0), its ``name``, or ``*`` for all. The last may be
         one that the case leaves at its default; everything above it must be there.
 
     Returns

@@ -1,7 +1,7 @@
 """Hold every number of a case against its plausible range, alone and over other numbers of the case.
 
 The ranges stand in one table, ``tables/data/plausible_ranges.csv``. Single keys are judged first; a ratio one of whose
-keys was told of already says nothing more. What a default gives is not judged: only what stands in the file.
+keys was reported of already says nothing more. What a default gives is not judged: only what stands in the file.
 """
 
 from __future__ import annotations

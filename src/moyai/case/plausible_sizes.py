@@ -1,6 +1,6 @@
 """Sizes that follow from the keys of a case and that its numbers are held against: ``@beam``, ``@depth``, ``@period``.
 
-Each comes with the keys that it follows from, so that one slip is told once.
+Each comes with the keys that it follows from, so that one slip is reported once.
 """
 
 from __future__ import annotations

@@ -306,7 +306,7 @@ def _choose_root(document: Document, faults: list[Fault]) -> type[Block]:
 
 
 def _validate(document: Document, root: type[Block]) -> tuple[Any, list[Fault], Any]:
-    """Return the model (or ``None``), the faults, and a model of mended data on which checks can still run."""
+    """Return the model (or ``None``), the faults, and a model of corrected data on which checks can still run."""
     notes = Notes()
     error: ValidationError | None = None
     model: Any = None

@@ -98,7 +98,7 @@ def _tidy(node: Any) -> Any:
     if isinstance(out.get("unit"), str) and "anyOf" in out:
         out = _say_unit(out)
     if "$ref" in out and len(out) > 1:
-        # Draft 7 overlooks what stands beside a reference
+        # Draft 7 overlooks what stands next to a reference
         out["allOf"] = [*out.get("allOf", []), {"$ref": out.pop("$ref")}]
     if "prefixItems" in out:
         out["items"] = out.pop("prefixItems")

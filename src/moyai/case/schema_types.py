@@ -235,7 +235,7 @@ class Notes:
 
 
 class Block(BaseModel):
-    """A block of keys: unknown keys are faults, and the rules between keys are declared beside them."""
+    """A block of keys: unknown keys are faults, and the rules between keys are declared next to them."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=False)
 

@@ -23,7 +23,7 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
     case : Case
         From :func:`moyai.load_case`.
     progress : Progress
-        Listener told of every step. KeyboardInterrupt ends the run with what there is, status ``interrupted``.
+        Listener reported of every step. KeyboardInterrupt ends the run with what there is, status ``interrupted``.
     keep : Path or None
         Folder where coefficients that took long are kept under their hash and looked for by the next run.
 

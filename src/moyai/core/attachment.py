@@ -4,9 +4,9 @@ A network knows a body only by the points that it drives; a body knows a network
 package ``coupled`` joins the two: it asks the body where its points go, lets the network take as many of its own small
 steps as it needs, and hands the reaction back. Both sides keep their own integrator and step.
 
-Between two times the points follow the cubic through the places and velocities at both ends, and the reaction is told
+Between two times the points follow the cubic through places and velocities at both ends, and the reaction is reported
 by its mean and its tilt: ``force = mean + tilt * s`` with ``s`` from -1 at the start to +1 at the end carries impulse
-and first moment of whatever happened in between exactly, so that a body whose step is long beside the ringing of its
+and first moment of whatever happened in between exactly, so that a body whose step is long next to the ringing of its
 lines still ends where it should [eq:coupled-reaction].
 """
 

@@ -1,4 +1,4 @@
-"""Errors that a user can act on: where, what, the allowed range, how to mend it."""
+"""Errors that a user can act on: where, what, the allowed range, how to correct it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Fault:
     allowed : str
         The allowed range or form, empty when the message says it.
     remedy : str
-        How to mend it, for instance ``did you mean 'draught'?``.
+        How to correct it, for instance ``did you mean 'draught'?``.
     file, line, column : str, int, int
         Place in the file, 1-based; 0 where there is none.
     """

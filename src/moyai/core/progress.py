@@ -1,4 +1,4 @@
-"""Progress of long work, told to whoever listens; kernels never print."""
+"""Progress of long work, reported to whoever listens; kernels never print."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Pace:
         stage = self._stages.get(what)
         if stage is None or done < stage.done:
             self._stages[what] = stage = _Stage(done, done, total, now, now)
-        # The last one told stands last: the innermost
+        # The last one reported stands last: the innermost
         self._stages[what] = self._stages.pop(what)
         if done > stage.done:
             stage.told = now

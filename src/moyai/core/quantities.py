@@ -37,7 +37,7 @@ class Kind:
     example : str
         A quantity as a user would write it.
     angle_matters : bool
-        Whether rad, deg and Hz must be told from plain numbers and 1/s (angles and frequencies).
+        Whether rad, deg and Hz must be distinguished from plain numbers and 1/s (angles and frequencies).
     """
 
     name: str
@@ -236,7 +236,7 @@ def _finite(value: float, kind: Kind, path: str) -> float:
 
 
 def _case_slip(symbol: str, kind: Kind) -> str:
-    """Return a remedy where a rate lacks its angle, or where the unit fits once its case is mended (3 kn for 3 kN)."""
+    """Return a remedy where a rate lacks its angle, or where a unit fits in another case of letters (3 kn for 3 kN)."""
     if kind in (FREQUENCY, ANGULAR_FREQUENCY) and parse_unit(symbol).dimension == Dimension(time=-1):
         return "say which rate is meant: 'Hz' (cycles per second) or 'rad/s'"
     for candidate, unit in unit_table().items():

@@ -1,4 +1,4 @@
-"""Validity notices: where a formula leaves its range the user is told the number and the limit."""
+"""Validity notices: where a formula leaves its range the user is reported the number and the limit."""
 
 from __future__ import annotations
 

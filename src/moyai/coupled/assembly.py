@@ -18,7 +18,7 @@ Triple = tuple[float, float, float]
 
 #: Slices of a rod at least; an inclined rod that crosses the surface is followed slice by slice.
 SLICES = 24
-#: How far a rod may lean from an axis of its body, where its coefficients are told axis by axis.
+#: How far a rod may lean from an axis of its body, where its coefficients are reported axis by axis.
 ALIGNED = 1e-6
 
 

@@ -188,7 +188,7 @@ def check_points(
     Raises
     ------
     InputError
-        Names the point, both places and what mends it.
+        Names the point, both places and what corrects it.
     """
     seen: list[str] = []
     for body in bodies.values():

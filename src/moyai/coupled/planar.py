@@ -34,7 +34,7 @@ class PlanarBody:
     ----------
     name : str
     model : CumminsModel
-        Its memory as states; nonlinear lines of its own act beside the network, at rest at every instant.
+        Its memory as states; nonlinear lines of its own act next to the network, at rest at every instant.
     forcing : Forcing
         Waves, drift, steady loads.
     duration : float

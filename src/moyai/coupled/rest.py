@@ -256,7 +256,7 @@ class _Search:
                 self.back(kept)
                 self.state, part = state, 0.5 * part
             force = new
-        # the slope was taken beside the rest: network and bodies are put back together
+        # the slope was taken next to the rest: network and bodies are put back together
         force = self.imbalance()
         left = float(np.max(np.abs(force), initial=0.0)) / self.scale
         if not left <= max(tolerance, 1e-6):

@@ -160,7 +160,7 @@ class RigidBody:
 
     @property
     def pivot(self) -> Array:
-        """Place in body axes that the motion is told of: the pin, or the centre of gravity of a body without one."""
+        """Place in body axes whose motion is reported: the pin, or the centre of gravity of a body without one."""
         return np.asarray(self.centre_of_gravity if self.pin is None else self.pin, dtype=float)
 
     @property

@@ -132,7 +132,7 @@ def _restoring(state: Any, r: Any, stiffness: Any, rest: Any, force: Any) -> Non
     d = np.empty(6)
     dx, dy = state[0] - rest[0], state[1] - rest[1]
     d[0], d[1], d[2] = c * dx + s * dy, -s * dx + c * dy, state[2] - rest[2]
-    # rotation vector of what is left of the rotation beside the yaw
+    # rotation vector of what is left of the rotation next to the yaw
     t = np.empty((3, 3))
     for j in range(3):
         t[0, j], t[1, j], t[2, j] = c * r[0, j] + s * r[1, j], -s * r[0, j] + c * r[1, j], r[2, j]

@@ -26,7 +26,7 @@ class Need:
     over : float
         At hand over wanted [-].
     remedy : str
-        What mends it, with figures.
+        What corrects it, with figures.
     """
 
     name: str

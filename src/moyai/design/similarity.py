@@ -136,7 +136,7 @@ class StretchMatch:
     distortion : float
         Available over wanted [-]: the factor on the Cauchy number's square, on tension about its root.
     series_spring : float
-        Stiffness of a spring in series that mends a line too stiff [N/m]; infinite where none is needed, NaN where the
+        Stiffness of a spring in series that corrects a line too stiff [N/m]; infinite where none is needed, NaN where a
         line is too soft and nothing in series helps.
     """
 

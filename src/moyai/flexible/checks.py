@@ -1,4 +1,4 @@
-"""Faults of a network that can be told before any time step."""
+"""Faults of a network that can be reported before any time step."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ from moyai.flexible.rings import RingArrays
 from moyai.flexible.stability import step_limit
 from moyai.flexible.watch import watch_of
 
-#: Part of the stable step that is used unless told otherwise.
+#: Part of the stable step that is used unless another is given.
 SAFETY = 0.95
 #: The same where bars go slack with a damping ratio on the mesh below ``LEAST_DAMPING``: a spring that only pulls gives
 #: back more than it took when (w dt)^2 > 2, half of the bound of a spring that also pushes [eq:flexible-one-sided].

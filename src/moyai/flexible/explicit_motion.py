@@ -70,7 +70,7 @@ def kick_contact_and_drift(A: Any, count: int, level: float, time: float, move: 
         # depth - time w replaces depth: a stiff bed then needs no smaller step
         grip = A[STIFF + i] * time + A[DAMP + i]
         push = time * (A[STIFF + i] * depth - grip * w) / (1.0 + time * grip * share)
-        # contact is told by where the node would end: a hard bed stops it at its face instead of throwing it back
+        # contact is given by where the node would end: a hard bed stops it at its face instead of throwing it back
         push = push if depth > time * w else 0.0
         push = push if push > 0.0 else 0.0
         u += A[IXZ + i] * push
@@ -102,7 +102,7 @@ def kick_with_friction_and_drift(A: Any, count: int, level: float, friction: flo
         # depth - time w replaces depth: a stiff bed then needs no smaller step
         grip = A[STIFF + i] * time + A[DAMP + i]
         push = time * (A[STIFF + i] * depth - grip * w) / (1.0 + time * grip * share)
-        # contact is told by where the node would end: a hard bed stops it at its face instead of throwing it back
+        # contact is given by where the node would end: a hard bed stops it at its face instead of throwing it back
         push = push if depth > time * w else 0.0
         push = push if push > 0.0 else 0.0
         u += A[IXZ + i] * push

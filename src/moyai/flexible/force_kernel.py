@@ -194,7 +194,7 @@ def blocks(
 
     ``bar_law`` and ``node_law`` come from :func:`laws` (or :func:`mixed_laws`).
     ``node_block`` (n, 3, 3) stands on the diagonal, ``bar_block`` (m, 2, 3, 3) couples start to end and end to start;
-    hinges, whose stiffness does not change, are left to :func:`to_fronts` beside the diagonal.
+    hinges, whose stiffness does not change, are left to :func:`to_fronts` next to the diagonal.
     ``exact`` adds how drag turns with the bars and how the loads change with the immersed part (not symmetric) and
     keeps the destabilising part of compressed rods.
     """

@@ -139,7 +139,7 @@ class NetPanels:
     shadow : array_like, shape (p, 3)
         Velocity taken from that of the water: what the current has lost upstream [m/s].
     group : array_like of int, shape (p,)
-        Number of the group that results are told for.
+        Number of the group that results are reported for.
     group_names : tuple of str
         Their names.
 

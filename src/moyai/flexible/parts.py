@@ -1,4 +1,4 @@
-"""Sheets, net panels and elastic rings, what hangs in a network beside bars and hinges.
+"""Sheets, net panels and elastic rings, what hangs in a network next to bars and hinges.
 
 Each kind is a family of elements: forces on (n, 3) arrays, and the derivative of minus the force in blocks of node
 pairs, exact or close enough for Newton's method.

@@ -1,6 +1,6 @@
 """What makes the peaks of a run doubtful: fronts, ropes beyond their curves, long steps, energy from nowhere.
 
-Runs of networks alone and of networks with bodies are told by the same functions.
+Runs of networks alone and of networks with bodies are reported by the same functions.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Run = ExplicitRun | ImplicitRun
 def peak_notices(
     network: Network, run: Run, bars: NDArray[np.int64], peaks: Array, check: IdentityCheck, finished: bool
 ) -> tuple[Notice, ...]:
-    """Return what is told of the peaks of a run.
+    """Return what is reported of the peaks of a run.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def peak_notices(
 
 
 def fronts_told(network: Network, run: Run) -> tuple[Notice, ...]:
-    """Return what is told of wave fronts; those at the pace of the wave are exact but for nodes that land on a bed."""
+    """Return reports of wave fronts; at the pace of the wave they are exact but for nodes that land on a bed."""
     paced = _at_wave_pace(run)
     return front_notices(network, [one for one in run.watch.fronts(network) if one.fall > 0.0 or not paced])
 

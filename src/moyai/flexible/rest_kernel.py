@@ -1,4 +1,4 @@
-"""Compiled kernels of statics: bars and bed with tensions and pushes as unknowns beside the places."""
+"""Compiled kernels of statics: bars and bed with tensions and pushes as unknowns next to the places."""
 
 from __future__ import annotations
 

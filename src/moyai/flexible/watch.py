@@ -1,4 +1,4 @@
-"""What both kinds of schemes watch at every step beside their result: fronts at the ends of lines, falls on the bed."""
+"""What both kinds of schemes watch at every step: fronts at the ends of lines, falls on the bed."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ class StateSpaceMemory:
         fit : ModalForm
             With ``poles``, ``inputs``, ``outputs`` as here.
         dashpot : array_like (m, m) or None
-            Instantaneous part beside the states.
+            Instantaneous part next to the states.
         """
         size = fit.outputs.shape[0]
         return cls(
@@ -178,7 +178,7 @@ class ConvolutionMemory:
     velocity_kernel : ndarray (n, m, m)
         K(t).
     dashpot : ndarray (m, m)
-        Instantaneous part beside the convolution; what truncation cuts off, D(0) less the integral of K up to the end,
+        Instantaneous part next to the convolution; what truncation cuts off, D(0) less the integral of K up to the end,
         keeps the slow motions right (see :meth:`truncated`).
     """
 

@@ -1,4 +1,4 @@
-"""Forcing with the motion of the water beside it, for quadratic drag against moving water."""
+"""Forcing with the motion of the water next to it, for quadratic drag against moving water."""
 
 from __future__ import annotations
 

@@ -127,7 +127,7 @@ def choose_time_step(
     model : CumminsModel
     forcing : Forcing
     expected_motion : array_like (m,) or None
-        Amplitudes at which the lines' stiffness is looked up, beside rest; for instance twice the linear motion.
+        Amplitudes at which the lines' stiffness is looked up, next to rest; for instance twice the linear motion.
 
     Returns
     -------

@@ -25,7 +25,7 @@ PLATE_POINTS = 8
 
 @dataclass(frozen=True)
 class Face:
-    """A face beside an edge, as far as it belongs to that edge.
+    """A face next to an edge, as far as it belongs to that edge.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ from moyai.tables.edge_damping import EdgeDampingNumbers, edge_damping_numbers
 Kind = Literal["end", "hollow", "corner"]
 
 ODD_ANGLE = math.radians(10.0)
-"""Turn of a corner beyond 90 degrees, or short of it, that is told."""
+"""Turn of a corner beyond 90 degrees, or short of it, that is reported."""
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,7 @@ def match_site(dataset: xr.Dataset, water: Water) -> tuple[xr.Dataset, tuple[Not
     """Return the coefficients for the density of the site, with a notice where depth or gravity differ.
 
     All coefficients are proportional to the density. Depth and gravity change them in ways that a file cannot undo: a
-    file for another depth is accepted where both are deep for all its frequencies, told where they are not.
+    file for another depth is accepted where both are deep for all its frequencies, reported where they are not.
 
     Raises
     ------

@@ -313,7 +313,7 @@ def deck_text(deck: MoorDynDeck) -> str:
         (str(n.number), n.line_type, str(n.start), str(n.end), _digits(n.length), str(n.segments), n.outputs)
         for n in deck.lines
     ]
-    # MoorDyn takes no empty sections, and needs none of these three beside bodies or rods
+    # MoorDyn takes no empty sections, and needs none of these three next to bodies or rods
     keep = not (deck.bodies or deck.rods)
     text = [
         _title("MoorDyn Input File"),

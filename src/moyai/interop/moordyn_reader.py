@@ -84,7 +84,7 @@ def _split(lines: list[str], faults: Faults) -> dict[str, tuple[int, list[tuple[
 def _meant(
     title: str, number: int, sections: dict[str, tuple[int, list[tuple[int, str]]]]
 ) -> list[tuple[int, str]] | None:
-    """Open the section that a misspelt title means, so that one slip is told once; ``None`` where none is meant."""
+    """Open the section that a misspelt title means, so that one slip is reported once; ``None`` where none is meant."""
     meant = difflib.get_close_matches(title, list(keys.SECTIONS), n=1)
     name = keys.SECTIONS[meant[0]] if meant else ""
     if not name or name in sections:
@@ -125,7 +125,7 @@ def _table(
     missing = [c for c in dict.fromkeys(columns.values()) if c not in names and c not in keys.MAY_MISS[section]]
     if missing:
         faults.add(head[0], f"no column for {', '.join(m.replace('_', ' ') for m in missing)}", path=section)
-        # its rows, and what refers to them, would be told as faults that follow from this one
+        # its rows, and what refers to them, would be reported as faults that follow from this one
         faults.broken.add(section)
         return [], []
     if not units[1].lstrip().startswith("("):
@@ -337,7 +337,7 @@ def read_deck(path: str | Path) -> MoorDynDeck:
     Parameters
     ----------
     path : path
-        File; stiffness tables, profiles of current and grids of depths are looked for beside it.
+        File; stiffness tables, profiles of current and grids of depths are looked for next to it.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Small records of MoorDyn input files: options and the files that stand beside a deck."""
+"""Small records of MoorDyn input files: options and the files that stand next to a deck."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ FREQUENCY_FILE, ELEVATION_FILE = "wave_frequencies.txt", "wave_elevation.txt"
 
 @dataclass(frozen=True)
 class DeckWaves:
-    """Waves of the files beside a deck, as the rows of ``wave_frequencies.txt`` for WaveKin 7.
+    """Waves of the files next to a deck, as the rows of ``wave_frequencies.txt`` for WaveKin 7.
 
     The elevation at the origin is the sum of Im((real + i imaginary) e^{i omega t}) = real sin + imaginary cos.
 

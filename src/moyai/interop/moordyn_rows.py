@@ -1,4 +1,4 @@
-"""Rows of MoorDyn decks, what is wrong with them, and the small files that stand beside a deck."""
+"""Rows of MoorDyn decks, what is wrong with them, and the small files that stand next to a deck."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Row:
 
 
 class Faults:
-    """Collects what is wrong, so that all of it is told at once; ``broken`` sections hold no rows to refer to."""
+    """Collects what is wrong, so that all of it is reported at once; ``broken`` sections hold no rows to refer to."""
 
     def __init__(self, file: str) -> None:
         self.file, self.found = file, list[Fault]()

@@ -174,7 +174,7 @@ def bodies_of(deck: MoorDynDeck) -> tuple[tuple[BodyOfDeck, ...], tuple[str, ...
 
 
 def _refusal(deck: MoorDynDeck, rod: DeckRod) -> tuple[str, str]:
-    """Return why a rod is not run, and what mends it; two empty texts when it is."""
+    """Return why a rod is not run, and what corrects it; two empty texts when it is."""
     if rod.kind == "body pinned":
         return (
             f"rod {rod.number} is hinged to body {rod.body}: hinges between bodies are not run",

@@ -1,4 +1,4 @@
-"""Waves of the files beside a MoorDyn deck, as a sum of linear waves at the nodes.
+"""Waves of the files next to a MoorDyn deck, as a sum of linear waves at the nodes.
 
 MoorDyn 2.7.2 takes the amplitudes of ``wave_frequencies.txt`` as Re(A e^{i omega t}) with WaveKin 2 and as
 Im(A e^{i omega t}) with WaveKin 7: both are read as MoorDyn takes them. Its grid (``water_grid.txt``) is not needed:

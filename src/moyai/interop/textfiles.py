@@ -103,7 +103,7 @@ def read_table(path: Path, widths: Iterable[int]) -> list[list[float]]:
 
 
 def find_companion(path: Path, suffix: str) -> Path | None:
-    """Return the file beside ``path`` with the same stem and ``suffix``, in any case of letters."""
+    """Return the file next to ``path`` with the same stem and ``suffix``, in any case of letters."""
     wanted = (path.stem + suffix).lower()
     for candidate in sorted(path.parent.iterdir()):
         if candidate.name.lower() == wanted and candidate.is_file():

@@ -35,7 +35,7 @@ _ROTATION = np.array([0, 0, 0, 1, 1, 1])
 
 @dataclass(frozen=True)
 class _Surroundings:
-    """What the input files beside the number files tell; ``None`` where they do not."""
+    """What the input files next to the number files tell; ``None`` where they do not."""
 
     gravity: float | None = None
     length_scale: float | None = None
@@ -64,7 +64,7 @@ def read_wamit(
     Parameters
     ----------
     path : path
-        The .1 file, or any file with the same stem; .3 must stand beside it, .hst, .8 and .9 are read where present.
+        The .1 file, or any file with the same stem; .3 must stand next to it, .hst, .8 and .9 are read where present.
     density : float
         Water density rho [kg/m3].
     gravity, length_scale : float, optional

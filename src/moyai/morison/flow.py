@@ -1,4 +1,4 @@
-"""The flow past a member: linear, irregular and finite-height waves behind one call, current beside it."""
+"""The flow past a member: linear, irregular and finite-height waves behind one call, current next to it."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class LawChoice:
 
     @property
     def others(self) -> tuple[NetLaw, ...]:
-        """The laws beside the chosen one."""
+        """The laws next to the chosen one."""
         return tuple(law for law in self.laws if law is not self.chosen)
 
     @property

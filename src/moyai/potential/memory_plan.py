@@ -109,7 +109,7 @@ def refine_frequencies(
     w = np.asarray(omega, dtype=float)
     errors = local_errors(w, np.asarray(radiation_damping, dtype=float), start=start)
     poor = errors > tolerance
-    # Both gaps beside a poor frequency are halved
+    # Both gaps next to a poor frequency are halved
     gaps = poor[:-1] | poor[1:]
     return 0.5 * (w[:-1] + w[1:])[gaps]
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # An end this close to another edge, in terms of the size of all, is joined to it
 _JOIN = 1e-6
-# Share of a plate beside its joints that is left out when crossings are looked for: arcs are held as chords there
+# Share of a plate next to its joints that is left out when crossings are looked for: arcs are held as chords there
 _BESIDE_JOINT = 5e-3
 
 

@@ -1,7 +1,7 @@
 """Compiled quadrature of the layer potentials over straight, circular and complex-scaled panels.
 
 A panel carries ``p`` Gauss-Legendre nodes in its own parameter t. The point at t is u = x + i z, and v = x - i z is
-kept beside it as an independent number: on a free surface that was turned into the complex x-plane the two are not
+kept next to it as an independent number: on a free surface that was turned into the complex x-plane the two are not
 conjugate any more, and ln r = (ln(u - U) + ln(v - V)) / 2 continues analytically [eq:potential-log-split].
 
 A panel may run cubically into one of its ends (``grade`` -1 or +1): the fractional power of the distance with which a

@@ -156,7 +156,7 @@ def solve_fields(inner: InnerRegion, kernel: OuterKernel, surface_number: float,
     inner : InnerRegion
         Water below the body.
     kernel : OuterKernel
-        Water beside it.
+        Water next to it.
     surface_number, wave_number : float
         omega^2 s/g and k s; an infinite ``surface_number`` gives the phi = 0 problem (no waves).
     """

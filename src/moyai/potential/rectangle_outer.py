@@ -1,6 +1,6 @@
-"""The water beside a rectangle: its response to horizontal velocity on the line of the side wall.
+"""The water next to a rectangle: its response to horizontal velocity on the line of the side wall.
 
-The kernel is the Green function of the quarter plane beside the wall, integrated on a ray of the complex plane
+The kernel is the Green function of the quarter plane next to the wall, integrated on a ray of the complex plane
 that passes below the pole of the outgoing wave; no sum over slowly converging modes is left.
 """
 
@@ -21,7 +21,7 @@ _TRIANGLE_POINTS = 14
 
 @dataclass(frozen=True)
 class OuterMatrices:
-    """Moments of the kernel beside the wall; the potential there is minus kernel times velocity.
+    """Moments of the kernel next to the wall; the potential there is minus kernel times velocity.
 
     ``gap_gap`` (q, q), ``gap_side`` (q, 2) and ``side_side`` (2, 2): basis functions in the gap, the functions 1 and z
     on the wall. ``wave_gap`` (q,), ``wave_side`` (2,): moments of the wave mode of unit norm; ``wave_surface`` its

@@ -306,7 +306,7 @@ def _residues(
     right = both * np.concatenate([entries.real, entries.imag])
     at_zero: Array = partial_fractions(np.zeros(1, dtype=complex), poles).real
     count = len(rows)
-    # dips sit beside lightly damped poles and may be narrower than the steps of an even grid
+    # dips sit next to lightly damped poles and may be narrower than the steps of an even grid
     beside = np.abs(poles.imag)[:, None] + np.abs(poles.real)[:, None] * np.linspace(-4.0, 4.0, 17)
     even = np.geomspace(0.05 * x[0], 200.0 * x[-1], _PASSIVITY_POINTS)
     dense = np.unique(np.concatenate([even, beside[(beside > even[0]) & (beside < even[-1])]]))

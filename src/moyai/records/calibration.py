@@ -1,6 +1,6 @@
 """Fit the parameters of any model to observations: least squares with bounds, and how far the answer can be trusted.
 
-The model is a function of its parameters; it may be a formula or a whole simulation. Beside the estimate stand its
+The model is a function of its parameters; it may be a formula or a whole simulation. Next to the estimate stand its
 covariance, a bootstrap, the fit with each storm left out, and a warning where the observations do not tell the
 parameters apart.
 """

@@ -171,7 +171,7 @@ class Column:
     trim : bool
         Drop trailing zeros (input echo).
     links : sequence of str
-        File beside the report that each cell leads to, empty text where to none; on the screen only.
+        File next to the report that each cell leads to, empty text where to none; on the screen only.
     like : float
         Magnitude that chooses the display unit together with the values (see :func:`in_one_unit`).
     """

@@ -99,7 +99,7 @@ def _choose(wanted: tuple[str, ...], present: set[str]) -> list[str]:
 
 
 class _Writer:
-    """Turns blocks into data for the template and writes the images beside it."""
+    """Turns blocks into data for the template and writes the images next to it."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder

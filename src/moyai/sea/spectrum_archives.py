@@ -376,7 +376,7 @@ def _ndbc(text: str, file: Path) -> SpectrumArchive:
 
 
 def _ndbc_direction(file: Path, count: int, order: NDArray[np.intp]) -> Array:
-    """Return the mean directions of the energy, from the files of first moments that lie beside the densities."""
+    """Return the mean directions of the energy, from the files of first moments that lie next to the densities."""
     beside = [file.with_suffix(suffix) for suffix in (".swdir", ".swr1")]
     nothing = np.full((count, 1), math.nan)
     if file.suffix != ".data_spec" or not all(other.is_file() for other in beside):

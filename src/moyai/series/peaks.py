@@ -1,4 +1,4 @@
-"""Peaks of a response, those of snaps told from the others, and the maximum of peaks of several kinds.
+"""Peaks of a response, those of snaps distinguished from the others, and the maximum of peaks of several kinds.
 
 Theory in docs/theory/extremes.md.
 """

@@ -216,7 +216,7 @@ def _power(form: str, x: Array, y: Array, confidence: float, base: Callable[[Arr
 
     shape = np.exp(exponent * logs)
     jacobian = np.stack([shape, factor * shape * logs], axis=1)
-    # columns of like size: loads in newtons beside an exponent would spoil the inverse
+    # columns of like size: loads in newtons next to an exponent would spoil the inverse
     size = np.linalg.norm(jacobian, axis=0)
     found = _result(form, ("factor", "exponent"), np.array([factor * size[0], exponent * size[1]]), jacobian / size, y,
                     predict, factor * shape, confidence)  # fmt: skip
@@ -248,7 +248,7 @@ def correlation(x: ArrayLike, y: ArrayLike, *, confidence: float = 0.95) -> Esti
 
 
 def type_ratio(reference: ArrayLike, other: ArrayLike, *, confidence: float = 0.95) -> tuple[Fit, Estimate]:
-    """Return how the loads of one type follow those of another measured beside it.
+    """Return how the loads of one type follow those of another measured next to it.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 
 _FEWEST_IN_RISE = 5
-# Peak above the noise below which no snap is told from it
+# Peak above the noise below which no snap is distinguished from it
 _LOUDEST_NOISE = 6.0
 _PLATEAU_SHARE = 0.5
 _SOURCE = "Sawaragi, Aoki and Liu (1991): the impact tension is the peak less the drag level"

@@ -26,6 +26,7 @@ SnapLaw = Literal["weibull", "pareto"]
 
 _FEWEST = 10
 _FEW = 30
+_LAW_WORDS = {"weibull": "Weibull distribution", "pareto": "Pareto distribution"}
 _FAMILY: dict[str, Family] = {"weibull": "weibull", "pareto": "generalised_pareto"}
 
 
@@ -281,7 +282,7 @@ def _check_fit(law: SnapLaw, count: int, shape: float, distance: float) -> tuple
         notices.append(
             Notice(
                 "snap-fit",
-                f"The {law} law is off by {distance:.3g} in probability",
+                f"The {_LAW_WORDS[law]} differs from the measured distribution by {distance:.3g} in probability",
                 distance,
                 limit,
                 remedy="raise the threshold, or take the other law",

@@ -76,7 +76,7 @@ def assess(study: Study, result: Result, wanted: schema.Assessment | None) -> Re
             groups[f"/assessment/{name}"], said = compute()
             notices += said
         except InputError as error:
-            # The cases have run; what cannot be made of them is told, and the rest is kept
+            # The cases have run; what cannot be made of them is reported, and the rest is kept
             message = f"{name} could not be assessed: {error.fault.message}"
             allowed = f"allowed: {error.fault.allowed}" if error.fault.allowed else ""
             remedy = "; ".join(part for part in (allowed, error.fault.remedy) if part)

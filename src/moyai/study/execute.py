@@ -191,7 +191,7 @@ class _SoFar:
         begun = time.monotonic()
         if begun < self.next or len(known) == len(self.study.cases):
             return
-        # The diary holds every case: what goes wrong here is told where the study ends
+        # The diary holds every case: what goes wrong here is reported where the study ends
         with contextlib.suppress(InputError, OSError):
             study_result(self.study, known.values(), interrupted=True).write(self.path)
         self.next = time.monotonic() + max(_OFTEN, _COST * (time.monotonic() - begun))

@@ -220,7 +220,7 @@ def _client(on: Any) -> Iterator[Any]:
                 "'dask worker tcp://HOST:8786 --nthreads 1'",
             ) from None
     try:
-        # Not the client's own note of the scheduler: it is renewed beside, without the workers
+        # Not the client's own note of the scheduler: it is renewed next to, without the workers
         if not client.nthreads():
             raise InputError(
                 "the cluster has no workers",

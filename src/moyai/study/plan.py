@@ -325,7 +325,7 @@ def with_search(study: Study, run: RunCase) -> RunCase:
 
 
 def _read_base(document: Document, base_path: Path) -> Document:
-    """Read the base case; every fault of its own is told with its own lines."""
+    """Read the base case; every fault of its own is reported with its own lines."""
     if not base_path.exists():
         raise CaseError([document.fault(("study", "base"), f"no such file: {base_path}", remedy="name the base case")])
     base = read_yaml(base_path)

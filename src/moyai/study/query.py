@@ -110,7 +110,7 @@ class StudyTable:
     def column(self, text: str) -> Column:
         """Return a column by name: an axis, ``case``, ``status``, ``message``, ``verdict``, or a response.
 
-        A response may be told by the end of its name, where that is only one, and by labels:
+        A response may be named by the end of its name, where that is only one, and by labels:
         ``line_tension_maximum[line=seaward]``; the largest entry of what is left counts.
 
         Raises

@@ -46,7 +46,7 @@ class ScaledCase:
     scale : Scale
         Ratios of prototype to model.
     files : tuple of (str, str)
-        Name and text of the files that stand beside the new case.
+        Name and text of the files that stand next to the new case.
     """
 
     text: str
@@ -146,7 +146,7 @@ def _inside(path: KeyPath, keys: set[KeyPath]) -> bool:
 
 
 def _read_again(text: str, given: Path, files: tuple[tuple[str, str], ...]) -> Case:
-    """Read the new file, with those beside it where it needs any."""
+    """Read the new file, with those next to it where it needs any."""
     name = f"{given.name} scaled"
     try:
         if not files:

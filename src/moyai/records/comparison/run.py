@@ -102,7 +102,7 @@ def compare_result(
     largest_lag : float
         How far the model may be moved to fit best, in units of the coordinate.
     state : str
-        Column by whose classes the agreement is also told, for instance H1/3.
+        Column by whose classes the agreement is also reported, for instance H1/3.
     edges : sequence of float
         Borders of these classes, SI.
     decimal : str

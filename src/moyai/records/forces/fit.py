@@ -50,9 +50,9 @@ class Setup:
         Drag u|u| or u|U| with the speed of all components.
     methods : tuple of str
     harmonics : tuple of int
-        Harmonics of the force (2, 3, ...) that Morison's equation is not asked to explain: fitted beside it.
+        Harmonics of the force (2, 3, ...) that Morison's equation is not asked to explain: fitted next to it.
     mean : bool
-        Whether the mean force is fitted beside it too.
+        Whether the mean force is fitted next to it too.
     phase_error : float
         Standard error of the phase between force and velocity [rad].
     confidence : float

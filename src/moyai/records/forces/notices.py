@@ -14,7 +14,7 @@ from moyai.records.forces.record import ForceRecord
 
 #: Condition number of the scaled equations above which inertia and drag cannot be distinguished
 LARGEST_CONDITION = 1e7
-#: Share of the variance of a velocity outside its harmonics that is told, and above which it is not periodic
+#: Share of the variance of a velocity outside its harmonics that is reported, and above which it is not periodic
 TOLD_SHARE, APERIODIC_SHARE = 0.01, 0.5
 #: C_M over its ideal value within which measurements lie
 PLAUSIBLE_INERTIA = (0.2, 3.0)

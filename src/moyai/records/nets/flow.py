@@ -18,7 +18,7 @@ from moyai.records.nets.runs import NetRun, Tank
 from moyai.records.nets.steady import steady_window
 from moyai.sea.dispersion import wave_number
 
-#: Gap between the encounter period seen and that of the dispersion relation that is told, relative
+#: Gap between the encounter period seen and that of the dispersion relation that is reported, relative
 _PERIOD_GAP = 0.03
 
 

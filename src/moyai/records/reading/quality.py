@@ -1,6 +1,6 @@
 """Quality control: gaps, spikes, flat lines, clipping, drift, unit slips - found, flagged, reported, never filled.
 
-Every limit is an option with its meaning beside it. Spikes are off where a channel may jump by nature (a snap load is
+Every limit is an option with its meaning next to it. Spikes are off where a channel may jump by nature (a snap load is
 no fault).
 """
 

@@ -16,7 +16,7 @@ from moyai.records.streaks.fit import PARAMETERS, fit_streaks, gather_pixels, st
 
 @dataclass(frozen=True)
 class DetectionSettings:
-    """How streaks are told from noise.
+    """How streaks are distinguished from noise.
 
     Parameters
     ----------

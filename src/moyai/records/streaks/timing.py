@@ -1,4 +1,4 @@
-"""When the light was on: pulses, the pictures they fall into, and whether their order in time can be told."""
+"""When the light was on: pulses, the pictures they fall into, and whether their order in time can be reported."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def _misfit(rest: Array, order: NDArray[np.int64]) -> float:
 
 
 def require_time_order(train: PulseTrain, least_streaks: int) -> None:
-    """Refuse pulses whose order in time cannot be told from one picture.
+    """Refuse pulses whose order in time cannot be found from one picture.
 
     Parameters
     ----------

@@ -173,7 +173,7 @@ def read_flume_record(path: str | Path, *, units: Mapping[str, str] | None = Non
     """Read a comma-separated record: one heading row ``name [unit]``, then numbers.
 
     Time is the column named ``Time``, else the first one, whose heading may be empty. A running row number without
-    heading before the time is left out. A heading without unit is kept and told. Empty and unreadable cells become NaN
+    heading before the time is left out. A heading without unit is kept and reported. Empty and unreadable cells are NaN
     and are counted, never filled.
 
     Parameters
@@ -352,7 +352,7 @@ def analyse_regular_run(
     ramp_periods : float
         Periods until the waves are steady.
     harmonics : int
-        Harmonics fitted beside the mean.
+        Harmonics fitted next to the mean.
 
     Returns
     -------

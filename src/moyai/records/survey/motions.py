@@ -254,7 +254,7 @@ def response_function(
     lowest, highest : float
         Band [Hz].
     least_coherence : float
-        Frequencies with less are left out (NaN), beside those where chance gives as much.
+        Frequencies with less are left out (NaN), next to those where chance gives as much.
 
     Returns
     -------

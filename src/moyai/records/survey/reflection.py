@@ -149,7 +149,7 @@ def goda_suzuki(
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return incident and reflected amplitudes at x = 0 of two gauges in closed form; equation [eq:goda-suzuki].
 
-    Kept beside the least squares as their independent check.
+    Kept next to the least squares as their independent check.
     """
     x1, x2 = np.asarray(positions, dtype=float)
     first, second = np.moveaxis(np.atleast_2d(np.asarray(amplitudes, dtype=complex)), -1, 0)

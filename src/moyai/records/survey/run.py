@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 MOST_FINDINGS = 5000
 MOST_SLIPS = 10
-"""Slips of a unit told one by one; more are told together and stand in the table."""
+"""Slips of a unit reported one by one; more are reported together and stand in the table."""
 
 
 def run_survey(survey: Survey, progress: Progress = silent, *, rows: int = CHUNK_ROWS) -> Result:

@@ -1,4 +1,4 @@
-"""Mooring tensions beside waves: steady and fluctuating part, one maximum for every wave, their statistics.
+"""Mooring tensions next to waves: steady and fluctuating part, one maximum for every wave, their statistics.
 
 Steps of the chain of Tabata et al.; :mod:`moyai.records.survey.tension_blocks` runs it over a record. Arrays in,
 numbers out.

@@ -186,7 +186,7 @@ def fit_tide(
 
 
 def _line_errors(t: Array, rest: Array, omega: Array, length: float) -> Array:
-    """Return the standard error of an amplitude: the level of the rest's periodogram beside each constituent."""
+    """Return the standard error of an amplitude: the level of the rest's periodogram next to each constituent."""
     out = np.empty(omega.size)
     step = 2.0 * math.pi / length
     for i, w in enumerate(omega):

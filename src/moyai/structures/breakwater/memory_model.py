@@ -132,7 +132,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
     """Part the identities that a damping lid breaks from those that hold with it.
 
     A lid that takes a constant fraction at every frequency answers before it is pushed (as hysteretic damping does): no
-    memory function obeys Kramers-Kronig with it. How far it is off is told instead.
+    memory function obeys Kramers-Kronig with it. How far it is off is reported instead.
     """
     if not unit.breakwater.gap_damping_lid:
         gaps = len(unit.section.waterlines) - 1

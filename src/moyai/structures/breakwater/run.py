@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class _Sources:
-    """Where coefficients may come from beside the solver."""
+    """Where coefficients may come from next to the solver."""
 
     coefficients: CoefficientsOf | None
     store: DatasetStore | None
@@ -88,7 +88,7 @@ def run(
 def _steps(problem: BreakwaterProblem, collected: Collected, sources: _Sources, progress: Progress) -> Iterator[None]:
     analyses = problem.settings.analyses
     levels = problem.environment.water_levels
-    # Every level is assembled before any long work starts, so that an impossible one is told at once
+    # Every level is assembled before any long work starts, so that an impossible one is reported at once
     units = [assemble(problem, name, level) for name, level in levels]
     for index, unit in enumerate(units):
         progress("water levels", index, len(units))

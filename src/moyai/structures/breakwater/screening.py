@@ -1,4 +1,4 @@
-"""Screening formulas for the transmission of floating breakwaters, shown beside linear theory, never instead of it.
+"""Screening formulas for the transmission of floating breakwaters, shown next to linear theory, never instead of it.
 
 Sources: Macagno (1954); Wiegel (1960), thin plate; Ruol, Martinelli and Pezzutto (2013, J. Waterway, Port, Coastal and
 Ocean Engineering 139(1), 1-8) for chain-moored pi-type sections. Against the linear solution for the fixed box Macagno

@@ -107,7 +107,7 @@ def curtain_headlines(
         *_limits(groups, levels),
     ]
     if used and not math.isnan(used[0].value):
-        # the load behind the most used component stands beside it
+        # the load behind the most used component stands next to it
         first = used[0]
         behind = "anchor_load" if first.name.startswith("anchor") else "cable_tension"
         found.sort(key=lambda item: (item.name != first.name, item.name != behind))

@@ -2,7 +2,7 @@
 
 The models differ by what they take the skirt for. The steady section lets the toe fly up; the impact models and the
 slack and taut cycles take a flat plate that stands upright; the whole span through time takes cloth between cables. A
-model out of range never governs. Where only a bound is left, the number is told as one [eq:curtain-hierarchy].
+model out of range never governs. Where only a bound is left, the number is reported as one [eq:curtain-hierarchy].
 """
 
 from __future__ import annotations

@@ -77,7 +77,7 @@ def run(problem: CurtainProblem, progress: Progress = silent) -> Result:
 
 def _steps(problem: CurtainProblem, collected: _Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
-    # every level is assembled before any long work starts, so that an impossible one is told at once
+    # every level is assembled before any long work starts, so that an impossible one is reported at once
     units = [assemble(problem, name, level) for name, level in levels]
     if problem.record is not None:
         collected.groups["/record"] = record_dataset(problem.record)

@@ -60,7 +60,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "planning_load": ("N", "load of the span by a planning formula"),
     "planning_drag_coefficient": ("1", "drag coefficient that the formula amounts to"),
     "planning_confirmed": ("1", "whether the formula was read in its source"),
-    # the governing steady load and what stands beside it
+    # the governing steady load and what stands next to it
     **{
         f"steady_{name}{end}": (unit, f"{words}, governing steady load{told}")
         for name, unit, words in QUANTITIES

@@ -1,4 +1,4 @@
-"""Inertia coefficient and circulation against KC in circular orbits, with the published curves beside them."""
+"""Inertia coefficient and circulation against KC in circular orbits, with the published curves next to them."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A run and what is told of it.
+    """A run and what is reported of it.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def run(
     earlier: Earlier | None = None,
     hung: CoupledRest | None = None,
 ) -> Run:
-    """Run a network through time and gather what is told of it.
+    """Run a network through time and gather what is reported of it.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def _worth(
 ) -> tuple[PeakSensitivity | None, list[Notice], History]:
     """Find what the peak of a run is worth: as asked for, or as far as it costs little.
 
-    ``peak`` is the line, its bar and why the peak is doubtful. Returns what was found, what is to be told, and the
+    ``peak`` is the line, its bar and why the peak is doubtful. Returns what was found, what is to be reported, and the
     history, marked where the user ended this part.
     """
     (governing, worst, why), (history, coupled) = peak, made
@@ -203,7 +203,7 @@ def _worth(
 
 
 def sound_rows(history: History) -> History:
-    """Return a run that blew up without what came after its last good state: no peak may be told from there."""
+    """Return a run that blew up without what came after its last good state: no peak is taken from there."""
     good = int(np.count_nonzero(history.time <= last_good_state(history).time * (1.0 + 1e-12)))
     rows = ("time", "position", "tension", "tension_peak", "kinetic_energy", "elastic_energy", "work")
     cut = {name: getattr(history, name)[: max(good, 1)] for name in rows}

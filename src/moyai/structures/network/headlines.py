@@ -22,7 +22,7 @@ from moyai.structures.network.start_up import ASKED
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Highest tension over that at the ends of its line above which both are told.
+#: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
 DYNAMIC, REST = "run through time", "at rest"
 

@@ -87,7 +87,7 @@ def run(
 def _steps(problem: NetworkProblem, collected: Collected, progress: Progress) -> Iterator[None]:
     levels = problem.environment.water_levels
     if problem.bodies and "dynamic" in problem.settings.analyses:
-        # waves that the loads do not know are told before anything is run
+        # waves that the loads do not know are reported before anything is run
         for _, level in levels:
             for plan in run_plans(problem, problem.environment.water_at(level)):
                 collected.notices.extend(loads_on_time(problem, plan))

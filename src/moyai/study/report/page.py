@@ -307,7 +307,7 @@ def _along(pages: StudyPages, name: str) -> Figure | None:
 
 
 def _short(name: str, label: str) -> str:
-    """Return words that fit beside an axis."""
+    """Return words that fit next to an axis."""
     return label if len(label) <= 40 else name.rpartition("/")[2].replace("_", " ")
 
 

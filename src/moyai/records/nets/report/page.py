@@ -34,7 +34,7 @@ from moyai.report.general_page import case_listing, closing_section, notice_bloc
 from moyai.report.reading import Group, root_of
 
 _MOST_POINTS = 3000
-#: The law of the paper, drawn beside the points
+#: The law of the paper, drawn next to the points
 _PAPER = (9.84, 0.36, 84.0, 1800.0)
 
 

@@ -229,7 +229,7 @@ def _size_of(picture: Path) -> tuple[int, int] | None:
 
     try:
         shape = imageio.improps(picture).shape
-    except Exception:  # whatever is wrong with it is told, with its name, when it is read
+    except Exception:  # whatever is wrong with it is reported, with its name, when it is read
         return None
     return (int(shape[0]), int(shape[1])) if len(shape) in (2, 3) else None
 

@@ -177,7 +177,7 @@ class BackgroundBlock(Block):
 
 
 class DetectionBlock(Block):
-    """How streaks are told from noise."""
+    """How streaks are distinguished from noise."""
 
     threshold: PositiveNumber = Field(default=7.0, description="Standard deviations of the noise. Default: 7.")
     edge_threshold: PositiveNumber = Field(default=3.5, description="The same for the rim of a streak. Default: 3.5.")

@@ -53,7 +53,7 @@ def overlay(key: str, title: str, grey: NDArray[np.uint8], ends: Array, particle
     groups: dict[str, list[str]] = {}
     for (first, last), owner in zip(ends, particle):
         tone = TONES[int(owner) % len(TONES)] if owner >= 0 else "#9aa4ae"
-        # Beside the streak, so that the streak itself stays to be seen
+        # Next to the streak, so that the streak itself stays to be seen
         step = last - first
         length = max(float(np.hypot(*step)), 1e-9)
         aside = 2.2 * np.array([-step[1], step[0]]) / length

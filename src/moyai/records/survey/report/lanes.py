@@ -11,7 +11,7 @@ import numpy as np
 from moyai.report.document import Drawing
 from moyai.report.drawing import with_colours
 
-#: Colours of the kinds of flags, told apart by the colour-blind.
+#: Colours of the kinds of flags, which the colour-blind can distinguish.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#b5609a", "#b98500", "#4aa3d8", "#5a5f66", "#b3261e")
 _WIDTH, _LANE, _THINNEST = 960.0, 26.0, 2.0
 _LETTER = 6.6

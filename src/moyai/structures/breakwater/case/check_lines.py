@@ -53,8 +53,8 @@ def check_chain_on_bed(
     level : str
         Name of the water level.
     findings : Findings
-    told : set of str
-        Names of the lines that were told of at another level; the highest level comes first.
+    reported : set of str
+        Names of the lines that were reported of at another level; the highest level comes first.
     """
     for index, (entry, line) in enumerate(zip(model.lines, lines)):
         if not isinstance(line, Line) or line.name in told or not _begins_with_chain(entry):

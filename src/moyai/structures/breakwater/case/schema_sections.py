@@ -30,7 +30,7 @@ class SectionPlate(Block):
 
 
 class PlatedSection(Block):
-    """What all shapes share: thin plates on the outline, under it or beside it."""
+    """What all shapes share: thin plates on the outline, under it or next to it."""
 
     plates: Annotated[tuple[SectionPlate, ...], Field(max_length=50)] = Field(
         default=(),

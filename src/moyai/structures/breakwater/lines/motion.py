@@ -377,7 +377,7 @@ def _lines_in_motion(
         weight[:-1] += 0.5 * lengths[strand.bars]
         weight[1:] += 0.5 * lengths[strand.bars]
         touching = network.position[:count, strand.nodes, 2] <= bed + 1e-6 * max(abs(bed), 1.0)
-        touching[:, 0] = touching[:, 1]  # the node at the anchor touches always: it counts with the line beside it
+        touching[:, 0] = touching[:, 1]  # the node at the anchor touches always: it counts with the line next to it
         grounded[:, column] = touching @ weight
         if count > 1:
             snaps[name] = find_snaps(

@@ -1,4 +1,4 @@
-"""Lines in motion in the report of a floating breakwater: beside lines at rest, slack and snap, their moving shapes."""
+"""Lines in motion in the report of a breakwater: next to lines at rest, slack and snap, their moving shapes."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def in_motion(run: Group) -> bool:
 
 
 def line_blocks(level: Level, sea: Sea, run: Group, window: tuple[float, float], line: int) -> tuple[Block, ...]:
-    """Return what lines in motion add to a run: their table and the record beside that of lines at rest.
+    """Return what lines in motion add to a run: their table and the record next to that of lines at rest.
 
     Parameters
     ----------

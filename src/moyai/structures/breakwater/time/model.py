@@ -44,7 +44,7 @@ class TimeRun:
     lines : LinesInMotion or None
         Of lines that are in motion.
     at_rest : Simulation or None
-        The same with lines at rest at every instant, beside lines in motion.
+        The same with lines at rest at every instant, next to lines in motion.
     """
 
     name: str
@@ -139,7 +139,7 @@ def linear_damping(model: FrequencyModel, added_mass: Array, stiffness: Array) -
 
 @dataclass(frozen=True)
 class SeaOfRun:
-    """What a run needs to know of its sea beside the forces on the unit.
+    """What a run needs to know of its sea next to the forces on the unit.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def run_with_lines(
 ) -> TimeRun:
     """Simulate with line tables for twice the expected motion (at least a thousandth of the beam, or of a radian).
 
-    Lines in motion are run in their own time; the run with all lines at rest is then made beside it, to compare.
+    Lines in motion are run in their own time; the run with all lines at rest is then made next to it, to compare.
     """
     unit = model.unit
     expected = np.nan_to_num(expected)

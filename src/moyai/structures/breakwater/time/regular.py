@@ -174,7 +174,7 @@ def _one_period(
     progress: Progress,
     current: Current | None,
 ) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...], tuple[Array, QuadraticDamping | None, Forcing]]:
-    """Run one period; lines are set in motion where their peaks pass the range of lines at rest, and told so.
+    """Run one period; lines are set in motion where their peaks pass the range of lines at rest, and reported so.
 
     The last item holds what forces acted on the unit: linear and quadratic damping, and the forcing.
     """

@@ -1,4 +1,4 @@
-"""Faults of a flexible cage that can be told before anything is computed, and where it leaves its range."""
+"""Faults of a flexible cage that can be reported before anything is computed, and where it leaves its range."""
 
 from __future__ import annotations
 

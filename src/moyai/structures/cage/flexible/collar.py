@@ -131,7 +131,7 @@ class Collar:
     spacing : float
         Between the axes of two rings [m].
     rigid : bool
-        A collar that hardly deforms: bending and torsion :data:`RIGID_FACTOR` times as stiff. Its stress is not told.
+        A collar that hardly deforms: bending and torsion :data:`RIGID_FACTOR` times as stiff. Its stress is left out.
     """
 
     pipe: Pipe

@@ -106,7 +106,7 @@ def _measures(
 
 
 def orbit_drawing(level: Level, sea: str, records: list[Record]) -> Drawing | None:
-    """Return the orbits of the centre of gravity beside that of a float at the surface, one scale for all."""
+    """Return the orbits of the centre of gravity next to that of a float at the surface, one scale for all."""
     shown = [record for record in records if record.regular][:12]
     if not shown:
         return None

@@ -50,7 +50,7 @@ def rope_model(unit: LevelCurtain, settings: AnchorLoadSettings) -> EnergyModel:
 def anchor_dataset(
     unit: LevelCurtain, settings: AnchorLoadSettings, limits: LimitSettings, waves: tuple[DesignWave, ...]
 ) -> xr.Dataset:
-    """Return the group ``anchor_loads``: one row a wave, with the direction rules and curves beside it.
+    """Return the group ``anchor_loads``: one row a wave, with the direction rules and curves next to it.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ _LONGER, _SAME = 4, 0.01
 
 @dataclass(frozen=True)
 class DynamicAnswer:
-    """Groups of one run, what must be told, its checks, the highest tensions, and whether the user stopped it."""
+    """Groups of one run, what must be reported, its checks, the highest tensions, and whether the user stopped it."""
 
     groups: dict[str, xr.Dataset]
     checks: tuple[IdentityCheck, ...]

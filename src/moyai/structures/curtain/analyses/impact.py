@@ -178,7 +178,7 @@ def counts(model: str) -> bool:
     """Whether a model counts in the load table.
 
     Model B leaves out that cables stretch, the closed form is for small strain and the marching has its time step:
-    they are shown beside the models that they approximate.
+    they are shown next to the models that they approximate.
     """
     return not model.startswith("B ") and "closed form" not in model and "marched" not in model
 

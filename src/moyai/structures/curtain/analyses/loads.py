@@ -133,7 +133,7 @@ def _decided(
     row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
     row |= governing_load(row, roles)
     governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
-    # the upper end of the steady load is added to what waves add; beside a moving span it counts where it alone is more
+    # the upper end of the steady load is added to what waves add; with a moving span it counts where it alone is more
     above = governing - steady + high
     if row["governing"] == "dynamic":
         above = max(governing, high) if math.isfinite(high) else governing

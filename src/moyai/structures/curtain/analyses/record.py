@@ -1,4 +1,4 @@
-"""A flume record beside the impact models: what was found in it, and each model over it."""
+"""A flume record next to the impact models: what was found in it, and each model over it."""
 
 from __future__ import annotations
 

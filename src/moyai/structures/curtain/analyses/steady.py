@@ -1,4 +1,4 @@
-"""The governing steady load of a run with its band, what moves it, against direction, and beside other steady loads."""
+"""The governing steady load of a run with its band, what moves it, against direction, and other steady loads."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _DIRECTIONS = np.radians(np.arange(0.0, 76.0, 15.0))
 
 @dataclass(frozen=True)
 class ComparedLoad:
-    """A steady load of another model beside the governing one.
+    """A steady load of another model next to the governing one.
 
     Parameters
     ----------

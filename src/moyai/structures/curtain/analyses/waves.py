@@ -41,7 +41,7 @@ _NO_SPEED = 1.0
 
 @dataclass(frozen=True)
 class WaveAnswer:
-    """Groups of one sea state, the largest tension in it, and what must be told.
+    """Groups of one sea state, the largest tension in it, and what must be reported.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Energy checks of a run of a span, and what must be told of it: where it left its range, and what it did not reach."""
+"""Energy checks of a run of a span, and what is reported of it: where it left its range, what it did not reach."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from moyai.structures.curtain.dynamic.runs import DynamicRun
 
 #: Part of the energy of a span that viscosity may take in a period: a snap loses some per cent, crumpling much more.
 MOST_VISCOUS = 0.3
-#: Part of the skirt's depth that is left below which a risen toe is told; change of the peaks of two periods beyond
+#: Part of the skirt's depth that is left below which a risen toe is reported; change of the peaks of two periods beyond
 #: which a motion has not settled.
 _RISEN, _UNSETTLED = 0.8, 0.1
 #: Share of a run after which its highest tension may still be exceeded.

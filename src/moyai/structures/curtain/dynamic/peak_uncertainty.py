@@ -11,7 +11,7 @@ from moyai.core.validity import Notice
 from moyai.structures.curtain.dynamic.checks import plain
 from moyai.structures.curtain.dynamic.runs import DynamicRun, run_span
 
-#: Change of a peak with step and mesh beyond which it is told, and the share of the highest peak that matters.
+#: Change of a peak with step and mesh beyond which it is reported, and the share of the highest peak that matters.
 LIMIT, _MATTERS = 0.05, 0.05
 #: Change of the peak with held normals beyond which folds of cloth are suspected.
 _APART = 0.3
@@ -19,7 +19,7 @@ _APART = 0.3
 _NAMED = 3
 #: Change from half the cells beyond which nothing is extrapolated.
 _POINTING = 0.2
-#: The sum of both cables, beside the names of the lines.
+#: The sum of both cables, next to the names of the lines.
 BOTH = "both"
 
 

@@ -2,7 +2,7 @@
 
 A curtain that is let go slack snaps once because it was let go. What a daily wave does to it day after day is what is
 left when periods repeat. Stiff cables throw the skirt back, so that it may repeat every second or eighth period, or
-never: then only what is steady in the mean can be told, the mean of the largest of a hundred periods with its scatter.
+never: then only what is steady in the mean is reported, the mean of the largest of a hundred periods with its scatter.
 """
 
 from __future__ import annotations

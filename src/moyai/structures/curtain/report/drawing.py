@@ -252,7 +252,7 @@ def _plan_dimensions(sketch: Sketch, level: CurtainLevel, shape: Array, box: tup
 
 
 def anchor_drawing(level: CurtainLevel) -> str:
-    """Draw one anchor line from its float to the bed, beside the curtain, seen along the span."""
+    """Draw one anchor line from its float to the bed, next to the curtain, seen along the span."""
     lines, shape, depth = anchor_lines(level), section_curve(level), level.depth
     if not lines or shape is None or not math.isfinite(depth):
         return ""

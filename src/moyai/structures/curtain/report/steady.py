@@ -1,4 +1,4 @@
-"""The curtain and its site, the governing steady load with its band, and other steady loads beside it."""
+"""The curtain and its site, the governing steady load with its band, and other steady loads next to it."""
 
 from __future__ import annotations
 

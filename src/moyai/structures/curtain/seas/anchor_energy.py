@@ -246,7 +246,7 @@ def calibration_bounds(
 ) -> tuple[float, float]:
     """Return bounds of M m_B K [kg N/m] by drawing the observations again and fitting each draw.
 
-    They need no law of the scatter, and stand beside :attr:`Calibration.interval`, which rests on the variance of the
+    They need no law of the scatter, and stand next to :attr:`Calibration.interval`, which rests on the variance of the
     root of the product.
 
     Parameters

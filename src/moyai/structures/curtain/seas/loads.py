@@ -2,7 +2,7 @@
 
 Three answers to waves stand side by side: the energy model of the anchor line, the drag at the speed whose square is
 the squared velocity under the crest, and slack and taut cycles. The largest of each component counts, an impact in the
-current beside them.
+current next to them.
 """
 
 from __future__ import annotations

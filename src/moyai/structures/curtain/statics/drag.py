@@ -177,7 +177,7 @@ def check_drag(law: DragLaw, blockage: float) -> tuple[Notice, ...]:
         return (
             Notice(
                 "curtain-blockage",
-                f"blockage d/h = {blockage:.3g} with a drag coefficient that does not know it; where the flow "
+                f"blockage d/h = {blockage:.3g} is not in the drag coefficient; where the flow "
                 "cannot go round the ends the load is larger",
                 blockage,
                 0.3,

@@ -43,7 +43,7 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
         return
     lines = model.structure.lines.values()
     if not all(line.parts is not None or None not in (line.length, line.segments) for line in lines):
-        return  # what is missing was told already
+        return  # what is missing was reported already
     from moyai.structures.network.assembly import assemble
     from moyai.structures.network.case.build import build_problem
 
@@ -167,7 +167,7 @@ def _check_lines(model: NetworkCase, findings: Findings) -> None:
                 )  # fmt: skip
         if line.type is not None:
             for key in ("length", "segments"):
-                # one that is there and out of range was told already
+                # one that is there and out of range was reported already
                 if getattr(line, key) is None and ("structure", "lines", name, key) not in findings.document.values:
                     findings.fault(
                         ("structure", "lines", name), f"'{key}' is missing",
