@@ -184,7 +184,7 @@ def storm(realisations="", criteria=""):
 
 
 def test_the_force_of_a_storm_is_the_mean_of_realisations_with_their_scatter():
-    """Square brace in a short storm: mean of the default five, each the run of its own seed; the band holds them all."""
+    """Square brace in a short storm: mean of the default five, each of its own seed; the band holds them all."""
     found = storm()
     force = headline(found, "peak_force")
     table = found.tree["SWL/waves/storm"]
