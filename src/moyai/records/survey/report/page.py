@@ -190,8 +190,8 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
             parts = [format_quantity(float(part[row, column]), "N") for part in (above, steady)]
             detail = (
                 f"{line}, {clock.text(float(clock.start[row]))}: {parts[0]} above the steady {parts[1]}; largest of "
-                f"{_counted(_values(tree, 'tensions', 'waves')[:, column])} waves of the record, no extreme of a longer "
-                "time"
+                f"{_counted(_values(tree, 'tensions', 'waves')[:, column])} waves of the record, no extreme of a "
+                "longer time"
             )
             items.append(KeyFigure("largest tension", format_quantity(float(largest[row, column]), "N"), detail))
     for name, words in (("reflection_coefficient", "reflection"), ("transmission_coefficient", "transmission")):
