@@ -168,3 +168,52 @@ def test_coefficients_of_storm_waves_in_small_waves_are_warned_of():
     notice = next(item for item in found.notices if item.code == "coefficients-outside-measurement")
     assert "KC above 30" in notice.message
     assert "inertia makes" in notice.message
+
+
+def storm(realisations="", criteria=""):
+    return result_of(
+        case(
+            "{name: storm, kind: jonswap, significant_height: 2, peak_period: 8, peak_enhancement: 3.3, heading_deg: 0,"
+            " duration: 200, seed: 1}",
+            "  section: {shape: square, width: 0.4}\n  start: {y: -6, z: -4}\n  end: {y: 6, z: -4}\n"
+            "  inertia: ideal\n  drag: 2.0\n  kinematic_viscosity: 1.19e-6",
+        )
+        + realisations
+        + criteria
+    )
+
+
+def test_the_force_of_a_storm_is_the_mean_of_realisations_with_their_scatter():
+    """Square brace in a short storm: mean of the default five, each of its own seed; the band holds them all."""
+    found = storm()
+    force = headline(found, "peak_force")
+    table = found.tree["SWL/waves/storm"]
+    each = table["maximum_total_force_of_realisation"].values
+    assert each.size == 5 and len(set(table["seed_of_realisation"].values.tolist())) == 5
+    assert force.value == pytest.approx(each.mean(), rel=1e-12)
+    assert each.std(ddof=1) > 0.02 * force.value
+    assert "mean of the largest of 5 realisations, their standard deviation" in force.detail
+    assert "5 realisations" in force.band.of
+    # Morison's drag alone scales by a quarter at most: the band of coefficients and seeds goes beyond that of the seeds
+    assert force.band.low < each.min() and force.band.high > each.max()
+    # judged: Student's one-sided 95 % of the mean of five, 2.132 s / sqrt(5), moved by the coefficients
+    reach = 2.132 * each.std(ddof=1) / math.sqrt(5.0)
+    assert force.band.judged[1] == pytest.approx(
+        force.band.high / each.max() * (force.value + reach), rel=1e-3
+    )  # fmt: skip
+    # the first realisation is that of the seed of the case, and alone it is said to be alone
+    one = storm("settings: {realisations: 1}\n")
+    alone = headline(one, "peak_force")
+    assert alone.value == pytest.approx(each[0], rel=1e-12)
+    assert "one realisation" in alone.detail
+    # the record that is kept is the nearest to the mean
+    kept = found.tree["SWL/time/storm/sea"]
+    largest = float((kept["force"].values ** 2).sum(axis=1).max()) ** 0.5
+    assert abs(largest - force.value) == pytest.approx(abs(each - force.value).min(), abs=1e-6)
+
+
+def test_a_limit_on_the_force_of_a_storm_is_judged_beyond_the_mean():
+    """A limit just above the mean over realisations does not hold: coefficients and few seeds leave it uncertain."""
+    mean = headline(storm(), "peak_force").value
+    found = storm(criteria=f"criteria: {{greatest_force: {1.02 * mean}}}\n")
+    assert found.verdict.outcome == "does not hold"

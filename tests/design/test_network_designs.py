@@ -71,6 +71,30 @@ def test_a_chain_between_two_fixed_points():
     assert tension.model == "at rest"
 
 
+def test_a_cable_of_few_segments_carries_what_its_mesh_leaves_out():
+    """Four segments lose half a segment's weight at the end: the band reaches the catenary, the limit is judged there.
+
+    Catenary: sinh(x/2a) 2a = s. The utilisation carries the same band, so that its criterion is not judged on the mesh.
+    """
+    weight = (9.0 - RHO * math.pi / 4.0 * 0.04**2) * G
+    low, high = 5.0, 500.0
+    for _ in range(200):
+        a = 0.5 * (low + high)
+        low, high = (a, high) if 2.0 * a * math.sinh(20.0 / a) > 44.0 else (low, a)
+    exact = weight * math.hypot(a, 22.0)
+    points = "    left: {kind: fixed, position: [0, 0, -10]}\n    right: {kind: fixed, position: [40, 0, -10]}"
+    line = "    cable: {start: left, end: right, type: rope, length: 44 m, segments: 4}"
+    rope = ROPE.replace("100 MN", "5 MN")
+    strength = 2.1 * headline(result_of(case(points, line, types=rope)), "line_tension").value
+    found = result_of(case(points, line, types=rope.replace("viscosity", f"breaking_load: {strength}, viscosity")))
+    tension, share = headline(found, "line_tension"), headline(found, "line_utilisation")
+    assert tension.value < 0.93 * exact
+    assert tension.band.high == pytest.approx(exact, rel=0.01)
+    assert share.band.high == pytest.approx(tension.band.high / strength)
+    assert share.value < 0.5 < share.band.high
+    assert found.verdict.outcome == "does not hold"
+
+
 def test_a_submerged_buoy_on_a_tether_in_a_current():
     """Subsurface float: T = sqrt((buoyancy - weight)^2 + drag^2) at the top of a light tether."""
     volume = math.pi / 6.0

@@ -21,7 +21,14 @@ from moyai.sea.spectrum import Spectrum
 from moyai.sea.synthesis import choose_band, equal_energy_bins, fourier_bins, uniform_numbers
 from moyai.sea.water import Water
 
-__all__ = ["WaveComponents", "synthesise"]
+__all__ = ["WaveComponents", "realisation_seed", "synthesise"]
+
+
+def realisation_seed(seed: int, number: int) -> int:
+    """Return the seed of a realisation: the case's own first, then seeds that no neighbouring seed leads to."""
+    if number == 0:
+        return seed
+    return int(np.random.SeedSequence([seed, number]).generate_state(1, np.uint32)[0])
 
 
 @checks_words

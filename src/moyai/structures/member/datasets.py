@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 COMPONENTS = ["x", "y", "z"]
 AXES = ["first", "second"]
+#: Numbers of an irregular sea that are means over its realisations
+MEANS = ("maximum_force", "maximum_total_force", "maximum_moment", "maximum_end_force", "maximum_strip_force")
 
 
 def member_dataset(problem: MemberProblem, member: StraightMember) -> xr.Dataset:
@@ -122,6 +124,20 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
     )
     out["strip_keulegan_carpenter"].attrs = {"units": "1", "long_name": "Keulegan-Carpenter number along the member"}
     return out
+
+
+def gathered(members: list[xr.Dataset], seeds: list[int]) -> tuple[xr.Dataset, int]:
+    """Return the numbers of an irregular sea and which realisation is kept: the one nearest to the mean.
+
+    Largest values are means over the realisations, all other numbers those of the realisation that is kept.
+    """
+    largest = np.array([float(item["maximum_total_force"].values[0]) for item in members])
+    kept = int(np.argmin(np.abs(largest - largest.mean())))
+    means = {name: np.mean([item[name].values for item in members], axis=0) for name in MEANS}
+    out = members[kept].assign({name: members[kept][name].copy(data=values) for name, values in means.items()})
+    out["maximum_total_force_of_realisation"] = ("realisation", largest)
+    out["seed_of_realisation"] = ("realisation", np.array(seeds, dtype=np.int64))
+    return labelled(out), kept
 
 
 def _cleared(circulation: np.ndarray, speeds: np.ndarray, period: np.ndarray) -> np.ndarray:

@@ -16,7 +16,9 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
 from moyai.core.validity import Notice
+from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
+from moyai.series.intervals import student_quantile
 from moyai.structures.member.model import MemberProblem
 
 if TYPE_CHECKING:
@@ -30,7 +32,10 @@ _CAUSES = ("inertia", "drag", "lift")
 
 @dataclass(frozen=True, eq=False)
 class _Largest:
-    """The wave with the largest force of all: its place in the result, causes over time (causes, times, 3) [N]."""
+    """The wave with the largest force of all: its place in the result, causes over time (causes, times, 3) [N].
+
+    ``value`` is the mean over the realisations of an irregular sea, the causes are those of the record nearest to it.
+    """
 
     where: str
     force: Array
@@ -60,7 +65,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     items = [
         Headline(
             "peak_force", "largest force on the member", found.value, "N", found.where, model,
-            _band(problem, found, ranges), detail=_causes_text(shares),
+            _band(problem, found, ranges), detail=_causes_text(shares) + _chance_text(found),
         )
     ]  # fmt: skip
     number, reynolds = (float(found.sea[key].values[found.wave]) for key in ("keulegan_carpenter", "reynolds"))
@@ -74,7 +79,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     items.append(
         Headline(
             "end_force", "largest force at an end", float(np.max(ends)), "N", found.where, model,
-            detail="of a member that rests simply on both ends",
+            detail="of a member that rests simply on both ends" + _ends_text(found),
         )
     )  # fmt: skip
     return tuple(items)
@@ -137,8 +142,11 @@ def _largest(groups: Mapping[str, xr.Dataset]) -> _Largest | None:
             continue
         causes = np.stack([series[key].values for key in ("inertia_force", "drag_force", "magnus_force")])
         size = np.linalg.norm(causes.sum(axis=0), axis=1)
-        # the last row of a wave that takes time to settle: the first from the end that reaches the value
-        row = len(size) - 1 - int(np.argmin(np.abs(size[::-1] - value)))
+        if sea.attrs["kind"] == "regular":
+            # the last row of a wave that takes time to settle: the first from the end that reaches the value
+            row = len(size) - 1 - int(np.argmin(np.abs(size[::-1] - value)))
+        else:
+            row = int(np.argmax(size))
         label = str(sea["wave"].values[wave])
         where = ", ".join(part for part in (name, "" if label == "sea" else label, level) if part)
         best = _Largest(where, causes, row, value, sea, wave)
@@ -160,11 +168,35 @@ def _causes_text(shares: tuple[float, float, float]) -> str:
     return f"{_CAUSES[int(np.argmax(shares))]} decides: {words}"
 
 
+def _scatter(found: _Largest) -> Array:
+    """Return the largest force of each realisation [N]; one value in a regular wave."""
+    if "maximum_total_force_of_realisation" not in found.sea:
+        return np.array([found.value])
+    return np.asarray(found.sea["maximum_total_force_of_realisation"].values, dtype=float)
+
+
+def _chance_text(found: _Largest) -> str:
+    """Say what the number is worth as one of the largest values of a random sea."""
+    if found.sea.attrs.get("kind") == "regular":
+        return ""
+    scatter = _scatter(found)
+    if scatter.size < 2:
+        return "; one realisation, the scatter of others is not known"
+    deviation = spoken(float(scatter.std(ddof=1)), "N", 2)
+    return f"; mean of the largest of {scatter.size} realisations, their standard deviation {deviation}"
+
+
+def _ends_text(found: _Largest) -> str:
+    count = _scatter(found).size
+    return f"; mean of {count} realisations" if count > 1 else ""
+
+
 def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, ...]) -> Band:
     """Return the smallest and largest peak with every coefficient at either end of its allowance.
 
     Forces are proportional to their coefficients [eq:morison-strip], so the series of the causes give every
-    combination without a further run.
+    combination without a further run. In an irregular sea both ends are moved in proportion by the smallest and the
+    largest realisation; criteria are judged with the one-sided 95 % interval of their mean (Student) instead.
     """
     ends = [(1.0 - item.below, 1.0 + item.above) for item in ranges]
     order = (1, 0, 2)
@@ -177,7 +209,17 @@ def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, 
     words.append(f"C_M -{100 * ranges[1].below:.0f} to +{100 * ranges[1].above:.0f} %")
     if len(ranges) > 2:
         words.append(f"circulation ±{100 * ranges[2].above:.0f} %")
-    return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
+    own = float(np.linalg.norm(found.force.sum(axis=0), axis=1)[found.row])
+    scatter = _scatter(found)
+    if scatter.size < 2 or own == 0.0:
+        return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
+    low, high = min([own, *peaks]) / own, max([own, *peaks]) / own
+    reach = student_quantile(0.9, scatter.size - 1) * float(scatter.std(ddof=1)) / math.sqrt(scatter.size)
+    words.append(f"{scatter.size} realisations; criteria at the 95 % end of their mean")
+    return Band(
+        low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,
+        judged=(low * (found.value - reach), high * (found.value + reach)),
+    )  # fmt: skip
 
 
 def _range_text(item: MeasuredRange, number: float, reynolds: float) -> str:

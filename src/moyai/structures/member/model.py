@@ -95,6 +95,8 @@ class Settings:
         Time steps in a period of regular waves.
     irregular_steps : int
         Time steps in the peak period of an irregular sea.
+    realisations : int
+        Realisations of an irregular sea; largest forces are means over them.
     periods : int or None
         Periods shown of regular waves; ``None``: one when the circulation is settled, eight relaxation times from calm.
     """
@@ -104,6 +106,7 @@ class Settings:
     stretching: Stretching = "wheeler"
     steps_per_period: int = 200
     irregular_steps: int = 40
+    realisations: int = 5
     periods: int | None = None
 
 

@@ -13,10 +13,11 @@ from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.morison.members import StraightMember
+from moyai.sea.irregular import realisation_seed
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
 from moyai.structures.member.checks import member_notices, require_in_water, wave_notices
-from moyai.structures.member.datasets import member_dataset, sea_dataset, time_dataset
+from moyai.structures.member.datasets import gathered, member_dataset, sea_dataset, time_dataset
 from moyai.structures.member.headlines import headlines_of, range_notices
 from moyai.structures.member.march import WaveForces, march
 from moyai.structures.member.model import MemberProblem, RegularWaves
@@ -110,6 +111,9 @@ def _sea_steps(
     root: str,
     progress: Progress,
 ) -> Iterator[None]:
+    if isinstance(sea, IrregularSea):
+        yield from _realisations(problem, member, water, sea, collected, root, progress)
+        return
     waves = waves_of(problem, sea, water)
     runs: list[tuple[Wave, WaveForces]] = []
     told: list[Notice] = []
@@ -117,17 +121,49 @@ def _sea_steps(
         progress(f"forces, {sea.name}", number, len(waves))
         found = march(problem, member, wave)
         runs.append((wave, found))
-        label = f"wave {number + 1}" if wave.regular else "sea"
-        collected.groups[f"{root}/time/{sea.name}/{label}"] = time_dataset(wave, found)
+        collected.groups[f"{root}/time/{sea.name}/wave {number + 1}"] = time_dataset(wave, found)
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
         told.extend(wave_notices(problem, member, wave, found))
-        if isinstance(sea, IrregularSea):
-            collected.checks.append(_variance(sea.name, sea, found))
-        else:
-            collected.checks.append(_periodicity(sea.name, wave, found))
+        collected.checks.append(_periodicity(sea.name, wave, found))
         yield
     collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
     progress(f"forces, {sea.name}", len(waves), len(waves))
+
+
+def _realisations(
+    problem: MemberProblem,
+    member: StraightMember,
+    water: Water,
+    sea: IrregularSea,
+    collected: Collected,
+    root: str,
+    progress: Progress,
+) -> Iterator[None]:
+    """Run the realisations of an irregular sea: largest forces are means, the record nearest to the mean is kept."""
+    count = problem.settings.realisations
+    found: list[xr.Dataset] = []
+    records: list[xr.Dataset] = []
+    seeds: list[int] = []
+    told: list[Notice] = []
+    checks: list[IdentityCheck] = []
+    for number in range(count):
+        progress(f"realisations, {sea.name}", number, count)
+        seed = realisation_seed(sea.seed, number)
+        wave = waves_of(problem, replace(sea, seed=seed), water)[0]
+        forces = march(problem, member, wave)
+        seeds.append(seed)
+        found.append(sea_dataset(problem, member, [(wave, forces)]))
+        records.append(time_dataset(wave, forces).assign_attrs(seed=seed))
+        told.extend(wave_notices(problem, member, wave, forces))
+        checks.append(_variance(sea.name, sea, forces))
+        # kept after each realisation, so that an interrupted run holds those that ended
+        numbers, kept = gathered(found, seeds)
+        collected.groups[f"{root}/time/{sea.name}/sea"] = records[kept]
+        collected.groups[f"{root}/waves/{sea.name}"] = numbers
+        yield
+    collected.checks.append(max(checks, key=lambda check: check.value))
+    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
+    progress(f"realisations, {sea.name}", count, count)
 
 
 def _periodicity(name: str, wave: Wave, found: WaveForces) -> IdentityCheck:

@@ -43,6 +43,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "mean_force": ("N", "mean force on the member"),
     "maximum_total_force": ("N", "largest resultant force on the member"),
     "maximum_moment": ("N m", "largest moment about the middle of the member, by direction"),
+    "maximum_total_force_of_realisation": ("N", "largest resultant force on the member in each realisation of the sea"),
+    "seed_of_realisation": ("1", "seed of each realisation of the sea"),
     "maximum_end_force": ("N", "largest resultant at each end of the simply supported member"),
     "surface_elevation": ("m", "surface above the middle of the member"),
     "force": ("N", "force on the member"),

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,7 +54,7 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     if peak is not None:
         items += _tension(problem, groups, peak)
         items += _start_up(groups, peak)
-        items += _utilisation(problem, peaks)
+        items += _utilisation(problem, peaks, peak, items[0].band)
     items += _anchor(groups)
     items += _offsets(groups)
     items += _mode(groups)
@@ -110,7 +110,9 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
     """Return the highest tension, with that at the ends of its line where that is less."""
     where = _where(groups, peak)
     if peak.model == REST:
-        return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST)]
+        band = _rest_band(groups, peak)
+        said = "" if band else "mesh not checked"
+        return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST, band, detail=said)]
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
     band, details = _numerical_band(summary, peak)
     details += _chance(groups, peak)
@@ -131,6 +133,16 @@ def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _P
                 )
             )  # fmt: skip
     return items
+
+
+def _rest_band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> Band | None:
+    """Return what a finer mesh does to the highest tension at rest: twice the segments, and bars of no length."""
+    rest = groups[f"/{peak.level}/statics"]
+    if "double_mesh" not in rest:
+        return None
+    finer = float(rest["double_mesh"].sel(condition=peak.run, line=peak.line))
+    ends = (peak.value, finer, max(2.0 * finer - peak.value, 0.0))
+    return Band(min(ends), max(ends), "mesh: twice the segments, and their change continued")
 
 
 def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
@@ -201,17 +213,20 @@ def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[str]:
     return said
 
 
-def _utilisation(problem: NetworkProblem, peaks: list[_Peak]) -> list[Headline]:
+def _utilisation(problem: NetworkProblem, peaks: list[_Peak], peak: _Peak, band: Band | None) -> list[Headline]:
+    """Return the highest tension over the breaking load; with the numerical band where it is the highest of all."""
     breaking = {line.name: line.breaking_load for line in problem.lines if math.isfinite(line.breaking_load)}
     known = [(item.value / breaking[item.line], item) for item in peaks if item.line in breaking]
     if not known:
         return []
     share, worst = max(known, key=lambda pair: pair[0])
-    detail = f"breaking load {breaking[worst.line] / 1e3:.4g} kN, without a safety factor"
+    load = breaking[worst.line]
+    detail = f"breaking load {load / 1e3:.4g} kN, without a safety factor"
     return [
         Headline(
             "line_utilisation", "highest tension over breaking load", share, "1", f"{worst.line}, {worst.run}",
-            worst.model, detail=detail,
+            worst.model, replace(band, low=band.low / load, high=band.high / load) if band and worst == peak else None,
+            detail=detail,
         )
     ]  # fmt: skip
 

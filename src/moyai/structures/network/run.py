@@ -30,6 +30,7 @@ from moyai.structures.network.equilibrium import (
     pulls,
     rest_dataset,
     stiffness_at_driven,
+    with_finer_mesh,
 )
 from moyai.structures.network.headlines import headlines_of
 from moyai.structures.network.model import NetworkProblem
@@ -233,7 +234,10 @@ def _at_rest(
         )  # fmt: skip
     if found and ("statics" in wanted):
         stiffness = _stiffness(problem, assembly, water, found, said, collected)
-        collected.groups[f"{root}/statics"] = bodies_at_rest(rest_dataset(assembly, found, stiffness), hung)
+        rested = rest_dataset(assembly, found, stiffness)
+        if assembly.lines and not problem.bodies and "dynamic" not in wanted:
+            rested = with_finer_mesh(rested, assembly, found, conditions)
+        collected.groups[f"{root}/statics"] = bodies_at_rest(rested, hung)
         _weight_check(assembly, found, said, collected)
     return found, hung
 

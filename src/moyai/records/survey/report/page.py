@@ -147,6 +147,16 @@ def _values(tree: Any, group: str, name: str) -> Array:
     return np.asarray(tree[group][name].values, dtype=float)
 
 
+def _counted(counts: Array) -> str:
+    return f"{float(np.nansum(counts)):.0f}"
+
+
+def _middle(values: Array) -> str:
+    """Return the median of the blocks, which the largest of many blocks stands above by chance alone."""
+    known = values[np.isfinite(values)]
+    return f"; median of {known.size} blocks {format_quantity(float(np.median(known)), 'm')}" if known.size > 1 else ""
+
+
 def _key_figures(result: Result, clock: _Clock) -> list[Block]:
     tree: Any = result.tree
     items = [KeyFigure("blocks", str(clock.start.size), f"of {clock.length:g} s")]
@@ -159,26 +169,31 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
                 KeyFigure(
                     "largest H1/3",
                     format_quantity(float(third[row, column]), "m"),
-                    f"{gauge}, {clock.text(float(clock.start[row]))}",
+                    f"{gauge}, {clock.text(float(clock.start[row]))}{_middle(third[:, column])}",
                 )
             )
             highest = _values(tree, "waves", "maximum_height")
             row, column = np.unravel_index(int(np.nanargmax(highest)), highest.shape)
             items.append(
                 KeyFigure(
-                    "highest wave", format_quantity(float(highest[row, column]), "m"), clock.text(clock.start[row])
+                    "highest wave",
+                    format_quantity(float(highest[row, column]), "m"),
+                    f"{clock.text(clock.start[row])}, of {_counted(_values(tree, 'waves', 'count')[:, column])} waves",
                 )
             )
     if "tensions" in tree.children:
-        largest = _values(tree, "tensions", "maximum")
+        above, steady = _values(tree, "tensions", "maximum"), _values(tree, "tensions", "steady")
+        largest = above + steady
         if np.isfinite(largest).any():
             row, column = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
             line = str(tree["tensions"]["line"].values[column])
-            wave = float(largest[row, column])
-            steady = float(_values(tree, "tensions", "steady")[row, column])
-            parts = f"above the steady {format_quantity(steady, 'N')}: {format_quantity(steady + wave, 'N')} together"
-            detail = f"{parts}; {line}, {clock.text(float(clock.start[row]))}"
-            items.append(KeyFigure("largest wave tension", format_quantity(wave, "N"), detail))
+            parts = [format_quantity(float(part[row, column]), "N") for part in (above, steady)]
+            detail = (
+                f"{line}, {clock.text(float(clock.start[row]))}: {parts[0]} above the steady {parts[1]}; largest of "
+                f"{_counted(_values(tree, 'tensions', 'waves')[:, column])} waves of the record, no extreme of a "
+                "longer time"
+            )
+            items.append(KeyFigure("largest tension", format_quantity(float(largest[row, column]), "N"), detail))
     for name, words in (("reflection_coefficient", "reflection"), ("transmission_coefficient", "transmission")):
         if "reflection" in tree.children and name in tree["reflection"]:
             values = _values(tree, "reflection", name)

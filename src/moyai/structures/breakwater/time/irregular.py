@@ -19,7 +19,7 @@ from moyai.floating.forcing import IrregularForcing
 from moyai.floating.frequency import solve_motions
 from moyai.floating.memory import StateSpaceMemory
 from moyai.floating.time import CumminsModel, Simulation
-from moyai.sea.irregular import synthesise
+from moyai.sea.irregular import realisation_seed, synthesise
 from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
@@ -131,13 +131,6 @@ def irregular_sea(
         "status": status,
     }
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status)
-
-
-def realisation_seed(seed: int, number: int) -> int:
-    """Return the seed of a realisation: the case's own first, then seeds that no neighbouring seed leads to."""
-    if number == 0:
-        return seed
-    return int(np.random.SeedSequence([seed, number]).generate_state(1, np.uint32)[0])
 
 
 def _shared(

@@ -67,6 +67,7 @@ def build_problem(model: schema.MemberCase, folder: Path, *, case_text: str = ""
             stretching=model.settings.stretching,
             steps_per_period=model.settings.steps_per_period,
             irregular_steps=model.settings.irregular_steps,
+            realisations=model.settings.realisations,
             periods=model.settings.periods,
         ),
         case_text=case_text,

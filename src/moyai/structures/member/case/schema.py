@@ -291,6 +291,11 @@ class MemberSettings(Block):
     irregular_steps: Steps = Field(
         default=40, description="Time steps in the peak period of irregular seas. Default: 40."
     )
+    realisations: Annotated[int, Field(ge=1, le=100)] = Field(
+        default=5,
+        description="Realisations of an irregular sea, the first with the sea's own seed; largest forces are means "
+        "over them. Default: 5.",
+    )
     periods: Whole | None = Field(
         default=None, description="Periods shown of regular waves; chosen by the start of the circulation when absent."
     )

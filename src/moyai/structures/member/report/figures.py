@@ -252,6 +252,13 @@ def force_table(level: Group, sea: Group) -> Table | None:
     if not sea.exists:
         return None
     values = sea.require("maximum_total_force", "wave")
+    seeds = sea.real("seed_of_realisation", "realisation")
+    count = 0 if seeds is None else seeds.size
+    said = (
+        f" Largest values are means over {count} realisations; the rest is that nearest to the mean."
+        if count > 1
+        else ""
+    )
     entries = (
         *_WAVE,
         *((f"largest F_{name}", "maximum_force", "N", {"component": name}) for name in COMPONENTS),
@@ -263,7 +270,7 @@ def force_table(level: Group, sea: Group) -> Table | None:
         slug(level.name, sea.name, "forces"),
         f"Forces on the member: {sea.name}",
         tuple(_columns(sea, entries)),
-        note="Whole member; the loads at its ends are those of a simply supported one.",
+        note="Whole member; the loads at its ends are those of a simply supported one." + said,
         emphasised=(int(values.argmax()),) if values.size > 1 else (),
     )
 
