@@ -29,7 +29,7 @@ def faults(*changes):
 
 
 CIRCLE = "{shape: circle, diameter: 1 m}"
-SETTINGS = "# settings: {strips: 40, stretching: wheeler}"
+SETTINGS = "# settings: {strips: 40, stretching: wheeler, realisations: 5}"
 CURRENT = "# current: {speed: 0.5 m/s, heading_deg: 0, profile: {power_law: 0.143}}"
 SLIPS = {
     "misspelt key": (("kinematic_viscosity:", "viscosity:"), "did you mean 'kinematic_viscosity'?"),
