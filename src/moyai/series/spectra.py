@@ -323,3 +323,27 @@ def degrees_of_freedom(window: Array, shift: int, segments: int, bands: int = 1)
         together = float(correlation[0] + 2.0 * np.sum((1.0 - np.arange(1, bands) / bands) * correlation[1:]))
         shares += (1.0 if lag == 0 else 2.0) * (1.0 - lag / segments) * together
     return 2.0 * segments * bands / shares
+
+
+def height_sampling_error(frequency: Array, density: Array, degrees_of_freedom: float, duration: float) -> float:
+    """Return the standard error of Hm0 of one stretch of a sea, over Hm0; equation [eq:records-height-error].
+
+    Parameters
+    ----------
+    frequency : ndarray
+        Evenly spaced [Hz].
+    density : ndarray
+        One-sided density, an estimate with sampling errors of its own.
+    degrees_of_freedom : float
+        Of the estimate: it makes the mean of the squared density too large.
+    duration : float
+        Length of the stretch [s].
+
+    Returns
+    -------
+    float
+        Fraction; NaN without energy. A stationary Gaussian sea, for small fractions.
+    """
+    variance = float(np.trapezoid(density, frequency))
+    squared = float(np.trapezoid(density**2, frequency)) / (1.0 + 2.0 / degrees_of_freedom)
+    return 0.5 * math.sqrt(squared / duration) / variance if variance > 0.0 else math.nan

@@ -31,6 +31,7 @@ from moyai.report.document import (
 from moyai.report.formatting import format_percent, format_quantity
 from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
 from moyai.report.reading import root_of
+from moyai.series.spectra import height_sampling_error
 
 WAVE_COLUMNS = (
     ("count", "waves"),
@@ -157,6 +158,17 @@ def _middle(values: Array) -> str:
     return f"; median of {known.size} blocks {format_quantity(float(np.median(known)), 'm')}" if known.size > 1 else ""
 
 
+def _sampling(tree: Any, gauge: str, row: int, length: float) -> str:
+    """Return the sampling error of a block's height, where it has a spectrum."""
+    if "spectra" not in tree.children or gauge not in (names := [str(one) for one in tree["spectra"]["gauge"].values]):
+        return ""
+    column = names.index(gauge)
+    density = np.nan_to_num(_values(tree, "spectra", "density")[row, column])
+    freedom = float(_values(tree, "spectra", "degrees_of_freedom")[row, column])
+    error = height_sampling_error(np.asarray(tree["spectra"]["frequency"].values), density, freedom, length)
+    return f"; sampling error of a block {format_percent(error)}" if math.isfinite(error) else ""
+
+
 def _key_figures(result: Result, clock: _Clock) -> list[Block]:
     tree: Any = result.tree
     items = [KeyFigure("blocks", str(clock.start.size), f"of {clock.length:g} s")]
@@ -169,7 +181,8 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
                 KeyFigure(
                     "largest H1/3",
                     format_quantity(float(third[row, column]), "m"),
-                    f"{gauge}, {clock.text(float(clock.start[row]))}{_middle(third[:, column])}",
+                    f"{gauge}, {clock.text(float(clock.start[row]))}{_middle(third[:, column])}"
+                    f"{_sampling(tree, gauge, int(row), clock.length)}",
                 )
             )
             highest = _values(tree, "waves", "maximum_height")
