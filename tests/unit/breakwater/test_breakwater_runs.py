@@ -163,6 +163,10 @@ def test_steady_wind_and_current_move_the_unit(pontoon_problem):
     assert float(data.steady_force[0]) == pytest.approx(wind + current, rel=1e-12)
     # the offset is that of the exact lines under that force
     unit = assemble(problem, "SWL", 0.0)
+    # wind at half the freeboard, current at half the draught, both about the centre of gravity
+    centre = unit.centre[1]
+    about = wind * (0.5 * 0.057 - centre) + current * (-0.5 * 0.113 - centre)
+    assert float(data.steady_force[2]) == pytest.approx(about, rel=1e-9)
     at = unit.mooring.force(data.steady_offset.values) - unit.mooring.force(np.zeros(3))
     restoring = unit.statics.stiffness @ data.steady_offset.values
     assert at - restoring + data.steady_force.values == pytest.approx(np.zeros(3), abs=1e-6)

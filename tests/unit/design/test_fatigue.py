@@ -55,6 +55,13 @@ def test_narrow_band_damage_is_that_of_the_counted_record(exponent):
     assert counted == pytest.approx(expected, rel=0.1)
 
 
+@pytest.mark.parametrize(("exponent", "power"), [(2.0, 8.0), (4.0, 128.0), (6.0, 3072.0)])
+def test_narrow_band_damage_is_the_exact_moment_of_rayleigh_ranges(exponent, power):
+    """E[R^m] = (2 sqrt 2 s)^m (m/2)! for even m: 8 s^2, 128 s^4, 3072 s^6."""
+    found = narrow_band_damage(3.0, 0.1, 5000.0, curve(exponent))
+    assert found == pytest.approx(500.0 * power * 3.0**exponent / curve(exponent).capacity, rel=1e-12)
+
+
 @pytest.mark.parametrize(("low", "high", "second"), [(0.05, 0.3, 0.0), (0.02, 0.15, 0.25), (0.05, 0.12, 0.6)])
 def test_dirlik_is_close_to_counted_records_where_the_narrow_band_is_far(low, high, second):
     frequency = np.linspace(0.005, 0.8, 1600)

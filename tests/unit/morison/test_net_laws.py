@@ -39,6 +39,17 @@ def test_polynomials_of_the_solidity(solidity, aarsnes, loland):
     assert ahead(net_law("loland"), net) == pytest.approx(loland, abs=6e-5)
 
 
+@pytest.mark.parametrize(
+    ("law", "solidity", "lift"),
+    # by hand from the polynomials as Aarsnes et al. (1990) and Loland (1991) are quoted, times sin 2t at 30 degrees
+    [("aarsnes", 0.2, 0.0532), ("aarsnes", 0.3, 0.1251), ("loland", 0.2, 0.06792), ("loland", 0.3, 0.14448)],
+)
+def test_lift_polynomials_of_the_solidity(law, solidity, lift):
+    net = Net.from_solidity(2e-3, solidity)
+    found = float(net_law(law).coefficients(math.radians(30.0), 0.5, net, VISCOSITY)[1])
+    assert found == pytest.approx(lift * math.sin(math.radians(60.0)), abs=6e-5)
+
+
 @pytest.mark.parametrize(("reynolds", "drag"), [(100.0, 0.5292), (1000.0, 0.3909), (1e4, 0.4245)])
 def test_screen_model_at_a_quarter(reynolds, drag):
     net = Net.from_solidity(2e-3, 0.25)

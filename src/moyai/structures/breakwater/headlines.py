@@ -284,8 +284,9 @@ def _rest_headlines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list
     if shares:
         share, where = max(shares)
         out.append(
-            Headline("overtopping", "Waves that pass the deck edge", share, "1", where, FREQUENCY, bound="at most",
-                     detail="incident wave doubled, as at a wall")
+            Headline("overtopping", "Waves that pass the deck edge", share, "1", where, FREQUENCY,
+                     detail="estimate: incident wave doubled, as at a wall, against the moving deck edge; radiated "
+                            "waves not counted")
         )  # fmt: skip
     height, level = least("metacentric_height")
     out.append(Headline("metacentric_height", "Metacentric height GM", height, "m", level, STILL))

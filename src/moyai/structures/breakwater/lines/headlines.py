@@ -211,9 +211,12 @@ def _beyond(peak: LinePeak) -> str:
 
 def _open(peak: LinePeak) -> str:
     """Say what the reruns of events leave open."""
-    if not (peak.bound.size and peak.bound.mean() > peak.scatter.mean() * (1.0 + 1e-9)):
+    if not peak.bound.size:
         return ""
-    return f"events that were not rerun could raise it to {kilonewton(float(peak.bound.mean()))}, where it is judged"
+    raised = kilonewton(float(peak.bound.mean()))
+    if raised == kilonewton(float(peak.scatter.mean())):
+        return ""
+    return f"events that were not rerun could raise it to {raised}, where it is judged"
 
 
 def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:
