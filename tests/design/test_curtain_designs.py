@@ -151,6 +151,18 @@ def test_held_toe_carries_at_most_the_drag_of_its_length(designs) -> None:
     assert 0.5 < share <= 1.0
 
 
+def test_a_load_with_an_impact_carries_the_band_of_its_steady_part(designs) -> None:
+    _, result = designs("held toe")
+    loads, statics = result.tree["/SWL/loads"].to_dataset(), result.tree["/SWL/statics"].to_dataset()
+    upper = loads.sel(component="upper cable")
+    assert str(upper["governing"].values) == "steady and impact"
+    shift = float(statics["steady_upper_tension_high"]) - float(upper["steady_load"])
+    band = headline(result, "cable_tension").band
+    assert shift > 0.0
+    assert band.high == pytest.approx(float(upper["governing_load"]) + shift, rel=1e-9)
+    assert "steady part" in band.of
+
+
 @pytest.mark.parametrize("name", EVERY)
 def test_snap_is_of_the_size_of_its_energy(designs, name: str) -> None:
     """T = u d sqrt(2 rho B EA / (pi l)): the cable takes at most the energy of the water in front of a plate."""

@@ -226,7 +226,22 @@ def _band(groups: Groups, load: _Load) -> Band | None:
         return _scatter(groups, load)
     if how == "steady":
         return _steady_band(groups, load)
+    if how == "steady and impact":
+        return _impact_band(groups, load)
     return None
+
+
+def _impact_band(groups: Groups, load: _Load) -> Band | None:
+    """Return what the band of the steady part makes of a load with an impact, which itself is one value."""
+    steady = _steady_band(groups, load)
+    if steady is None:
+        return None
+    value, part = load.number("governing_load"), load.number("steady_load")
+    current = _at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
+    # a pretension above the load of the current stays where it is
+    least = part if part > current * (1.0 + 1e-9) else 0.0
+    low, high = (value - part + max(end, least) for end in (steady.low, steady.high))
+    return Band(min(low, value), max(high, value), f"steady part, {steady.of}; the impact is one value")
 
 
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
