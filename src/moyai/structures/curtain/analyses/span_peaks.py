@@ -6,13 +6,14 @@ and the larger counts, since the motion is chaotic and neither mesh is the bette
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.wording import spoken
 from moyai.sea.states import SeaState
 from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, peaks_of_runs, through
 from moyai.structures.curtain.assembly import LevelCurtain
@@ -28,6 +29,8 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Change of a governing tension from one mesh to the other, over the larger, that is reported
+_MESH_CHANGE = 0.2
 _PEAKS = ("upper_peak", "lower_peak", "anchor_peak", "skirt_peak")
 
 
@@ -135,7 +138,38 @@ class _Runs:
         table = {key: ("run", [row[key] for row in self.rows]) for key in self.rows[0]}
         names = [plan.name for plan in self.plans]
         self.groups[""] = labelled(xr.Dataset({**table, "run_of": ("run", self.base)}, coords={"run": names}))
-        return DynamicAnswer(self.groups, tuple(self.checks), tuple(self.notices), peaks_of_runs(self.plans, self.rows))
+        loads = peaks_of_runs(self.plans, self.rows)
+        notices = [*self.notices, *mesh_notices(table["upper_peak"][1], self.base, "upper cable")]
+        return DynamicAnswer(self.groups, tuple(self.checks), tuple(notices), loads)
+
+
+def mesh_notices(peaks: Sequence[float], base: Sequence[str], component: str) -> tuple[Notice, ...]:
+    """Return the warning that the highest tension of a component hangs on the mesh.
+
+    Parameters
+    ----------
+    peaks : sequence of float
+        Of each run [N].
+    base : sequence of str
+        What each run is of: the same for both meshes.
+    component : str
+    """
+    leading = base[max(range(len(peaks)), key=lambda number: peaks[number])]
+    both = [peak for peak, one in zip(peaks, base, strict=True) if one == leading]
+    change = 1.0 - min(both) / max(both) if max(both) > 0.0 else 0.0
+    if not change > _MESH_CHANGE:
+        return ()
+    return (
+        Notice(
+            "span-mesh",
+            f"{component}, {leading}: {spoken(min(both), 'N', 3)} on one mesh, {spoken(max(both), 'N', 3)} on the other; "
+            "the motion is chaotic, and the larger is the highest of two samples, not a converged value",
+            change,
+            _MESH_CHANGE,
+            remedy="take the bound of the upright plate, or run 'dynamic' with more cells and several seeds",
+            source="eq:curtain-hierarchy",
+        ),
+    )
 
 
 __all__ = ["peaks_wanted", "span_peaks"]
