@@ -162,8 +162,8 @@ def mesh_notices(peaks: Sequence[float], base: Sequence[str], component: str) ->
     return (
         Notice(
             "span-mesh",
-            f"{component}, {leading}: {spoken(min(both), 'N', 3)} on one mesh, {spoken(max(both), 'N', 3)} on the other; "
-            "the motion is chaotic, and the larger is the highest of two samples, not a converged value",
+            f"{component}, {leading}: {spoken(min(both), 'N', 3)} on one mesh, {spoken(max(both), 'N', 3)} on the "
+            "other; the motion is chaotic, and the larger is the highest of two samples, not a converged value",
             change,
             _MESH_CHANGE,
             remedy="take the bound of the upright plate, or run 'dynamic' with more cells and several seeds",
