@@ -31,8 +31,8 @@ _LARGEST_CREST = 4.0
 _LARGEST_TURN = 0.3 * math.pi
 # exp(-_SHADE) is what is left of a wave where its short length no longer matters
 _SHADE = 7.0
-#: Most panels of one problem: dense matrices of some 5000 nodes, 0.4 GB each; ordinary sections have 20 to 300
-MOST_PANELS = 600
+#: Most panels of one problem: a run at this bound takes some 6 GB; ordinary sections have 20 to 90
+MOST_PANELS = 300
 # Rays that serve all frequencies of an oblique heading are never solved as a whole: each frequency has shorter ones
 _MOST_ON_A_RAY = 4000
 
