@@ -303,7 +303,9 @@ def said(item: Judgement) -> str:
     upward = (criterion.sense == "at most") != criterion.as_factor
     holds = item.outcome == "holds"
     relation = ("at most" if upward else "at least") if holds else ("above" if upward else "below")
-    return f"{criterion.words} {_spoken(criterion, item.value)} is {relation} {_spoken(criterion, criterion.limit)}"
+    size = max(abs(value) if math.isfinite(value) else 0.0 for value in (item.value, criterion.limit))
+    found, limit = (_spoken(criterion, value, size) for value in (item.value, criterion.limit))
+    return f"{criterion.words} {found} is {relation} {limit}"
 
 
 def _judged_by(criterion: Criterion, numbers: tuple[Headline, ...]) -> list[Headline]:
@@ -356,7 +358,7 @@ def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judg
     return Judgement(criterion, max(weighed), "holds" if max(weighed) <= limit else "does not hold", headline.where)
 
 
-def _spoken(criterion: Criterion, value: float) -> str:
+def _spoken(criterion: Criterion, value: float, size: float) -> str:
     shown, unit = criterion.shown(value), criterion.unit
     if unit == "1":
         return f"{shown:.3g}"
@@ -365,7 +367,7 @@ def _spoken(criterion: Criterion, value: float) -> str:
     if unit == "rad":
         return f"{math.degrees(shown):.3g} deg"
     if unit.startswith("N"):
-        return spoken(shown, unit, 3, like=max(abs(value), abs(criterion.limit)))
+        return spoken(shown, unit, 3, like=size)
     return f"{shown:.3g} {unit}"
 
 

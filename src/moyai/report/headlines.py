@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Literal
 
 from moyai.core.headline import Criterion, Headline, Judgement
@@ -89,10 +90,19 @@ def _figure(headline: Headline, judged: list[Judgement], scale: Mapping[str, flo
         "not judged": "caution",
     }[worst.outcome]  # type: ignore[assignment]
     share = _share(worst.criterion, worst.value)
-    limit, found = limit_and_found(worst, like)
-    asked = f"factor of safety {found}, asked {limit}" if worst.criterion.as_factor else f"limit {limit}"
-    detail = "; ".join(part for part in (detail, asked) if part)
+    detail = "; ".join(part for part in (detail, _asked(headline, worst, like)) if part)
     return KeyFigure(headline.label, headline_text(headline, like), detail, share, judgement)
+
+
+def _asked(headline: Headline, item: Judgement, like: float) -> str:
+    """Return limit and judged value; with the value shown next to it where that is another one."""
+    limit, found = limit_and_found(item, like)
+    _, own = limit_and_found(replace(item, value=headline.value), like)
+    plain = own == found or not math.isfinite(headline.value) or item.criterion.mean_weight != 1.0
+    if item.criterion.as_factor:
+        here = "" if plain else f" where it is judged, {own} at the value shown"
+        return f"factor of safety {found}{here}, asked {limit}"
+    return f"limit {limit}" if plain else f"limit {limit}, judged at {found}"
 
 
 def _severity(item: Judgement) -> int:

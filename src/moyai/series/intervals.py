@@ -73,3 +73,25 @@ def student_quantile(confidence: float, freedom: float) -> float:
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence is {confidence:g}", path="confidence", allowed="between 0 and 1")
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * confidence))
+
+
+def reach_of_mean(values: ArrayLike, probability: float = 0.95) -> float:
+    """Return how far the one-sided interval of a mean reaches from it, by Student's distribution.
+
+    Parameters
+    ----------
+    values : array_like
+        Independent samples; 0 is returned for fewer than two.
+    probability : float
+        That the mean of very many samples lies below the end of the interval.
+
+    Raises
+    ------
+    InputError
+        For a probability of one half or less, or of one.
+    """
+    found = np.asarray(values, dtype=np.float64)
+    if found.size < 2:
+        return 0.0
+    error = float(np.std(found, ddof=1)) / math.sqrt(found.size)
+    return student_quantile(2.0 * probability - 1.0, found.size - 1) * error

@@ -159,14 +159,3 @@ def test_cable_of_the_plan_is_bounded_by_the_closed_form():
         line = steady.governing.quantity("line_load")
         closed = float(solve_cable(curtain.span, curtain.length, line, curtain.axial_stiffness).tension)
         assert steady.governing.quantity("cable_tension") >= closed * (1.0 - 1e-6)
-
-
-def test_a_peak_that_hangs_on_the_mesh_is_warned_of():
-    from moyai.structures.curtain.analyses.span_peaks import mesh_notices
-
-    base = ["daily", "storm", "storm"]
-    (found,) = mesh_notices([9e3, 40.2e3, 25.0e3], base, "upper cable")
-    assert found.severity == "warning" and found.value == pytest.approx(1.0 - 25.0 / 40.2)
-    assert "storm: 25 kN on one mesh, 40.2 kN on the other" in found.message
-    assert mesh_notices([60e3, 40.2e3, 25.0e3], base, "upper cable") == ()
-    assert mesh_notices([9e3, 27.0e3, 25.0e3], base, "upper cable") == ()

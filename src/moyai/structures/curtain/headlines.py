@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from moyai.core.headline import Band, Bound, Criterion, Headline, judge
 from moyai.core.wording import spoken
+from moyai.structures.curtain.analyses.event_peaks import event_band
 from moyai.structures.curtain.governing import model_of
 from moyai.structures.curtain.hierarchy import SPAN, STATICS
 
@@ -37,6 +38,11 @@ _STEADY_NAMES = {
 }  # fmt: skip
 #: Energy factors that fitted the measured anchor lines of the field and of the flume [-]
 ENERGY_FACTORS = (0.2, 0.5)
+_NOT_JUDGED = Headline(
+    "not_judged", "Not judged", math.nan, "1", text="wear and fatigue, one line lost, seams and eyelets",
+    detail="ageing, fouling and fatigue of the sheet and its ropes, a curtain with one anchor line lost, stress at "
+    "seams and eyelets, and the holding of an anchor in its soil are not computed",
+)  # fmt: skip
 _REMEDY = "add 'dynamic' to 'analyses', with settings.dynamic.sheet_mass, for the value"
 _MISSING = "'settings.impact.chord' and a skirt that stretches, or 'dynamic' in 'analyses'"
 
@@ -60,6 +66,14 @@ class _Load:
     def used(self) -> float:
         """Load over strength; NaN without a strength."""
         return self.number("governing_load") / self.number("capacity")
+
+    @property
+    def holds(self) -> bool:
+        """Whether the load keeps its strength with the safety factor, at the end at which criteria are judged."""
+        high = self.number("governing_load")
+        if self.band is not None:
+            high = max(high, self.band.high) if self.band.decides else max(high, *(self.band.judged or ()))
+        return self.bound != "at least" and high * self.number("safety_factor") <= self.number("capacity")
 
     @property
     def bound(self) -> Bound:
@@ -104,8 +118,10 @@ def curtain_headlines(
         *used,
         *_steady(groups, levels),
         *_depths(groups, levels),
-        *_limits(groups, levels),
+        *_limits(groups, levels, loads),
     ]
+    if used:
+        found.append(_NOT_JUDGED)
     if used and not math.isnan(used[0].value):
         # the load behind the most used component stands next to it
         first = used[0]
@@ -191,7 +207,7 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
         of = f"{_kilo(load.number('governing_load'), unit)} of {_kilo(strength, unit)}"
         of += f", utilisation {load.number('utilisation'):.3g} with the factor {load.number('safety_factor'):.3g}"
         where = f"{load.component}, {load.source}: {load.level}"
-        if load.bound == "at least":
+        if load.bound == "at least" and load.model != SPAN:
             # what only waits for its snap is no number to design with
             said = f"{of} without its snap, which needs {_MISSING}"
             headline = Headline(
@@ -201,7 +217,8 @@ def _used(loads: Sequence[_Load]) -> Iterator[tuple[float, Headline]]:
             continue
         band = load.band
         if band is not None:
-            band = Band(band.low / strength, band.high / strength, band.of, band.decides)
+            ends = None if band.judged is None else (band.judged[0] / strength, band.judged[1] / strength)
+            band = Band(band.low / strength, band.high / strength, band.of, band.decides, ends)
         yield (
             load.number("utilisation"),
             Headline(
@@ -271,16 +288,18 @@ def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
 
 
 def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
-    """Return the peaks of a run on its two meshes, of which the larger counts."""
-    name = load.words("dynamic_source")
-    base = str(table["run_of"].sel(run=name).values)
-    key = {"upper cable": "upper_peak", "lower cable": "lower_peak", "skirt": "skirt_peak"}.get(
-        load.component, "anchor_peak"
-    )
-    peaks = table[key].values[table["run_of"].values == base]
-    factor = value / float(table[key].sel(run=name))
-    low, high = factor * float(peaks.min()), factor * float(peaks.max())
-    return Band(low, max(high, value), "two meshes, the larger counts") if peaks.size > 1 else None
+    """Return the peaks of an event on its two meshes and over the realisations of its sea."""
+    event = str(table["run_of"].sel(run=load.words("dynamic_source")).values)
+    component = "anchor line" if load.component == "anchor" else load.component
+    whole, low, high, judged, count = event_band(table, event, component)
+    if not low < high:
+        return None
+    factor = value / whole
+    low, high = factor * low, max(factor * high, value)
+    if count < 2:
+        return Band(low, high, "two meshes, the larger counts")
+    of = f"{count} realisations and two meshes; criteria at the 95 % end of the larger mean"
+    return Band(low, high, of, decides=False, judged=(low, factor * judged))
 
 
 def _energy_band(groups: Groups, load: _Load) -> Band | None:
@@ -439,8 +458,18 @@ def _beside(name: str, statics: xr.Dataset, value: float) -> str:
 _STRUCK = ("upper cable", "lower cable", "sheet", "joint", "anchor line", "anchor")
 
 
-def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
-    """Return up to which current without waves, and up to which wave height in its own current, a curtain holds."""
+def _span_holds(loads: Sequence[_Load], level: str) -> bool:
+    """Return whether the whole span was run at a level and everything holds with its safety factor in its seas."""
+    mine = [one for one in loads if one.level == level and math.isfinite(one.used)]
+    return any(one.model == SPAN for one in mine) and all(one.holds for one in mine)
+
+
+def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> Iterator[Headline]:
+    """Return up to which current without waves, and up to which wave height in its own current, a curtain holds.
+
+    Where the plate that gives the limits is only a bound and the whole span holds in the state of the case, the state
+    of the case is the limit from below if it is the larger one.
+    """
     for name, label, unit, where, value, key in (
         ("limit_current", "Holds up to a current of", "m/s", "no waves", "speed_limit", "speed_limit"),
         (
@@ -462,6 +491,14 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
         # the words for no limit at all, or for one of 0
         said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
         bound = str(table.attrs.get(f"{key}_bound", ""))
+        proven = _in_the_case(groups, level, key) if _span_holds(loads, level) else math.nan
+        if bound == "at least" and proven > limit:
+            more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 else ""
+            detail = f"the whole span holds in the state of the case; {more}the span is run in that state alone"
+            yield Headline(
+                name, label, proven, unit, where=f"{where}: {level}", model=SPAN, bound="at least", detail=detail
+            )
+            continue
         details = [said or f"{governing} sets it"]
         if limit > 0.0 and governing != "not reached" and said:
             details.insert(0, f"{governing} sets it")
@@ -492,6 +529,14 @@ def _limits(groups: Groups, levels: Sequence[str]) -> Iterator[Headline]:
             detail="; ".join(details),
             text="" if limit > 0.0 else "none",
         )  # fmt: skip
+
+
+def _in_the_case(groups: Groups, level: str, key: str) -> float:
+    """Return the current of the case, or the largest significant height of its irregular seas; NaN without."""
+    if key == "speed_limit":
+        return _number(groups[f"/{level}/limits"], "surface_speed")
+    seas = [data for path, data in groups.items() if path.startswith(f"/{level}/waves/") and "realisations" in data]
+    return max((float(data["significant_height"]) for data in seas), default=math.nan)
 
 
 def _number(table: xr.Dataset, name: str) -> float:

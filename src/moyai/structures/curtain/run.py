@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -101,6 +101,7 @@ def _level_steps(
     roles = hierarchy(unit, settings)
     collected.groups[root] = _header(unit)
     collected.groups[f"{root}/models"] = hierarchy_dataset(roles)
+    plate: list[int] = []
     if "statics" in settings.analyses:
         require_current(unit)
         collected.groups.update({f"{root}/{name}": data for name, data in statics_groups(unit, highest).items()})
@@ -118,7 +119,7 @@ def _level_steps(
             collected.notices.extend(told)
         collected.groups.update({f"{root}/{name}": data for name, data in groups.items()})
         collected.checks.extend(impact_checks(unit, answer))
-        collected.notices.extend(impact_notices(unit, settings.impact, answer))
+        plate.extend(_numbered(collected, impact_notices(unit, settings.impact, answer)))
         progress(f"impact, {unit.name}", 1, 1)
         yield
     oscillator: list[tuple[str, float]] = []
@@ -127,7 +128,7 @@ def _level_steps(
             found = wave_answer(unit, settings, sea, progress)
             for name, data in found.groups.items():
                 collected.groups[f"{root}/waves/{sea.name}" + (f"/{name}" if name else "")] = data
-            collected.notices.extend(found.notices)
+            plate.extend(_numbered(collected, found.notices))
             # a bound is the upper end of what it varies with: a mean bounds nothing
             bounds = role_of(roles, CYCLES) == "bound"
             oscillator.append((sea.name, found.highest_tension if bounds else found.maximum_tension))
@@ -150,6 +151,10 @@ def _level_steps(
         collected.groups.update(
             {f"{root}/dynamic" + (f"/{name}" if name else ""): data for name, data in moved.groups.items()}
         )
+        if moved.loads:
+            # what limits a model that only stands for comparison limits no number of the first page
+            for number in plate:
+                collected.notices[number] = _lowered(collected.notices[number])
         collected.checks.extend(moved.checks)
         collected.notices.extend(moved.notices)
         if moved.interrupted:
@@ -177,6 +182,19 @@ def _level_steps(
         if settings.limits.rose_step is not None:
             collected.groups[f"{root}/limits/rose"] = rose_dataset(unit, settings, seas, progress)
             yield
+
+
+def _numbered(collected: _Collected, notices: Sequence[Notice]) -> range:
+    """Collect notices; return their places."""
+    first = len(collected.notices)
+    collected.notices.extend(notices)
+    return range(first, len(collected.notices))
+
+
+def _lowered(notice: Notice) -> Notice:
+    if notice.severity != "warning":
+        return notice
+    return replace(notice, severity="information", message=f"upright plate, for comparison: {notice.message}")
 
 
 def _header(unit: LevelCurtain) -> xr.Dataset:

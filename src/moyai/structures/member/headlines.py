@@ -18,7 +18,7 @@ from moyai.core.headline import Band, Headline
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
-from moyai.series.intervals import student_quantile
+from moyai.series.intervals import reach_of_mean
 from moyai.structures.member.model import MemberProblem
 
 if TYPE_CHECKING:
@@ -214,7 +214,7 @@ def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, 
     if scatter.size < 2 or own == 0.0:
         return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
     low, high = min([own, *peaks]) / own, max([own, *peaks]) / own
-    reach = student_quantile(0.9, scatter.size - 1) * float(scatter.std(ddof=1)) / math.sqrt(scatter.size)
+    reach = reach_of_mean(scatter)
     words.append(f"{scatter.size} realisations; criteria at the 95 % end of their mean")
     return Band(
         low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,

@@ -12,7 +12,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
 from moyai.mooring.anchors import gravity_anchor_weight
-from moyai.series.intervals import student_quantile
+from moyai.series.intervals import reach_of_mean
 from moyai.structures.breakwater.responses import SNAP_RATIO
 from moyai.tables.design_codes import anchor_factor, holding_data
 
@@ -227,7 +227,7 @@ def _other_level(highest: LinePeak, peaks: list[LinePeak]) -> str:
     for peak in peaks:
         if peak.level == highest.level or peak.sea != highest.sea or peak.scatter.size < 2 or not peak.known:
             continue
-        spread = math.hypot(_reach(highest.scatter), _reach(peak.scatter))
+        spread = math.hypot(reach_of_mean(highest.scatter), reach_of_mean(peak.scatter))
         if highest.tension - peak.tension < spread:
             alike[peak.level] = max(peak.tension, alike.get(peak.level, 0.0))
     if not alike:
@@ -339,13 +339,8 @@ def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
         return None
     upper = scatter if bound is None or bound.size != scatter.size else np.fmax(bound, scatter)
     of = f"{scatter.size} realisations; criteria at the 95 % end of their mean"
-    ends = (float(scatter.mean()) - _reach(scatter), float(upper.mean()) + _reach(upper))
+    ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
     return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
-
-
-def _reach(scatter: Array) -> float:
-    """Return how far the one-sided 95 % interval of a mean reaches from it (Student)."""
-    return student_quantile(0.9, scatter.size - 1) * _standard_error(scatter)
 
 
 def _standard_error(scatter: Array) -> float:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
 from moyai.sea.states import SeaState
+from moyai.structures.curtain.analyses.event_peaks import COMPONENTS
 from moyai.structures.curtain.analyses.impact import impact_of
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.dynamic.checks import crumples, run_checks, run_notices, still_rises
@@ -32,6 +33,14 @@ _NORMAL_REACH = 1.0 / 3.0
 _LONGER, _SAME = 4, 0.01
 
 
+class SpanLoad(NamedTuple):
+    """Highest tension of a component [N, N/m], the run in which it stands, and whether smaller cells give more."""
+
+    load: float
+    run: str
+    at_least: bool = False
+
+
 @dataclass(frozen=True)
 class DynamicAnswer:
     """Groups of one run, what must be reported, its checks, the highest tensions, and whether the user stopped it."""
@@ -39,7 +48,7 @@ class DynamicAnswer:
     groups: dict[str, xr.Dataset]
     checks: tuple[IdentityCheck, ...]
     notices: tuple[Notice, ...]
-    loads: Mapping[str, tuple[float, str]]
+    loads: Mapping[str, SpanLoad]
     interrupted: bool = False
 
 
@@ -106,13 +115,11 @@ def dynamic_answer(
     return DynamicAnswer(groups, tuple(checks), tuple(notices), peaks_of_runs(plans, rows), interrupted)
 
 
-def peaks_of_runs(plans: Sequence[Plan], rows: Sequence[Mapping[str, float]]) -> dict[str, tuple[float, str]]:
+def peaks_of_runs(plans: Sequence[Plan], rows: Sequence[Mapping[str, float]]) -> dict[str, SpanLoad]:
     """Return the highest tension of each component over the runs, and the run in which it stands."""
-    keys = {"upper cable": "upper_peak", "lower cable": "lower_peak", "skirt": "skirt_peak",
-            "anchor line": "anchor_peak"}  # fmt: skip
-    found: dict[str, tuple[float, str]] = {}
-    for component, key in keys.items():
-        known = [(row[key], plan.name) for row, plan in zip(rows, plans, strict=False) if row[key] > 0.0]
+    found: dict[str, SpanLoad] = {}
+    for component, key in COMPONENTS.items():
+        known = [SpanLoad(row[key], plan.name) for row, plan in zip(rows, plans, strict=False) if row[key] > 0.0]
         if known:
             found[component] = max(known)
     return found
@@ -196,4 +203,4 @@ def _models(unit: LevelCurtain, settings: Settings) -> xr.Dataset | None:
     return labelled(xr.Dataset({"dynamic_model_tension": ("dynamic_model", peaks)}, coords={"dynamic_model": names}))
 
 
-__all__ = ["DynamicAnswer", "dynamic_answer", "peaks_of_runs", "through"]
+__all__ = ["DynamicAnswer", "SpanLoad", "dynamic_answer", "peaks_of_runs", "through"]

@@ -203,7 +203,9 @@ def line_load(answer: ImpactAnswer, tension: float) -> float:
 
 def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactAnswer) -> tuple[Notice, ...]:
     """Return where the models leave their range, and what was left out for want of data."""
-    notices = [*answer.comparison.notices]
+    # the design tension with memory of the waves has no need of a short rise
+    memory = "memory" in answer.design_model
+    notices = [item for item in answer.comparison.notices if not (memory and item.code == "impact-slow")]
     if settings.time_step is not None:
         rise = peak_by_energy(answer.impact).time
         notices += march_impact(answer.impact, time_step=settings.time_step, duration=1.6 * rise).notices

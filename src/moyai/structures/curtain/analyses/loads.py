@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
 from moyai.structures.curtain.analyses.anchor import rope_model, steady_tension
+from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.impact import ImpactAnswer
 from moyai.structures.curtain.analyses.limits import impact_load
 from moyai.structures.curtain.assembly import LevelCurtain
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: Highest tension of components in runs of the whole span [N, N/m], and the run in which each stands.
-DynamicLoads = Mapping[str, tuple[float, str]]
+DynamicLoads = Mapping[str, SpanLoad]
 NOT_MOVED: DynamicLoads = MappingProxyType({})
 _UNITS = {"skirt": "N/m", "float": "N/m"}
 _FIELDS = {
@@ -128,10 +129,12 @@ def _decided(
 ) -> dict[str, float | str]:
     """Return a row with the load of the moving span, the load that governs and its utilisation."""
     component = str(row["component"])
-    line, run = moved.get("anchor line" if component == "anchor" else component, (math.nan, ""))
+    line, run, more = moved.get("anchor line" if component == "anchor" else component, SpanLoad(math.nan, ""))
     load = line * _factor(unit, component) if component == "anchor" else line
     row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
     row |= governing_load(row, roles)
+    if more and row["governing"] == "dynamic":
+        row |= {"load_bound": "at least"}
     governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
     # the upper end of the steady load is added to what waves add; with a moving span it counts where it alone is more
     above = governing - steady + high

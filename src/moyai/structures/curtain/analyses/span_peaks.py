@@ -1,7 +1,8 @@
 """Peaks of the whole span where it is not asked for and an upright plate only bounds them [eq:curtain-hierarchy].
 
-Every run is made on a coarse mesh; those that lead a component are made again on a finer one. Both stand in the tables
-and the larger counts, since the motion is chaotic and neither mesh is the better sample of its highest tension.
+Every event is run on a coarse mesh; those that lead a component are run again on a finer one. Irregular seas are run
+with several realisations, since the snaps of a motion that never repeats are chance: the larger of the means on both
+meshes counts.
 """
 
 from __future__ import annotations
@@ -13,9 +14,15 @@ from typing import TYPE_CHECKING
 from moyai.core.errors import InputError
 from moyai.core.progress import Progress
 from moyai.core.validity import IdentityCheck, Notice
-from moyai.core.wording import spoken
-from moyai.sea.states import SeaState
-from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, peaks_of_runs, through
+from moyai.sea.states import IrregularSea, SeaState
+from moyai.structures.curtain.analyses.dynamic import DynamicAnswer, SpanLoad, through
+from moyai.structures.curtain.analyses.event_peaks import (
+    COMPONENTS,
+    Sample,
+    event_variables,
+    governing_peaks,
+    mesh_notices,
+)
 from moyai.structures.curtain.assembly import LevelCurtain
 from moyai.structures.curtain.dynamic.checks import crumples, run_checks, run_notices
 from moyai.structures.curtain.dynamic.groups import run_dataset, run_frames
@@ -29,9 +36,8 @@ from moyai.structures.curtain.variables import labelled
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Change of a governing tension from one mesh to the other, over the larger, that is reported
-_MESH_CHANGE = 0.2
-_PEAKS = ("upper_peak", "lower_peak", "anchor_peak", "skirt_peak")
+#: Realisations of an irregular sea on the finer mesh, at most: they find the change with the mesh
+_FINE_REALISATIONS = 3
 
 
 def peaks_wanted(unit: LevelCurtain, settings: Settings) -> bool:
@@ -71,12 +77,15 @@ def span_peaks(
         given.mesh,
         replace(given.mesh, along=_two_thirds(given.mesh.along), down=_two_thirds(given.mesh.down)),
     )
-    found = _Runs(unit, settings, span, progress, len(plans) + len(_PEAKS))
+    drawn = {plan.name: ((0, plan),) for plan in plans} | _realisations(unit, settings, seas, span)
+    found = _Runs(unit, settings, span, progress, sum(map(len, drawn.values())) + 2 * len(COMPONENTS))
     for plan in plans:
-        if not found.add(plan, coarse, plan.name):
+        if not found.event(drawn[plan.name], coarse):
             return found.stopped(plan)
-    for plan in _leading(plans, found.rows):
-        if not found.add(replace(plan, name=f"{plan.name}, {fine.along} by {fine.down} cells"), fine, plan.name):
+    leading = {event for event, _ in governing_peaks(found.samples).values()}
+    for plan in plans:
+        words = f", {fine.along} by {fine.down} cells"
+        if plan.name in leading and not found.event(drawn[plan.name][:_FINE_REALISATIONS], fine, words):
             return found.stopped(plan)
     return found.answer()
 
@@ -85,10 +94,21 @@ def _two_thirds(cells: int) -> int:
     return -(-2 * cells // 3)
 
 
-def _leading(plans: list[Plan], rows: list[Mapping[str, float]]) -> list[Plan]:
-    """Return the runs in which a component has its highest tension."""
-    first = {max(range(len(rows)), key=lambda n: rows[n][key]) for key in _PEAKS if any(row[key] > 0.0 for row in rows)}
-    return [plan for number, plan in enumerate(plans) if number in first]
+def _realisations(
+    unit: LevelCurtain, settings: Settings, seas: tuple[SeaState, ...], span: CurtainSpan
+) -> dict[str, tuple[tuple[int, Plan], ...]]:
+    """Return the realisations of every irregular sea with their seeds, by the name of its run."""
+    if "waves" not in settings.analyses:
+        return {}
+    alone = replace(settings, analyses=("waves",))
+    return {
+        sea.name: tuple(
+            (seed, plans_of(unit, alone, (replace(sea, seed=seed),), span)[0])
+            for seed in range(sea.seed, sea.seed + settings.waves.realisations)
+        )
+        for sea in seas
+        if isinstance(sea, IrregularSea)
+    }
 
 
 class _Runs:
@@ -98,78 +118,64 @@ class _Runs:
         self, unit: LevelCurtain, settings: Settings, span: CurtainSpan, progress: Progress, expected: int
     ) -> None:
         self.unit, self.settings, self.span, self.progress, self.expected = unit, settings, span, progress, expected
-        self.plans: list[Plan] = []
-        self.rows: list[Mapping[str, float]] = []
+        self.samples: list[Sample] = []
+        self.rows: dict[str, Mapping[str, float]] = {}
         self.groups: dict[str, xr.Dataset] = {}
         self.checks: list[IdentityCheck] = []
         self.notices: list[Notice] = []
-        self.base: list[str] = []
 
-    def add(self, plan: Plan, mesh: Mesh, base: str) -> bool:
-        """Make a run; return whether it can be counted."""
+    def event(self, drawn: Sequence[tuple[int, Plan]], mesh: Mesh, suffix: str = "") -> bool:
+        """Run an event on a mesh with the realisations of its sea; return whether it can be counted."""
+        name = drawn[0][1].name + suffix
+        several = len(drawn) > 1
+        return all(
+            self._add(plan, mesh, name, seed, f"{name}, seed {seed}" if several else name) for seed, plan in drawn
+        )
+
+    def _add(self, plan: Plan, mesh: Mesh, name: str, seed: int, words: str) -> bool:
+        """Make a run; keep the series of the first realisation, of the others the peaks."""
         given = self.settings.dynamic
         assert given is not None
-        place = f"dynamic, {plan.name}"
-        self.progress(place, len(self.plans), max(self.expected, len(self.plans) + 1))
-        plan, run, told = through(self.span, mesh, plan, self.progress, place)
+        place = f"dynamic, {words}"
+        done = len(self.samples)
+        self.progress(place, done, max(self.expected, done + 1))
+        event = plan.name
+        plan, run, reported = through(self.span, mesh, plan, self.progress, place)
         if run.history.status == "interrupted":
             raise KeyboardInterrupt
         if crumples(run):
             return False
+        plan = replace(plan, name=name)
         data, row = run_dataset(run, given, None, plan)
-        self.groups[plan.name], self.groups[f"{plan.name}/frames"] = data, run_frames(run, plan)
-        self.plans.append(plan)
-        self.rows.append(row)
-        self.base.append(base)
+        peaks = {component: row[key] for component, key in COMPONENTS.items()}
+        self.samples.append(Sample(event, name, (mesh.along, mesh.down), seed, peaks))
         self.checks.extend(run_checks(run, place))
-        self.notices.extend([*told, *run_notices(run, place, plan.period, plan.regular)])
+        if name not in self.rows:
+            self.rows[name] = row
+            self.groups[name], self.groups[f"{name}/frames"] = data, run_frames(run, plan)
+            self.notices.extend([*reported, *run_notices(run, place, plan.period, plan.regular)])
         return True
 
     def stopped(self, plan: Plan) -> DynamicAnswer:
         """Return that nothing counts, and why."""
         text = f"{plan.name}: the run of the whole span had to stop, or its cloth crumpled: the bounds of a plate stay"
-        told = Notice("span-peaks", text, remedy="add 'dynamic' to 'analyses' with more cells or more viscosity")
-        return DynamicAnswer({}, (), (told,), {})
+        said = Notice("span-peaks", text, remedy="add 'dynamic' to 'analyses' with more cells or more viscosity")
+        return DynamicAnswer({}, (), (said,), {})
 
     def answer(self) -> DynamicAnswer:
         """Return groups, checks, notices and the highest tensions."""
         import xarray as xr
 
-        table = {key: ("run", [row[key] for row in self.rows]) for key in self.rows[0]}
-        names = [plan.name for plan in self.plans]
-        self.groups[""] = labelled(xr.Dataset({**table, "run_of": ("run", self.base)}, coords={"run": names}))
-        loads = peaks_of_runs(self.plans, self.rows)
-        notices = [*self.notices, *mesh_notices(table["upper_peak"][1], self.base, "upper cable")]
-        return DynamicAnswer(self.groups, tuple(self.checks), tuple(notices), loads)
-
-
-def mesh_notices(peaks: Sequence[float], base: Sequence[str], component: str) -> tuple[Notice, ...]:
-    """Return the warning that the highest tension of a component hangs on the mesh.
-
-    Parameters
-    ----------
-    peaks : sequence of float
-        Of each run [N].
-    base : sequence of str
-        What each run is of: the same for both meshes.
-    component : str
-    """
-    leading = base[max(range(len(peaks)), key=lambda number: peaks[number])]
-    both = [peak for peak, one in zip(peaks, base, strict=True) if one == leading]
-    change = 1.0 - min(both) / max(both) if max(both) > 0.0 else 0.0
-    if not change > _MESH_CHANGE:
-        return ()
-    return (
-        Notice(
-            "span-mesh",
-            f"{component}, {leading}: {spoken(min(both), 'N', 3)} on one mesh, {spoken(max(both), 'N', 3)} on the "
-            "other; the motion is chaotic, and the larger is the highest of two samples, not a converged value",
-            change,
-            _MESH_CHANGE,
-            remedy="take the bound of the upright plate, or run 'dynamic' with more cells and several seeds",
-            source="eq:curtain-hierarchy",
-        ),
-    )
+        names = list(self.rows)
+        table = {key: ("run", [row[key] for row in self.rows.values()]) for key in self.rows[names[0]]}
+        event_of = {item.run: item.event for item in self.samples}
+        run_of = ("run", [event_of[name] for name in names])
+        peaks, coords = event_variables(self.samples)
+        self.groups[""] = labelled(xr.Dataset({**table, "run_of": run_of, **peaks}, coords={"run": names, **coords}))
+        found = governing_peaks(self.samples)
+        loads = {name: SpanLoad(peak.value, peak.run, peak.at_least) for name, (_, peak) in found.items()}
+        notices = (*self.notices, *mesh_notices(found))
+        return DynamicAnswer(self.groups, tuple(self.checks), notices, loads)
 
 
 __all__ = ["peaks_wanted", "span_peaks"]

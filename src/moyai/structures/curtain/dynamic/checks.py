@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.core.wording import spoken
 from moyai.structures.curtain.dynamic.runs import DynamicRun
 
 #: Part of the energy of a span that viscosity may take in a period: a snap loses some per cent, crumpling much more.
@@ -228,8 +229,9 @@ def _unsettled(run: DynamicRun, place: str, period: float) -> Notice | None:
         return None
     return Notice(
         "dynamic-unsettled",
-        f"{place}: from period to period both cables bear at most {', '.join(plain(one) for one in peaks)} N: the "
-        "motion has not settled, and the highest is that of these periods only",
+        f"{place}: the highest tension of both cables in a period lies between {spoken(min(peaks), 'N', 3)} and "
+        f"{spoken(max(peaks), 'N', 3)} over {count} periods: the motion has not settled, and the highest is that of "
+        "these periods only",
         max(peaks) / min(peaks) if min(peaks) > 0.0 else math.inf, 1.0 + _UNSETTLED, "warning",
         "give more 'settings.dynamic.settled_periods' and 'analysed_periods'; snaps in regular waves may never settle",
         "peaks of each period",

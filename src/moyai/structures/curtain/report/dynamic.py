@@ -54,7 +54,7 @@ def dynamic_blocks(level: CurtainLevel) -> Sequence[Block | None]:
         if blocks:
             options.append(Option(run.name, blocks))
     choice = Choice("dynamic-run", "Run", tuple(options), print_all=False) if options else None
-    return peak_table(level), worth_table(level), choice
+    return peak_table(level), sample_table(level), worth_table(level), choice
 
 
 def _rows(group: Group, columns: tuple[tuple[str, str, str], ...]) -> list[Column]:
@@ -94,6 +94,33 @@ def peak_table(level: CurtainLevel) -> Table | None:
         "Peaks of the whole span",
         (Column("Run", list(names)), *in_one_unit(columns)),
         note,
+    )
+
+
+def sample_table(level: CurtainLevel) -> Table | None:
+    """Return the highest tensions of every run of events that were run on two meshes or with several realisations."""
+    group = level.part("dynamic")
+    peaks = group.real("sample_peak", "sample", "span_component")
+    if peaks is None:
+        return None
+    seeds = group.real("sample_seed", "sample")
+    names = group.labels("span_component")
+    tensions = [
+        Column(name[0].upper() + name[1:], [float(value) for value in column], "N/m" if name == "skirt" else "N")
+        for name, column in zip(names, peaks.T, strict=True)
+        if np.any(column > 0.0)
+    ]
+    return Table(
+        key(level, "dynamic-samples"),
+        "Highest tensions of every realisation and mesh",
+        (
+            Column("Event", _words(group, "sample_event", "sample")),
+            Column("Cells", _words(group, "sample_cells", "sample")),
+            Column("Seed", ["-" if seed == 0 else f"{seed:.0f}" for seed in (() if seeds is None else seeds)]),
+            *in_one_unit(tensions),
+        ),
+        "The larger of the means on both meshes counts. Where the finer mesh gives more than a fifth above the coarser "
+        "one with the same realisations, the number is a bound from below.",
     )
 
 
@@ -244,7 +271,7 @@ def span_animation(level: CurtainLevel, run: Group) -> Animation | None:
     begin = min(max(moment - 0.6 * length, float(time[0])), float(time[-1]) - length)
     window = (begin, begin + length)
     rows = frame_rows(time, nodes=position.shape[1], bars=len(bars), window=window, moments=(moment,))
-    names = tuple(frames.labels("bar_line")) or tuple(str(name) for name in _texts(frames))
+    names = tuple(frames.labels("bar_line")) or tuple(_words(frames, "bar_line", "bar"))
     markers = []
     for number, name in enumerate(names):
         if name.startswith("anchor line"):
@@ -271,8 +298,8 @@ def span_animation(level: CurtainLevel, run: Group) -> Animation | None:
     )
 
 
-def _texts(frames: Group) -> list[str]:
-    values = frames.array("bar_line", "bar")
+def _words(group: Group, name: str, dim: str) -> list[str]:
+    values = group.array(name, dim)
     return [] if values is None else [str(value) for value in values]
 
 

@@ -1,0 +1,205 @@
+"""Highest tensions of events on two meshes: what counts, what it varies with, and whether the mesh carries it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.validity import Notice
+from moyai.core.wording import spoken
+from moyai.series.intervals import reach_of_mean
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Components of the whole span and their columns in the table of runs
+COMPONENTS: Mapping[str, str] = {
+    "upper cable": "upper_peak",
+    "lower cable": "lower_peak",
+    "skirt": "skirt_peak",
+    "anchor line": "anchor_peak",
+}
+#: Change of a tension from one mesh to the other, over the larger, beyond which the mesh does not carry it [-]
+MESH_CHANGE = 0.2
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One run of an event, on a mesh and with a realisation of its sea.
+
+    Parameters
+    ----------
+    event : str
+        What is run: a sea, a period of regular waves, the snap.
+    run : str
+        Name of the run whose series are kept of this event and mesh.
+    mesh : tuple of int
+        Cells along and down.
+    seed : int
+        Of the sea; 0 where there is no chance in it.
+    peaks : mapping
+        Highest tension by component [N, N/m].
+    """
+
+    event: str
+    run: str
+    mesh: tuple[int, int]
+    seed: int
+    peaks: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class EventPeak:
+    """Highest tension of a component in an event.
+
+    Parameters
+    ----------
+    value : float
+        Larger of the means over the realisations on each mesh [N, N/m].
+    low, high : float
+        Lowest and highest of all runs.
+    judged : float
+        Upper end of the one-sided 95 % interval of the mean (Student); the value where there is one realisation.
+    run : str
+        Run of which series are kept, of the mesh that counts.
+    change : float
+        From one mesh to the other with the same realisations, over the larger mean; 0 with one mesh.
+    finer_is_more : bool
+        Whether the finer mesh gives the larger mean.
+    means : tuple of float
+        Of both meshes with the same realisations, the coarser first; empty with one mesh.
+    """
+
+    value: float
+    low: float
+    high: float
+    judged: float
+    run: str
+    change: float = 0.0
+    finer_is_more: bool = False
+    means: tuple[float, ...] = ()
+
+    @property
+    def at_least(self) -> bool:
+        """Whether cells that are smaller still would give more: the value is a bound from below."""
+        return self.change > MESH_CHANGE and self.finer_is_more
+
+
+def event_peak(samples: Sequence[Sample], event: str, component: str) -> EventPeak | None:
+    """Return the highest tension of a component in an event; None where it bears none.
+
+    Parameters
+    ----------
+    samples : sequence of Sample
+    event, component : str
+    """
+    mine = [item for item in samples if item.event == event and item.peaks[component] > 0.0]
+    meshes = sorted({item.mesh for item in mine})
+    if not meshes:
+        return None
+    by_mesh = {mesh: [item for item in mine if item.mesh == mesh] for mesh in meshes}
+    mean = {mesh: float(np.mean(_peaks(items, component))) for mesh, items in by_mesh.items()}
+    counting = max(meshes, key=lambda mesh: mean[mesh])
+    every, own = _peaks(mine, component), _peaks(by_mesh[counting], component)
+    found = EventPeak(
+        mean[counting], float(every.min()), float(every.max()), mean[counting] + reach_of_mean(own),
+        by_mesh[counting][0].run,
+    )  # fmt: skip
+    if len(meshes) < 2:
+        return found
+    shared = set.intersection(*({item.seed for item in items} for items in by_mesh.values()))
+    first, last = (
+        float(np.mean(_peaks([item for item in by_mesh[mesh] if item.seed in shared], component)))
+        for mesh in (meshes[0], meshes[-1])
+    )
+    return EventPeak(
+        found.value, found.low, found.high, found.judged, found.run,
+        1.0 - min(first, last) / max(first, last), last > first, (first, last),
+    )  # fmt: skip
+
+
+def _peaks(samples: Sequence[Sample], component: str) -> Array:
+    return np.array([item.peaks[component] for item in samples])
+
+
+def governing_peaks(samples: Sequence[Sample]) -> dict[str, tuple[str, EventPeak]]:
+    """Return of each component the event with its highest tension, and that tension."""
+    events = list(dict.fromkeys(item.event for item in samples))
+    found: dict[str, tuple[str, EventPeak]] = {}
+    for component in COMPONENTS:
+        known = [(event, peak) for event in events if (peak := event_peak(samples, event, component)) is not None]
+        if known:
+            found[component] = max(known, key=lambda item: item[1].value)
+    return found
+
+
+def event_variables(samples: Sequence[Sample]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return variables and coordinates of the peaks: of every event, and of every run."""
+    events = list(dict.fromkeys(item.event for item in samples))
+    names = list(COMPONENTS)
+    peaks = [[event_peak(samples, event, component) for component in names] for event in events]
+    data: dict[str, Any] = {
+        f"event_peak{suffix}": (
+            ("event", "span_component"),
+            [[np.nan if one is None else getattr(one, field) for one in row] for row in peaks],
+        )
+        for suffix, field in (("", "value"), ("_low", "low"), ("_high", "high"), ("_judged", "judged"),
+                              ("_mesh_change", "change"))
+    }  # fmt: skip
+    data["event_realisations"] = ("event", [len({s.seed for s in samples if s.event == event}) for event in events])
+    data["sample_peak"] = (("sample", "span_component"), [[item.peaks[name] for name in names] for item in samples])
+    for name, values in (
+        ("sample_event", [item.event for item in samples]),
+        ("sample_cells", [f"{item.mesh[0]} by {item.mesh[1]}" for item in samples]),
+        ("sample_seed", [item.seed for item in samples]),
+    ):
+        data[name] = ("sample", values)
+    return data, {"event": events, "span_component": names}
+
+
+def event_band(table: xr.Dataset, event: str, component: str) -> tuple[float, float, float, float, int]:
+    """Return value, low, high, judged value and realisations of an event's peak, read from the table of runs."""
+    row = table.sel(event=event, span_component=component)
+    value, low, high, judged = (float(row[f"event_peak{end}"]) for end in ("", "_low", "_high", "_judged"))
+    return value, low, high, judged, int(table["event_realisations"].sel(event=event))
+
+
+def mesh_notices(found: Mapping[str, tuple[str, EventPeak]]) -> tuple[Notice, ...]:
+    """Return a warning for components whose governing tension moves with the mesh beyond :data:`MESH_CHANGE`."""
+    apart = {name: item for name, item in found.items() if item[1].change > MESH_CHANGE}
+    if not apart:
+        return ()
+    units = {"skirt": "N/m"}
+    said = "; ".join(
+        f"{name} in '{event}' {spoken(peak.means[0], units.get(name, 'N'), 3)} on the coarser mesh, "
+        f"{spoken(peak.means[1], units.get(name, 'N'), 3)} on the finer"
+        + (", so that the number is a bound from below" if peak.at_least else ", and the larger counts")
+        for name, (event, peak) in apart.items()
+    )
+    return (
+        Notice(
+            "span-mesh",
+            f"peaks of the whole span move with the mesh: {said}",
+            max(peak.change for _, peak in apart.values()),
+            MESH_CHANGE,
+            remedy="run 'dynamic' with more cells, or design with the bound of the upright plate",
+            source="eq:curtain-hierarchy",
+        ),
+    )
+
+
+__all__ = [
+    "COMPONENTS",
+    "MESH_CHANGE",
+    "EventPeak",
+    "Sample",
+    "event_band",
+    "event_peak",
+    "event_variables",
+    "governing_peaks",
+    "mesh_notices",
+]

@@ -1,0 +1,120 @@
+"""Peaks of events over meshes and realisations: what counts, its band, and when the mesh makes it a bound."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from moyai.core.headline import Criterion, judge
+from moyai.structures.curtain.analyses.event_peaks import (
+    Sample,
+    event_band,
+    event_peak,
+    event_variables,
+    governing_peaks,
+    mesh_notices,
+)
+from moyai.structures.curtain.headlines import curtain_headlines
+from moyai.structures.curtain.hierarchy import SPAN
+
+COARSE, FINE = (8, 3), (12, 4)
+#: Student's 95 % quantile, one-sided, for 4 degrees of freedom (tables of the distribution)
+QUANTILE = 2.132
+
+
+def sample(event: str, mesh: tuple[int, int], seed: int, upper: float, skirt: float = 0.0) -> Sample:
+    name = event if mesh == COARSE else f"{event}, 12 by 4 cells"
+    return Sample(event, name, mesh, seed, {"upper cable": upper, "lower cable": 0.0, "skirt": skirt, "anchor line": 0})
+
+
+def storm(fine: tuple[float, ...] = (18e3, 22e3, 20e3), skirt: tuple[float, float] = (10e3, 11e3)) -> list[Sample]:
+    coarse = (31e3, 33e3, 23e3, 27e3, 36e3)
+    return [
+        sample("calm", COARSE, 0, 12e3, 1e3),
+        *(sample("storm", COARSE, seed, value, skirt[0]) for seed, value in enumerate(coarse, 1)),
+        *(sample("storm", FINE, seed, value, skirt[1]) for seed, value in enumerate(fine, 1)),
+    ]
+
+
+def test_mean_of_the_realisations_counts_and_the_larger_of_both_meshes():
+    peak = event_peak(storm(), "storm", "upper cable")
+    values = np.array([31e3, 33e3, 23e3, 27e3, 36e3])
+    assert peak.value == pytest.approx(30e3) and peak.run == "storm"
+    assert (peak.low, peak.high) == (18e3, 36e3)
+    assert peak.judged == pytest.approx(30e3 + QUANTILE * values.std(ddof=1) / math.sqrt(5), rel=1e-4)
+    # the change with the mesh is that of the realisations which both meshes have: 29 and 20 kN
+    assert peak.means == pytest.approx((29e3, 20e3)) and peak.change == pytest.approx(9 / 29)
+    assert not peak.at_least
+    finer = event_peak(storm((40e3, 42e3, 44e3)), "storm", "upper cable")
+    assert finer.value == pytest.approx(42e3) and finer.run == "storm, 12 by 4 cells" and finer.at_least
+    assert event_peak(storm(), "storm", "lower cable") is None
+
+
+def test_what_grows_with_the_cells_is_a_bound_and_warned_of():
+    found = governing_peaks(storm(skirt=(10e3, 11e3)))
+    assert {name: event for name, (event, _) in found.items()} == {"upper cable": "storm", "skirt": "storm"}
+    (notice,) = mesh_notices(found)
+    assert (
+        "upper cable in 'storm' 29 kN on the coarser mesh, 20 kN on the finer, and the larger counts" in notice.message
+    )
+    assert "skirt" not in notice.message
+    (notice,) = mesh_notices(governing_peaks(storm((30e3, 31e3, 28e3), skirt=(10e3, 20e3))))
+    assert "skirt in 'storm' 10 kN/m" in notice.message and "a bound from below" in notice.message
+    assert notice.severity == "warning" and notice.value == pytest.approx(0.5)
+    assert mesh_notices(governing_peaks(storm((30e3, 31e3, 28e3)))) == ()
+
+
+def groups_of(samples: list[Sample], capacity: float, bound: str) -> dict[str, xr.Dataset]:
+    data, coords = event_variables(samples)
+    runs = list(dict.fromkeys(item.run for item in samples))
+    events = {item.run: item.event for item in samples}
+    data["run_of"] = ("run", [events[name] for name in runs])
+    value = event_peak(samples, "storm", "upper cable").value
+    row = {
+        "governing_load": value, "utilisation": 3.0 * value / capacity, "capacity": capacity, "safety_factor": 3.0,
+        "governing": "dynamic", "dynamic_source": "storm", "load_bound": bound, "load_unit": "N", "steady_load": 2e3,
+        "wave_load": 20e3, "impact_load": 90e3,
+    }  # fmt: skip
+    loads = xr.Dataset({key: ("component", [item]) for key, item in row.items()}, coords={"component": ["upper cable"]})
+    attrs = {"speed_limit_bound": "at least", "design_limit_bound": "at least", "speed_limit_governing": "anchor",
+             "design_limit_governing": "anchor"}  # fmt: skip
+    limits = xr.Dataset({"speed_limit": 0.236, "design_limit_height": 0.0, "surface_speed": 0.5}, attrs=attrs)
+    waves = xr.Dataset({"significant_height": 0.8, "realisations": 5.0})
+    run = xr.Dataset({"line_tension_maximum": ("line", [value])}, coords={"line": ["upper cable"]})
+    return {
+        "/SWL/loads": loads, "/SWL/limits": limits, "/SWL/waves/storm": waves, "/SWL/dynamic/storm": run,
+        "/SWL/dynamic": xr.Dataset(data, coords={"run": runs, **coords}),
+    }  # fmt: skip
+
+
+def test_first_page_is_judged_at_the_end_of_the_interval_of_the_mean():
+    groups = groups_of(storm(), 100e3, "")
+    table = groups["/SWL/dynamic"]
+    value, low, high, judged, count = event_band(table, "storm", "upper cable")
+    assert (value, low, high, count) == (30e3, 18e3, 36e3, 5) and 30e3 < judged < high
+    criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
+    numbers = curtain_headlines(groups, ["SWL"])
+    used = next(item for item in numbers if item.name == "cable_utilisation")
+    assert used.band.judged[1] == pytest.approx(judged / 100e3)
+    # 0.30 of the strength at the mean keeps the factor 3, 0.35 at the end of its interval does not
+    (item,) = judge(numbers, [criterion], computed=True).judgements
+    assert used.value < criterion.limit < item.value and item.outcome == "does not hold"
+
+
+def test_limits_are_not_below_the_state_in_which_the_whole_span_holds():
+    found = {item.name: item for item in curtain_headlines(groups_of(storm(), 200e3, ""), ["SWL"])}
+    current, height = found["limit_current"], found["limit_wave_height"]
+    assert (current.value, current.bound, current.model) == (0.5, "at least", SPAN) and "0.236" in current.detail
+    assert (height.value, height.bound) == (0.8, "at least")
+    # where the span does not hold, or is only a bound from below, the plate's bound is all there is
+    for capacity, bound in ((100e3, ""), (200e3, "at least")):
+        found = {item.name: item for item in curtain_headlines(groups_of(storm(), capacity, bound), ["SWL"])}
+        assert found["limit_current"].value == 0.236 and found["limit_wave_height"].text == "not known"
+
+
+def test_a_bound_from_below_proves_no_strength():
+    numbers = curtain_headlines(groups_of(storm(), 200e3, "at least"), ["SWL"])
+    criterion = Criterion("cables", "cable_utilisation", 1.0 / 3.0, "at most", "case file", as_factor=True)
+    (item,) = judge(numbers, [criterion], computed=True).judgements
+    assert item.outcome == "not judged"
