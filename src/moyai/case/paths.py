@@ -122,7 +122,11 @@ def _follow(data: Any, place: KeyPath, step: Step, text: str, last: bool) -> lis
     if step.in_brackets or step.word not in block:
         # A list of one may stand in the file as a block
         if (step.in_brackets and step.word in ("0", EVERY)) or str(block.get("name", "")) == step.word:
-            return [place] if not last else []
+            if step.in_brackets and {"from", "to"} <= block.keys():
+                where = dotted(place)
+                said = f"'{where}' is a range from ... to, which has no entries"
+                raise InputError(said, path=text, remedy=f"replace it as a whole: '{where}'")
+            return [place]
         if not last or step.in_brackets:
             raise _absent(step.word, block, place, text)
     return [(*place, step.word)]

@@ -240,6 +240,8 @@ def answers_of_search(result: Result, most: int = 12) -> list[str]:
             name, least, unit = one.objective
             parts.append(f"least {name} {format_quantity(least, unit, 4)}")
         parts.append(f"governed by {' and '.join(one.governing)}" if one.governing else "no limit governs")
+        if one.remark:
+            parts.append(one.remark)
         lines.append((f"{where}: " if where else "") + "; ".join(parts))
     if len(found) > most:
         lines.append(f"and {counted(len(found) - most, 'case')} more in the report and study.csv")

@@ -52,20 +52,19 @@ def contour_seas(given: schema.Contour, folder: Path) -> tuple[Array, Array]:
 
 
 def _pairs(given: schema.PairsOfSeas, folder: Path) -> tuple[Array, Array]:
-    from moyai.study.variations_of_files import read_rows
+    from moyai.study.variations_of_files import column_of, read_rows
 
     file = folder / given.file
     rows = read_rows(file)
     columns = []
     for column in (given.significant_height, given.period):
-        if column not in rows[0]:
-            raise InputError(f"{file.name} has no column '{column}'", path="contour.pairs", allowed=", ".join(rows[0]))
+        heading, _ = column_of(rows, column, file, "contour.pairs")
         values = []
         for number, row in enumerate(rows, start=2):
             try:
-                values.append(float(row[column]))
+                values.append(float(row[heading]))
             except (TypeError, ValueError):
-                message = f"{file.name}, row {number}: '{row[column]}' is no number"
+                message = f"{file.name}, row {number}: '{row[heading]}' is no number"
                 raise InputError(message, path="contour.pairs") from None
         columns.append(np.array(values))
     return columns[0], columns[1]

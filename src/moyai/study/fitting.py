@@ -20,13 +20,14 @@ from moyai.core.errors import CaseError, Fault, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.quantities import parse_quantity
 from moyai.core.results import Result, make_provenance
+from moyai.core.wording import counted
 from moyai.records.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
 from moyai.study.axes import Combination, varied
 from moyai.study.plan import RunCase
 from moyai.study.responses import read_response
 from moyai.study.variations import common_unit
-from moyai.study.variations_of_files import read_rows
+from moyai.study.variations_of_files import column_of, read_rows
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,7 @@ def load_fit(path: str | os.PathLike[str]) -> Fit:
         base = varied(base, Combination(-1, (), tuple(block.set.items())))
     except InputError as error:
         tell(error, "set")
+    base = _one_level(base, block)
     parameters = []
     for name, unknown in block.parameters.items():
         try:
@@ -165,10 +167,17 @@ def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result
     def model(values: Array) -> Array:
         key = tuple(map(float, values))
         if key not in known:
-            out = []
+            out, stage = [], f"fit, trial {len(known) + 1}"
             for number, row in enumerate(fit.rows):
-                progress(f"fit, trial {len(known) + 1}", number, len(fit.rows))
+                progress(stage, number, len(fit.rows))
                 out.append(_predict(fit, run, values, row))
+            progress(stage, len(fit.rows), len(fit.rows))
+            if not known and len(set(out)) == 1 < len({row.changes for row in fit.rows}):
+                raise InputError(
+                    f"'{fit.response}' is {out[0]:.4g} for every row, whatever the columns set",
+                    path="fit.observations.response",
+                    remedy="name the sea, period or label that the columns change",
+                )
             known[key] = np.array(out)
         return known[key]
 
@@ -201,6 +210,17 @@ def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> float:
     if result.status == "interrupted":
         raise KeyboardInterrupt
     return read_response(result.tree, fit.response)
+
+
+def _one_level(base: Document, block: fit_schema.FitBlock) -> Document:
+    """Return the base with the one water level that the response names: the others give nothing that is read."""
+    site = base.data.get("site")
+    levels = site.get("water_levels") if isinstance(site, dict) else None
+    name = block.observations.response.split("/", 1)[0]
+    paths = (*block.parameters, *block.observations.columns.values())
+    if not isinstance(levels, dict) or name not in levels or any("water_levels" in path for path in paths):
+        return base
+    return varied(base, Combination(-1, (), (("site.water_levels", {name: levels[name]}),)))
 
 
 def _document(fit: Fit, values: Array, row: Row) -> Document:
@@ -238,9 +258,7 @@ def _rows(given: fit_schema.Observations, data: Any, folder: Path, unknown: set[
     file = folder / given.file
     table = read_rows(file)
     needed = [*given.columns, given.observed, *(word for word in (given.error, given.group) if word)]
-    for column in needed:
-        if column not in table[0]:
-            raise InputError(f"{file.name} has no column '{column}'", allowed=", ".join(table[0]))
+    heads = {column: column_of(table, column, file) for column in needed}
     for path in given.columns.values():
         resolve(data, path)
         if path in unknown:
@@ -249,26 +267,31 @@ def _rows(given: fit_schema.Observations, data: Any, folder: Path, unknown: set[
     for number, row in enumerate(table, start=2):
         changes = []
         for column, path in given.columns.items():
-            text = (row[column] or "").strip()
+            heading, own = heads[column]
+            text, unit = (row[heading] or "").strip(), given.units.get(column, own)
             if not text:
                 raise InputError(f"{file.name}, row {number}: column '{column}' is empty")
-            changes.append((path, f"{text} {given.units[column]}" if column in given.units else core_scalar(text)))
-        observed = _number(row[given.observed], file, number, given.observed)
-        error = _number(row[given.error], file, number, given.error) if given.error else math.nan
+            changes.append((path, f"{text} {unit}" if unit else core_scalar(text)))
+        observed = _number(row, heads[given.observed], file, number)
+        error = _number(row, heads[given.error], file, number) if given.error else math.nan
         if given.error and not error > 0.0:
             raise InputError(f"{file.name}, row {number}: the error {error:g} is not above zero")
-        rows.append(Row(tuple(changes), observed, error, (row[given.group] or "").strip() if given.group else ""))
+        rows.append(
+            Row(tuple(changes), observed, error, (row[heads[given.group][0]] or "").strip() if given.group else "")
+        )
     return tuple(rows)
 
 
-def _number(text: str | None, file: Path, row: int, column: str) -> float:
+def _number(row: dict[str, str], head: tuple[str, str], file: Path, number: int) -> float:
+    """Return a number of a row, in SI where its heading has a unit."""
+    text = row[head[0]]
     try:
         value = float((text or "").strip())
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise InputError(f"{file.name}, row {row}, column '{column}': '{text}' is no number")
-    return value
+        raise InputError(f"{file.name}, row {number}, column '{head[0]}': '{text}' is no number")
+    return value * parse_quantity(f"1 {head[1]}").si if head[1] else value
 
 
 def _result(fit: Fit, found: Calibration) -> Result:
@@ -307,7 +330,7 @@ def _result(fit: Fit, found: Calibration) -> Result:
         )
     out = xr.DataTree.from_dict(tree)
     out.attrs.update({"structure": "fit", "title": fit.title, "case_text": fit.base.text})
-    message = f"{len(names)} parameters from {len(fit.rows)} observations"
+    message = f"{counted(len(names), 'parameter')} from {counted(len(fit.rows), 'observation')}"
     provenance = make_provenance(title=fit.title, base=fit.base_path.name, observations=fit.source)
     return Result(out, message=message, provenance=provenance).with_notices(*found.notices)
 

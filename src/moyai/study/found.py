@@ -28,12 +28,20 @@ class Found:
         What was to be least, with its unit; ``None`` for a limit.
     governing : tuple of str
         Responses whose limit governs, and ends of ranges; empty where nothing does.
+    settled : bool
+        Whether the search settled; one that ended at its number of runs may still find better values.
     """
 
     index: int
     values: tuple[tuple[str, float, str], ...]
     objective: tuple[str, float, str] | None
     governing: tuple[str, ...]
+    settled: bool = True
+
+    @property
+    def remark(self) -> str:
+        """What the reader has to know of the search; empty where it settled."""
+        return "" if self.settled else "the search ended at its 'evaluations' before it settled: better may be found"
 
 
 def found_by_search(result: Result) -> tuple[Found, ...]:
@@ -89,6 +97,7 @@ def _optimum(held: Any, index: int) -> Found | None:
         tuple((path, float(value), unit) for (path, unit), value in zip(names, values, strict=True)),
         (words, least, str(objective.attrs.get("units", "1"))),
         (*_limits_that_govern(held, index), *at_ends),
+        "settled" not in held or bool(_of_case(held, "settled", index)),
     )
 
 

@@ -216,8 +216,8 @@ class Condition(Block):
     """A response that must stay below or above a value."""
 
     response: Annotated[str, Field(description="Group and name in results.nc; the largest entry of an array counts.")]
-    at_most: Number | None = None
-    at_least: Number | None = None
+    at_most: Annotated[Number | None, Field(description="In the SI unit of the response, without a unit.")] = None
+    at_least: Annotated[Number | None, Field(description="In the SI unit of the response, without a unit.")] = None
 
     exactly_one: ClassVar[KeyGroups] = (("at_most", "at_least"),)
 

@@ -212,16 +212,18 @@ class OptimiseRun:
 
         points = qmc.LatinHypercube(len(ranges), seed=self.seed).random(self.starts)
         points[0] = 0.5
+        settled = False
         for point in points:
             first = evaluate(point)[0]
             scale[0] = abs(first) if math.isfinite(first) and first != 0.0 else 1.0
             bounds = [{"type": "ineq", "fun": lambda x, i=i: x[i]} for i in range(len(ranges))]
             bounds += [{"type": "ineq", "fun": lambda x, i=i: 1.0 - x[i]} for i in range(len(ranges))]
-            minimize(  # type: ignore[call-overload]
+            found = minimize(  # type: ignore[call-overload]
                 objective, point, method="COBYLA", constraints=[*bounds, {"type": "ineq", "fun": margin}],
                 options={"maxiter": self.evaluations, "rhobeg": 0.25, "tol": 1e-3},
             )  # fmt: skip
-        return self._result(ranges, seen, limits, units[0])
+            settled = settled or bool(found.success)
+        return self._result(ranges, seen, limits, units[0], settled)
 
     def _result(
         self,
@@ -229,6 +231,7 @@ class OptimiseRun:
         seen: dict[tuple[float, ...], tuple[float, Array]],
         limits: tuple[Limit, ...],
         objective_unit: str,
+        settled: bool,
     ) -> Result:
         import xarray as xr
 
@@ -251,6 +254,11 @@ class OptimiseRun:
             ),
             "margin": ((), -worst[best], {"units": "1", "long_name": "least relative distance from the limits"}),
             "runs": ((), float(len(seen)), {"units": "1", "long_name": "cases run"}),
+            "settled": (
+                (),
+                float(settled),
+                {"units": "1", "long_name": "1 where a start of the search settled within its evaluations"},
+            ),
             "best": (
                 ("variable",),
                 [(low + at * (high - low)) * _si_factor(unit) for (_, low, high, unit), at in zip(ranges, best)],

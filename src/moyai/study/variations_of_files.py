@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from moyai.study import schema
 from moyai.study.axes import Axis, Ground, Point
 from moyai.study.scatter import read_scatter
 
+_HEADING = re.compile(r"(.*?)\s*\[([^\]]*)\]")
 _OF_THE_SEA = ("name", "heading_deg", "from_bearing_deg", "spreading", "seed", "duration")
 
 
@@ -21,18 +23,17 @@ def table(given: schema.TableOfCases, ground: Ground) -> tuple[Axis, ...]:
     """Return the axis of cases from the rows of a CSV file."""
     file = ground.folder / given.file
     rows = read_rows(file)
-    known = list(rows[0])
-    for column in (*given.columns, *given.units):
-        if column not in known:
-            raise InputError(f"{file.name} has no column '{column}'", path="table.columns", allowed=", ".join(known))
+    wanted = dict.fromkeys((*given.columns, *given.units))
+    heads = {column: column_of(rows, column, file, "table.columns") for column in wanted}
     points = []
     for number, row in enumerate(rows, start=2):
         entries = []
         for column, path in given.columns.items():
-            text = (row[column] or "").strip()
+            heading, own = heads[column]
+            text = (row[heading] or "").strip()
             if not text:
                 raise InputError(f"{file.name}, row {number}: column '{column}' is empty", path="table.file")
-            unit = given.units.get(column, "")
+            unit = given.units.get(column, own)
             entries.append((path, f"{text} {unit}" if unit else _scalar(text)))
         points.append(Point(str(number - 1), tuple(entries)))
     return (Axis(given.name, tuple(points)),)
@@ -64,6 +65,26 @@ def read_rows(file: Path) -> list[dict[str, str]]:
     if not rows:
         raise InputError(f"{file} has a header but no rows", path="file")
     return rows
+
+
+def column_of(rows: list[dict[str, str]], column: str, file: Path, path: str = "") -> tuple[str, str]:
+    """Return heading and unit of a column, which is named with or without the unit of its heading: ``T`` of ``T [s]``.
+
+    Raises
+    ------
+    InputError
+        When no heading has that name, or more than one.
+    """
+    found = [(heading, _HEADING.fullmatch(heading)) for heading in rows[0]]
+    named = [pair for pair in found if pair[0] == column] or [
+        pair for pair in found if pair[1] and pair[1][1] == column
+    ]
+    if len(named) != 1:
+        said = "more than one column" if named else "no column"
+        raise InputError(f"{file.name} has {said} '{column}'", path=path, allowed=", ".join(rows[0]))
+    heading, match = named[0]
+    unit = "" if match is None else match[2].strip()
+    return heading, "" if unit in ("-", "1") else unit
 
 
 def _scalar(text: str) -> Any:

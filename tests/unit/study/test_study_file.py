@@ -423,3 +423,11 @@ def test_a_range_of_two_units_is_judged_by_its_size():
     assert rising == ("40.0 cm", "70.0 cm", "100.0 cm")
     with pytest.raises(InputError, match="runs backwards"):
         _spread(schema.Spread(**{"from": "1 m", "to": "40 cm", "count": 3}), "x")
+
+
+def test_the_first_entry_of_a_range_is_no_place_and_a_lone_block_is_its_own_entry():
+    data = {"waves": {"name": "w", "periods": {"from": "3 s", "to": "8 s", "count": 6}}}
+    with pytest.raises(InputError, match="which has no entries") as caught:
+        resolve(data, "waves[w].periods[0]")
+    assert "replace it as a whole: 'waves.periods'" in caught.value.fault.remedy
+    assert resolve(data, "waves[0]") == (("waves",),) and resolve(data, "waves[w].name") == (("waves", "name"),)

@@ -5,7 +5,7 @@ import pytest
 import study_cases
 
 from moyai.case.reader import load_case
-from moyai.core.errors import CaseError
+from moyai.core.errors import CaseError, InputError
 from moyai.study.fitting import fitted_text, load_fit, run_fit
 
 TEXT = """\
@@ -140,3 +140,39 @@ def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
     text = write_report(result, tmp_path / "out")[0].read_text(encoding="utf-8")
     assert "55.612" in text and "55.6123" not in text.split("Case file as it was run")[0].split("plot-data")[0]
     assert "hardly tell apart" in text and "-0.980" in text
+
+
+def test_headings_with_units_are_read_in_their_units(tmp_path):
+    path = write(tmp_path, text=TEXT.replace("    units: {{Hs: m, Tp: s}}\n", ""))
+    table = (tmp_path / "observed.csv").read_text(encoding="utf-8").splitlines()
+    rows = [line.split(",") for line in table[1:]]
+    lines = ["Hs [cm],Tp [s],tension [kN],storm"]
+    lines += [f"{100 * float(h)!r},{t},{1e-3 * float(f)!r},{storm}" for h, t, f, storm in rows]
+    (tmp_path / "observed.csv").write_text("\n".join(lines), encoding="utf-8")
+    _, found = run_fit(load_fit(path), study_cases.linear_case)
+    assert found.values[0] == pytest.approx(55.6, abs=1e-6)
+    doubled = "Hs [cm],Hs [m]," + lines[0].split(",", 1)[1]
+    (tmp_path / "observed.csv").write_text("\n".join([doubled, *("1," + line for line in lines[1:])]), encoding="utf-8")
+    with pytest.raises(CaseError, match="more than one column 'Hs'"):
+        load_fit(path)
+
+
+def test_the_commented_starts_of_a_fit_and_of_its_case_fit_each_other(tmp_path):
+    from moyai.case.templates import template
+
+    for kind, name in (("fit", "fit.yaml"), ("breakwater", "breakwater.yaml")):
+        (tmp_path / name).write_text(template(kind), encoding="utf-8")
+    (tmp_path / "observed.csv").write_text("T [s],roll [deg/m]\n4,2.8\n5,2.7\n", encoding="utf-8")
+    fit = load_fit(tmp_path / "fit.yaml")
+    assert [row.observed for row in fit.rows] == pytest.approx(np.radians([2.8, 2.7]))
+    # of the two water levels only that of the response is run
+    assert fit.base.data["site"]["water_levels"] == {"LWL": "0 m"}
+
+
+def test_columns_that_do_not_move_the_response_are_refused(tmp_path):
+    text = TEXT.replace(
+        "Hs: 'waves[storm].significant_height', Tp: 'waves[storm].peak_period'", "Tp: 'waves[storm].peak_enhancement'"
+    )
+    fit = load_fit(write(tmp_path, text=text.replace("    units: {{Hs: m, Tp: s}}\n", "")))
+    with pytest.raises(InputError, match="for every row, whatever the columns set"):
+        run_fit(fit, study_cases.linear_case)

@@ -156,3 +156,14 @@ def test_a_search_is_watched_by_what_it_finds(tmp_path):
     with pytest.raises(CaseError) as caught:
         load_study(study_cases.write_text(tmp_path, grid, limit=LIMIT, watch="SWL/tension"))
     assert "limit/limit" in str(caught.value)
+
+
+@pytest.mark.parametrize(("evaluations", "settled"), [(5, False), (60, True)])
+def test_a_search_cut_at_its_evaluations_is_said_to_be_unsettled(tmp_path, evaluations, settled):
+    optimise = f"""{{variables: {{'lines[*].segments[0].length': [54 m, 57 m]}}, minimise: SWL/cost,
+             subject_to: {{response: SWL/tension, at_most: 1000}}, starts: 1, evaluations: {evaluations}}}"""
+    path = study_cases.write_text(tmp_path, "[]", optimise=optimise)
+    result = run_study(load_study(path), tmp_path / "out", study_cases.linear_case, workers=1)
+    (answer,) = found_by_search(result)
+    assert answer.settled is settled
+    assert any("before it settled" in line for line in answers_of_search(result)) is not settled

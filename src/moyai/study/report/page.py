@@ -149,7 +149,7 @@ def _found_card(pages: StudyPages, one: Found) -> KeyFigure:
     values = ", ".join(f"{path} = {format_quantity(value, unit, 4)}" for path, value, unit in one.values)
     if one.objective is not None:
         name, least, unit = one.objective
-        text = "; ".join(part for part in (f"at {values}", by or "no limit governs", where) if part)
+        text = "; ".join(part for part in (f"at {values}", by or "no limit governs", one.remark, where) if part)
         return KeyFigure(f"Least {_words(name)}", format_quantity(least, unit), text)
     (path, value, unit), *_ = one.values
     shown = format_quantity(value, unit) if math.isfinite(value) else "none holds"

@@ -77,6 +77,7 @@ def dynamic_answer(
         progress(f"dynamic, {plan.name}", number, len(plans))
         place = f"dynamic, {plan.name}"
         plan, run, told = through(span, given.mesh, plan, progress, place)
+        progress(place, 1, 1)
         notices.extend(told)
         worth: Worth | None = None
         interrupted = run.history.status == "interrupted"

@@ -141,6 +141,7 @@ class _Runs:
         self.progress(place, done, max(self.expected, done + 1))
         event = plan.name
         plan, run, reported = through(self.span, mesh, plan, self.progress, place)
+        self.progress(place, 1, 1)
         if run.history.status == "interrupted":
             raise KeyboardInterrupt
         if crumples(run):
