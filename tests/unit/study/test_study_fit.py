@@ -170,9 +170,7 @@ def test_the_commented_starts_of_a_fit_and_of_its_case_fit_each_other(tmp_path):
 
 
 def test_columns_that_do_not_move_the_response_are_refused(tmp_path):
-    text = TEXT.replace(
-        "Hs: 'waves[storm].significant_height', Tp: 'waves[storm].peak_period'", "Tp: 'waves[storm].peak_enhancement'"
-    )
-    fit = load_fit(write(tmp_path, text=text.replace("    units: {{Hs: m, Tp: s}}\n", "")))
+    columns = "Hs: 'waves[storm].significant_height', Tp: 'waves[storm].peak_period'"
+    text = TEXT.replace(columns, "Tp: 'waves[storm].peak_enhancement'").replace("    units: {{Hs: m, Tp: s}}\n", "")
     with pytest.raises(InputError, match="for every row, whatever the columns set"):
-        run_fit(fit, study_cases.linear_case)
+        run_fit(load_fit(write(tmp_path, text=text)), study_cases.linear_case)
