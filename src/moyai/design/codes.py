@@ -239,8 +239,6 @@ def check_confirmation(code: DesignCode) -> tuple[Notice, ...]:
             "code-unconfirmed",
             f"{len(unsure)} of {len(code.rules)} values of {code.name} ({unsure[0].edition}) were not held against the "
             "standard itself",
-            float(len(unsure)),
-            0.0,
             remedy="compare them with your copy and name the code under 'confirmed'",
             source=unsure[0].source,
         ),

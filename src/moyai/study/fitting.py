@@ -25,7 +25,7 @@ from moyai.records.calibration import Calibration, Parameter, calibrate
 from moyai.study import fit_schema
 from moyai.study.axes import Combination, varied
 from moyai.study.plan import RunCase
-from moyai.study.responses import read_response
+from moyai.study.responses import find_response, read_response
 from moyai.study.variations import common_unit
 from moyai.study.variations_of_files import column_of, read_rows
 
@@ -163,6 +163,7 @@ def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result
         When the fit does not settle.
     """
     known: dict[tuple[float, ...], Array] = {}
+    unit = ["1"]
 
     def model(values: Array) -> Array:
         key = tuple(map(float, values))
@@ -170,7 +171,8 @@ def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result
             out, stage = [], f"fit, trial {len(known) + 1}"
             for number, row in enumerate(fit.rows):
                 progress(stage, number, len(fit.rows))
-                out.append(_predict(fit, run, values, row))
+                value, unit[0] = _predict(fit, run, values, row)
+                out.append(value)
             progress(stage, len(fit.rows), len(fit.rows))
             if not known and len(set(out)) == 1 < len({row.changes for row in fit.rows}):
                 raise InputError(
@@ -194,10 +196,11 @@ def run_fit(fit: Fit, run: RunCase, progress: Progress = silent) -> tuple[Result
         step=fit.step,
         progress=progress,
     )
-    return _result(fit, found), found
+    return _result(fit, found, unit[0]), found
 
 
-def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> float:
+def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> tuple[float, str]:
+    """Return the response of a row with its unit."""
     try:
         result = run(case_of(_document(fit, values, row), fit.base_path), silent)
     except CaseError as error:
@@ -209,7 +212,8 @@ def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> float:
         ) from None
     if result.status == "interrupted":
         raise KeyboardInterrupt
-    return read_response(result.tree, fit.response)
+    unit = str(find_response(result.tree, fit.response).attrs.get("units", "1"))
+    return read_response(result.tree, fit.response), unit
 
 
 def _one_level(base: Document, block: fit_schema.FitBlock) -> Document:
@@ -294,7 +298,7 @@ def _number(row: dict[str, str], head: tuple[str, str], file: Path, number: int)
     return value * parse_quantity(f"1 {head[1]}").si if head[1] else value
 
 
-def _result(fit: Fit, found: Calibration) -> Result:
+def _result(fit: Fit, found: Calibration, unit: str) -> Result:
     import xarray as xr
 
     names = [item.name for item, _ in fit.parameters]
@@ -310,10 +314,14 @@ def _result(fit: Fit, found: Calibration) -> Result:
             _correlation(found.covariance),
             {"units": "1", "long_name": "correlation of the errors of two values"},
         ),
-        "observed": (("row",), [row.observed for row in fit.rows], {"units": "1", "long_name": "observed"}),
-        "predicted": (("row",), found.prediction, {"units": "1", "long_name": f"predicted {fit.response}"}),
-        "bias": ((), found.bias, {"units": "1", "long_name": "mean of prediction less observation"}),
-        "rms": ((), found.rms, {"units": "1", "long_name": "root mean square of prediction less observation"}),
+        "observed": (
+            ("row",),
+            [row.observed for row in fit.rows],
+            {"units": unit, "long_name": f"observed {fit.response}"},
+        ),
+        "predicted": (("row",), found.prediction, {"units": unit, "long_name": f"predicted {fit.response}"}),
+        "bias": ((), found.bias, {"units": unit, "long_name": "mean of prediction less observation"}),
+        "rms": ((), found.rms, {"units": unit, "long_name": "root mean square of prediction less observation"}),
         "evaluations": ((), float(found.evaluations), {"units": "1", "long_name": "calls of the model"}),
     }
     coords: dict[str, Any] = {"parameter": names, "other_parameter": names, "row": np.arange(1, len(fit.rows) + 1)}
@@ -323,8 +331,8 @@ def _result(fit: Fit, found: Calibration) -> Result:
         tree["/left out"] = xr.Dataset(
             {
                 "value_without": (("group", "parameter"), [one.values for one in left], {"units": units}),
-                "bias_of_group": (("group",), [one.bias for one in left], {"units": "1"}),
-                "rms_of_group": (("group",), [one.rms for one in left], {"units": "1"}),
+                "bias_of_group": (("group",), [one.bias for one in left], {"units": unit}),
+                "rms_of_group": (("group",), [one.rms for one in left], {"units": unit}),
             },
             coords={"group": [one.group for one in left], "parameter": names},
         )

@@ -131,7 +131,7 @@ def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
         interval=np.array([[55.5, 55.7], [1940.0, 2060.0]]),
         left_out=(),
     )
-    result = _result(two, both)
+    result = _result(two, both, "N")
     np.testing.assert_allclose(result.tree["fit"]["correlation"].values, [[1.0, -0.98], [-0.98, 1.0]])
     document = compose_document(result)
     assert [section.title for section in document.sections][:3] == [
@@ -140,6 +140,9 @@ def test_the_page_of_a_fit_shows_values_correlations_and_residuals(tmp_path):
     text = write_report(result, tmp_path / "out")[0].read_text(encoding="utf-8")
     assert "55.612" in text and "55.6123" not in text.split("Case file as it was run")[0].split("plot-data")[0]
     assert "hardly tell apart" in text and "-0.980" in text
+    assert "Response SWL/tension" in text and all(
+        figure.panels[0].unit == "N" for figure in document.sections[2].blocks
+    )
 
 
 def test_headings_with_units_are_read_in_their_units(tmp_path):

@@ -51,7 +51,7 @@ def heat_map(pages: StudyPages, name: str, columns: AxisLabels, rows: AxisLabels
     shown = display_unit(unit, worst)
     numbers = worst * shown.factor
     share = _share(worst)
-    left, top, cell = 150.0, 14.0, 30.0
+    left, top, cell = 150.0, 24.0, 30.0
     width = (_WIDTH - left - 12.0) / len(columns.labels)
     height = top + cell * len(rows.labels) + 56.0
     parts = []
@@ -78,7 +78,7 @@ def heat_map(pages: StudyPages, name: str, columns: AxisLabels, rows: AxisLabels
     for row, words in enumerate(rows.labels):
         parts.append(_text(left - 8.0, top + (len(rows.labels) - 0.5 - row) * cell + 4.0, words, "end"))
     parts.append(_text(left + (_WIDTH - left) / 2, height - 12.0, columns.name.replace("_", " "), "middle", bold=True))
-    parts.append(_text(8.0, top + 10.0, rows.name.replace("_", " "), "start", bold=True))
+    parts.append(_text(8.0, 12.0, rows.name.replace("_", " "), "start", bold=True))
     svg = _svg(height, parts, f"{label} over {columns.name} and {rows.name}")
     worst_of = ", ".join(pages.axes[place].name.replace("_", " ") for place in others)
     caption = f"{label}{f' [{shown.name}]' if shown.name else ''}" + (f"; worst over {worst_of}" if others else "")

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from moyai.core.results import Result
+from moyai.core.wording import counted
 from moyai.report.document import (
     Abscissa,
     Block,
@@ -69,9 +70,12 @@ def compose(result: Result) -> Document:
             Column("95 % to", [_shown(row[5], row[3]) for row in rows]),
         ),
     )
+    unit = _unit(found)
+    response = str(found["predicted"].attrs.get("long_name", "")).removeprefix("predicted ")
+    mean, rms = (f"{found[name].item():.3g} {unit}".strip() for name in ("bias", "rms"))
     agreement = Paragraph(
-        f"Prediction less observation over {found.sizes['row']} observations: mean {found['bias'].item():.3g}, "
-        f"root mean square {found['rms'].item():.3g}, in the unit of the observations."
+        f"Response {response}; prediction less observation over {counted(found.sizes['row'], 'observation')}: "
+        f"mean {mean}, root mean square {rms}."
     )
     return Document(
         title=report_title(result),
@@ -87,6 +91,11 @@ def compose(result: Result) -> Document:
         ),
         provenance=provenance(result),
     )
+
+
+def _unit(found: Any) -> str:
+    unit = str(found["observed"].attrs.get("units", "1"))
+    return "" if unit == "1" else unit
 
 
 def _list(found: Any, name: str) -> list[float]:
@@ -127,11 +136,12 @@ def _correlations(found: Any, names: list[str]) -> tuple[Block, ...]:
 def _agreement(found: Any) -> tuple[Block, ...]:
     observed, predicted = (np.asarray(found[name].values, dtype=float) for name in ("observed", "predicted"))
     ends = np.array([min(observed.min(), predicted.min()), max(observed.max(), predicted.max())])
+    unit = _unit(found)
     scatter = Figure(
         "observed-fitted",
         "Observed against fitted",
-        (Abscissa("o", "observed", ""),),
-        (Panel("fitted", ""),),
+        (Abscissa("o", "observed", unit),),
+        (Panel("fitted", unit),),
         (
             Series("observations", {"o": observed}, predicted, 0, 0, "points"),
             Series("equal", {"o": ends}, ends, 0, 1, dash="dash", faint=True),
@@ -140,8 +150,8 @@ def _agreement(found: Any) -> tuple[Block, ...]:
     residual = Figure(
         "residuals",
         "Residuals",
-        (Abscissa("o", "observed", ""),),
-        (Panel("fitted less observed", ""),),
+        (Abscissa("o", "observed", unit),),
+        (Panel("fitted less observed", unit),),
         (
             Series("residual", {"o": observed}, predicted - observed, 0, 0, "points"),
             Series(
