@@ -351,6 +351,8 @@ def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float 
 
 
 def _run_record(case: Any, result: Any, files: list[Path], seconds: float, figures: list[Any]) -> dict[str, Any]:
+    from moyai.cli.tables import figure_records
+
     return {
         "status": result.status,
         "message": result.message,
@@ -361,7 +363,7 @@ def _run_record(case: Any, result: Any, files: list[Path], seconds: float, figur
         "case_hash": case.case_hash,
         "files": [str(path) for path in files],
         "seconds": round(seconds, 3),
-        "key_figures": [{"label": item.label, "text": item.text, "detail": item.detail} for item in figures],
+        "key_figures": figure_records(figures),
         "checks": [identity.as_dict() for identity in result.checks],
         "notices": [notice.as_dict() for notice in result.notices],
         "faults": [],

@@ -63,6 +63,8 @@ def _known(value: float, known: bool = True) -> float | None:
 
 
 def _record(found: NetFindings, result: Any, files: list[Path], seconds: float) -> dict[str, Any]:
+    from moyai.cli.tables import figure_records, key_figures
+
     line = found.vibration
     law = found.joint
     return {
@@ -124,6 +126,7 @@ def _record(found: NetFindings, result: Any, files: list[Path], seconds: float) 
         ],
         "files": [str(path) for path in files],
         "seconds": round(seconds, 3),
+        "key_figures": figure_records(key_figures(result)),
         "notices": [notice.as_dict() for notice in result.notices],
         "checks": [check.as_dict() for check in result.checks],
         "faults": [],

@@ -52,12 +52,15 @@ def records(
 
 
 def _record(result: Any, files: list[Path], seconds: float) -> dict[str, Any]:
+    from moyai.cli.tables import figure_records, key_figures
+
     return {
         "status": result.status,
         "message": result.message,
         "title": result.tree.attrs["title"],
         "files": [str(path) for path in files],
         "seconds": round(seconds, 3),
+        "key_figures": figure_records(key_figures(result)),
         "notices": [notice.as_dict() for notice in result.notices],
         "faults": [],
     }

@@ -54,6 +54,8 @@ def snaps(
 def _record(found: SnapFindings, result: Any, files: list[Path]) -> dict[str, Any]:
     from dataclasses import asdict
 
+    from moyai.cli.tables import figure_records, key_figures
+
     return {
         "status": result.status,
         "message": result.message,
@@ -72,6 +74,7 @@ def _record(found: SnapFindings, result: Any, files: list[Path]) -> dict[str, An
             }
             for item in found.found
         ],
+        "key_figures": figure_records(key_figures(result)),
         "agreement": [asdict(row) for row in found.agreements],
         "powers": [
             {key: value if value == value else None for key, value in zip(row.names, row.values)} | {"of": row.of}

@@ -61,6 +61,8 @@ def streaks(
 
 
 def _record(result: Any, files: list[Path], seconds: float) -> dict[str, Any]:
+    from moyai.cli.tables import figure_records, key_figures
+
     runs = result.tree.children["runs"].children if "runs" in result.tree.children else {}
     law = result.tree.children["law"].attrs if "law" in result.tree.children else {}
     return {
@@ -81,6 +83,7 @@ def _record(result: Any, files: list[Path], seconds: float) -> dict[str, Any]:
         "law_coefficient": float(law["coefficient"]) if law else None,
         "files": [str(path) for path in files],
         "seconds": round(seconds, 3),
+        "key_figures": figure_records(key_figures(result)),
         "notices": [notice.as_dict() for notice in result.notices],
         "checks": [check.as_dict() for check in result.checks],
         "faults": [],

@@ -80,6 +80,11 @@ def key_figures(result: Result, document: Document | None = None) -> list[Any]:
     return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
 
 
+def figure_records(figures: Sequence[Any]) -> list[dict[str, str]]:
+    """Return key figures as they stand in JSON."""
+    return [{"label": item.label, "text": item.text, "detail": item.detail} for item in figures]
+
+
 def print_summary(
     console: Console, result: Result, files: Sequence[Path], seconds: float, document: Document | None = None
 ) -> None:

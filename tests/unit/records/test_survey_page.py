@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from pathlib import Path
@@ -9,7 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from moyai.cli.main import app
 from moyai.core.results import Result
 from moyai.records.survey.case.build import load_survey
 from moyai.records.survey.report.compass import come_from, name_of
@@ -170,3 +173,32 @@ tensions: {waves: elevation, steady: median, snap_limit: 40 kN, lines: [{channel
     assert 120 <= count <= 150
     assert "median of 3 blocks 1.20 m" in figures["largest H1/3"].detail
     assert re.search(r"of 1[2345]\d waves", figures["highest wave"].detail)
+
+
+def test_the_page_says_how_much_of_the_time_lies_in_no_wave_that_counts(tmp_path: Path) -> None:
+    """One sample of 400 is missing, one in nine waves: few samples, a ninth of the waves; figures stand in the JSON."""
+    time = np.arange(0.0, 900.0, 0.125)
+    level = 0.6 * np.sin(2.0 * np.pi * time / 6.0)
+    texts = [f"{value:.4f}" for value in level]
+    for place in range(200, len(texts), 432):  # every ninth wave of 48 samples
+        texts[place] = "-9999"
+    (tmp_path / "a.csv").write_text("\n".join(["time,level", *(f"{t:.3f},{z}" for t, z in zip(time, texts))]))
+    (tmp_path / "r.yaml").write_text("""
+moyai: 1
+title: gaps
+site: {water_depth: 10, density: 1025, gravity: 9.81}
+loggers:
+  - name: line
+    file: a.csv
+    time: {column: time}
+    channels: [{name: elevation, column: level, unit: m, kind: elevation, missing: [-9999]}]
+blocks: {length: 5 min}
+waves: {channels: [elevation]}
+""")
+    runner = CliRunner()
+    done = runner.invoke(app, ["measure", "records", str(tmp_path / "r.yaml"), "-o", str(tmp_path / "out"), "--json"])
+    figures = {item["label"]: item for item in json.loads(done.stdout)["key_figures"]}
+    assert figures["sound samples"]["text"] == "99.8 %"
+    share = float(re.search(r"([\d.]+) % of the time lies in no wave", figures["highest wave"]["detail"])[1])
+    # a ninth, and the waves cut by the ends of three blocks of fifty waves
+    assert 11.1 <= share <= 11.1 + 100.0 * 2.0 / 50.0

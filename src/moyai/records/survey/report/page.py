@@ -152,6 +152,15 @@ def _counted(counts: Array) -> str:
     return f"{float(np.nansum(counts)):.0f}"
 
 
+def _left_out(tree: Any, gauge: int, clock: _Clock) -> str:
+    """Return how much of the time lies in no wave that counts, where that is more than the ends of blocks explain."""
+    counts, periods = (_values(tree, "waves", name)[:, gauge] for name in ("count", "mean_period"))
+    share = 1.0 - float(np.nansum(counts * np.nan_to_num(periods))) / (clock.length * clock.start.size)
+    # a block begins and ends inside a wave
+    ends = float(np.nanmean(periods)) / clock.length if np.isfinite(periods).any() else 0.0
+    return f"; {format_percent(share)} of the time lies in no wave that counts" if share > 2.0 * ends else ""
+
+
 def _middle(values: Array) -> str:
     """Return the median of the blocks, which the largest of many blocks stands above by chance alone."""
     known = values[np.isfinite(values)]
@@ -191,7 +200,8 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
                 KeyFigure(
                     "highest wave",
                     format_quantity(float(highest[row, column]), "m"),
-                    f"{clock.text(clock.start[row])}, of {_counted(_values(tree, 'waves', 'count')[:, column])} waves",
+                    f"{clock.text(clock.start[row])}, of {_counted(_values(tree, 'waves', 'count')[:, column])} waves"
+                    f"{_left_out(tree, int(column), clock)}",
                 )
             )
     if "tensions" in tree.children:
@@ -218,7 +228,10 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
         if f"channel_{place}_share" in tree["blocks"]
     ]
     if shares:
-        items.append(KeyFigure("sound samples", format_percent(float(np.nanmean(shares))), "mean of the channels"))
+        sound = float(np.nanmean(shares))
+        # 99.75 % is not all of it
+        words = format_percent(min(sound, 0.999) if sound < 1.0 else sound, 3)
+        items.append(KeyFigure("sound samples", words, "mean of the channels"))
     return [KeyFigures(tuple(items))]
 
 
