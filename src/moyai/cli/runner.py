@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -44,13 +45,22 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
         from moyai.case.measured import with_measured
 
         result = with_measured(result, case.model, case.folder)
-    told = {notice.message for notice in result.notices}
+    said = " | ".join(_wording(notice.message) for notice in result.notices)
     warnings = [
         Notice("case", fault.message, remedy=fault.remedy, source=fault.path)
         for fault in case.warnings
-        if fault.message not in told
+        if _wording(fault.message).split("; ", 1)[-1] not in said
     ]
     return result.with_notices(*warnings) if warnings else result
+
+
+def _wording(message: str) -> str:
+    """Return a message without its numbers.
+
+    The run states them better than the check of the case: where it says what follows from them (behind the semicolon),
+    the check has nothing to add.
+    """
+    return re.sub(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", message)
 
 
 def prepare_output(directory: Path) -> Path:

@@ -122,7 +122,7 @@ def _left_out(law: NetLaw, net: Net, speed: float, kinematic_viscosity: float, m
     number = float(law.reynolds(speed, net, kinematic_viscosity))
     slow, fast = law.reynolds_range
     if not slow <= number <= fast:
-        return f"Re = {number:.3g} outside {slow:.3g} to {fast:.3g}"
+        return f"Re = {number:.3g} outside {slow:.3g} to {fast:.3g}; {law.outside}"
     return ""
 
 

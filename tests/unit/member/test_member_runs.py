@@ -472,3 +472,16 @@ def test_leaning_members_may_stand_on_the_bed_and_level_ones_may_not_lie_in_it()
     for start, end in (((0, 0, -8.1), (0, 6.0, 2.0)), ((0, 0, -7.8), (0, 6.0, -7.8))):
         with pytest.raises(InputError, match="below the bed"):
             require_in_water(StraightMember(start, end, section), water, "SWL")
+
+
+def test_reynolds_numbers_out_of_a_law_are_reported_once_with_their_range():
+    from moyai.core.validity import Notice
+    from moyai.structures.member.run import _one_reynolds
+
+    notices = [Notice("other", "x")]
+    notices += [Notice("drag-reynolds", f"{sea}: here Re = {value:.2g}", value, 1e6) for sea, value in
+                (("calm", 5e4), ("storm", 3.7e5), ("swell", 9e4))]  # fmt: skip
+    kept = _one_reynolds(notices)
+    assert [notice.code for notice in kept] == ["other", "drag-reynolds"]
+    assert kept[1].message == "storm: here Re = 3.7e+05; down to Re = 5e+04 in calmer waves"
+    assert kept[1].value == 3.7e5 and _one_reynolds(notices[:2]) == notices[:2]

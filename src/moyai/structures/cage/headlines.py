@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.headline import Band, Headline
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.conditions import condition_headlines, runs_of, sea_words
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 STATICS, DYNAMIC = "equilibrium in the current of the site", "run through time"
 RIGID = "rigid cage, run through time"
 Groups = Mapping[str, "xr.Dataset"]
+_SAME_LAWS = "the same net laws as for the volume"
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +49,8 @@ class _State:
         if self.laws is None or self.laws.sizes["law"] < 2:
             return None
         values = self.laws[f"law_{name}"].values
-        return Band(float(np.min(values)), float(np.max(values)), _laws_text(self.laws))
+        words = _laws_text(self.laws) if name == "volume_share" else _SAME_LAWS
+        return Band(float(np.min(values)), float(np.max(values)), words)
 
     def moved(self, name: str, low: float, high: float) -> tuple[float, float, str]:
         """Return a range in the sea with what the laws change in the current alone added.
@@ -61,13 +64,30 @@ class _State:
         if not np.isfinite(values).all():
             return low, high, ""
         change = values - float(values[0])
-        words = f"{_laws_text(self.laws)}, by their change in the current alone"
+        words = f"{_SAME_LAWS}, by their change in the current alone"
         return max(low + float(change.min()), 0.0), high + float(change.max()), words
 
-    def band_in_sea(self, name: str, value: float) -> Band | None:
-        """Return the band of the laws about a number that was found in the sea."""
-        low, high, words = self.moved(name, value, value)
-        return Band(low, high, words) if words else None
+
+def _band_in_sea(state: _State | None, name: str, run: xr.Dataset, value: float, series: Array) -> Band | None:
+    """Return the band of a number found in the sea: chance of its seed, and the laws of the net."""
+    low, high, chance = _chance(run, value, series)
+    words = [chance] if chance else []
+    if state is not None:
+        low, high, text = state.moved(name, low, high)
+        words += [text] if text else []
+    return Band(max(low, 0.0), high, "; ".join(words)) if words else None
+
+
+def _chance(run: xr.Dataset, value: float, series: Array) -> tuple[float, float, str]:
+    """Return a range of the largest value over other seeds, with its words; none in regular waves or short records."""
+    if int(run.attrs["regular"]):
+        return value, value, ""
+    late = run["time"].values >= float(run.attrs["ramp"])
+    found = maximum_of(run["time"].values[late], series[late], float(run.attrs["period"]))
+    if found is None:
+        return value, value, "one seed, too short to tell the scatter of its maximum"
+    low, high = min(value, found.mean - found.deviation), max(value, found.mean + found.deviation)
+    return low, high, f"one seed, scatter of its maximum estimated from {found.blocks} blocks of the record"
 
 
 def _laws_text(laws: xr.Dataset) -> str:
@@ -206,30 +226,14 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
 def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | None) -> Headline:
     """Return the highest tension of a run with its band: chance of the seed, and the law of the net."""
     value = float(run["line_tension_maximum"].values[line])
-    low = high = value
-    words, details = [], []
+    details = []
     everything = run["line_tension_maximum"].values
     if float(everything.max()) > 1.01 * value:
         name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
         details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
-    if not int(run.attrs["regular"]):
-        late = run["time"].values >= float(run.attrs["ramp"])
-        chance = maximum_of(
-            run["time"].values[late], run["line_tension_peak_since_row"].values[late, line], float(run.attrs["period"])
-        )  # fmt: skip
-        if chance is not None:
-            low, high = min(value, chance.mean - chance.deviation), max(value, chance.mean + chance.deviation)
-            words.append(
-                f"one seed, scatter of its maximum estimated from {chance.blocks} blocks of the record, "
-                f"mean {chance.mean / 1e3:.3g} kN"
-            )
-        else:
-            details.append("one seed, too short to tell the scatter of its maximum")
-    if state is not None:
-        low, high, text = state.moved("line_tension_maximum", low, high)
-        words += [text] if text else []
+    series = run["line_tension_peak_since_row"].values[:, line]
+    band = _band_in_sea(state, "line_tension_maximum", run, value, series)
     name = str(run["line"].values[line])
-    band = Band(max(low, 0.0), high, "; ".join(words)) if words else None
     return Headline(
         "line_tension", "tension of the governing line", value, "N", f"{name}, {where}", DYNAMIC, band,
         detail="; ".join(details),
@@ -238,21 +242,22 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
 
 def _offset(states: list[_State], runs: Runs) -> list[Headline]:
     """Return the largest way of a collar from its place in still water."""
-    found: list[tuple[float, str, str, _State]] = []
+    found: list[tuple[float, str, str, Band | None]] = []
     for state in states:
         calm = state.statics["collar_place"].values[0]
         away = state.statics["collar_place"].values[state.row] - calm
-        found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state))
+        found.append((float(np.linalg.norm(away[:, :2], axis=1).max()), state.where, STATICS, state.band("offset")))
         for level, where, run in runs:
             if level != state.level:
                 continue
             late = run["time"].values >= float(run.attrs["ramp"])
-            moved = run["collar_place"].values[late] - calm
-            found.append((float(np.linalg.norm(moved[..., :2], axis=-1).max()), where, DYNAMIC, state))
+            moved = np.linalg.norm((run["collar_place"].values - calm)[..., :2], axis=-1)
+            series = moved.reshape(moved.shape[0], -1).max(axis=1)
+            value = float(series[late].max())
+            found.append((value, where, DYNAMIC, _band_in_sea(state, "offset", run, value, series)))
     if not found or max(item[0] for item in found) < 1e-9:
         return []
-    value, where, model, state = max(found, key=lambda item: item[0])
-    band = state.band("offset") if model == STATICS else state.band_in_sea("offset", value)
+    value, where, model, band = max(found, key=lambda item: item[0])
     return [Headline("offset", "largest offset of a collar", value, "m", where, model, band)]
 
 
@@ -268,7 +273,10 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             pulls = run["line_tension_maximum_lower"].values[anchors]
             at = int(np.argmax(pulls))
             pull = float(pulls[at])
-            band = None if level not in by_level else by_level[level].band_in_sea("anchor_pull", pull)
+            # the lower end has no series of its own: the chance is that of the line's largest tension
+            line = run["line_tension_peak_since_row"].values[:, anchors[at]]
+            share = pull / max(float(run["line_tension_maximum"].values[anchors[at]]), 1e-300)
+            band = _band_in_sea(by_level.get(level), "anchor_pull", run, pull, share * line)
             found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, "", band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
@@ -294,8 +302,10 @@ def _stress(states: list[_State], runs: Runs) -> list[Headline]:
     for level, where, run in runs:
         if "collar_stress_largest" in run:
             late = run["time"].values >= float(run.attrs["ramp"])
-            value = float(run["collar_stress_largest"].values[late].max())
-            band = None if level not in by_level else by_level[level].band_in_sea("collar_stress", value)
+            stress = run["collar_stress_largest"].values
+            series = stress.reshape(stress.shape[0], -1).max(axis=1)
+            value = float(series[late].max())
+            band = _band_in_sea(by_level.get(level), "collar_stress", run, value, series)
             found.append((value, where, DYNAMIC, band))
     if not found:
         return []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -240,6 +240,7 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
         "purpose": problem.circulation.purpose,
     }
     collected.notices.extend(range_notices(problem, collected.groups))
+    collected.notices[:] = _one_reynolds(collected.notices)
     return collected.close(
         VOCABULARY,
         attributes,
@@ -247,6 +248,16 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
         headlines=headlines_of(problem, collected.groups),
         criteria=problem.criteria,
     )
+
+
+def _one_reynolds(notices: Sequence[Notice]) -> list[Notice]:
+    """Keep of the notices of Reynolds numbers out of a drag law's range that of the fastest flow, with the slowest."""
+    mine = [notice for notice in notices if notice.code == "drag-reynolds"]
+    if len(mine) < 2:
+        return list(notices)
+    first, last = min(mine, key=lambda notice: notice.value), max(mine, key=lambda notice: notice.value)
+    said = replace(last, message=f"{last.message}; down to Re = {first.value:.2g} in calmer waves")
+    return [said if notice is last else notice for notice in notices if notice is last or notice not in mine]
 
 
 __all__ = ["run"]

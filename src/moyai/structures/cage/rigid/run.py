@@ -138,6 +138,9 @@ def _law_steps(
     found, notice = laws_dataset(problem, lines, rest, water, wave, peak, progress)
     found.attrs["sea"] = sea.name
     collected.groups[f"{root}/laws"] = found
+    if notice.severity == "warning":
+        # it says more than that the Reynolds number is out of the range of the law
+        collected.notices[:] = [one for one in collected.notices if one.code != "net-reynolds-range"]
     collected.notices.append(replace(notice, message=f"{sea.name}: {notice.message}"))
     yield
 
