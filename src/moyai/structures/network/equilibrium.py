@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -235,6 +236,17 @@ def stiffness_at_driven(assembly: Assembly, rest: Equilibrium, flow: Flow, step:
     return out
 
 
+def _longest_of_finer_mesh(assembly: Assembly, rest: Equilibrium, flow: Flow) -> float:
+    """Return the longest natural period on twice the bars [s]; NaN where that is not found or has no period."""
+    try:
+        network, begin = refined(assembly.network, 2, rest.state)
+        finer = solve_equilibrium(network, flow=flow, start=begin)
+        omega = natural_modes(network, finer.state, count=1, flow=flow).omega
+    except (ConvergenceError, InputError):
+        return math.nan
+    return 2.0 * math.pi / float(omega[0]) if omega.size and omega[0] > 0.0 else math.nan
+
+
 def modes_dataset(assembly: Assembly, rest: Equilibrium, flow: Flow, count: int) -> xr.Dataset:
     """Return the lowest natural modes about a network at rest."""
     import xarray as xr
@@ -247,6 +259,7 @@ def modes_dataset(assembly: Assembly, rest: Equilibrium, flow: Flow, count: int)
             {
                 "mode_frequency": ("mode", modes.omega),
                 "mode_period": ("mode", period),
+                "longest_period_double_mesh": ((), _longest_of_finer_mesh(assembly, rest, flow)),
                 "mode_shape": (("mode", "node", "axis"), modes.shape),
             },
             coords={"mode": np.arange(1, modes.omega.size + 1), "axis": AXES},

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
 DYNAMIC, REST = "run through time", "at rest"
+_MESH = "mesh: twice the segments, and their change continued"
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +143,7 @@ def _rest_band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> Band | None:
         return None
     finer = float(rest["double_mesh"].sel(condition=peak.run, line=peak.line))
     ends = (peak.value, finer, max(2.0 * finer - peak.value, 0.0))
-    return Band(min(ends), max(ends), "mesh: twice the segments, and their change continued")
+    return Band(min(ends), max(ends), _MESH)
 
 
 def _start_up(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
@@ -273,7 +274,11 @@ def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
         if "mode_period" in modes and modes["mode_period"].size:
             value = float(modes["mode_period"].values[0])
             if math.isfinite(value):
+                finer = float(modes["longest_period_double_mesh"])
+                ends = [value, finer, max(2.0 * finer - value, 0.0)]
+                band = Band(min(ends), max(ends), _MESH) if math.isfinite(finer) else None
                 return [
-                    Headline("natural_period", "longest natural period", value, "s", level, detail="added mass counted")
-                ]
+                    Headline("natural_period", "longest natural period", value, "s", level, band=band,
+                             detail="added mass counted")
+                ]  # fmt: skip
     return []

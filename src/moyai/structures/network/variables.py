@@ -48,6 +48,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "residual": ("1", "largest force left over the largest force at work"),
     "mode_frequency": ("rad/s", "natural angular frequency, added mass included"),
     "mode_period": ("s", "natural period, added mass included"),
+    "longest_period_double_mesh": ("s", "longest natural period with twice the segments"),
     "mode_shape": ("1", "shape of the mode, largest component 1"),
     "line_tension_maximum": ("N", "highest tension along the line"),
     "peak_time": ("s", "time of the highest tension"),
