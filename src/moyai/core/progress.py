@@ -66,8 +66,10 @@ class Pace:
         stage = self._stages.get(what)
         if stage is None or not stage.done > stage.first:
             return math.nan
-        each = (stage.told - stage.started) / (stage.done - stage.first)
-        return max((stage.total - stage.done) * each - (self._clock() - stage.told), 0.0)
+        each, waited = (stage.told - stage.started) / (stage.done - stage.first), self._clock() - stage.told
+        # a step that takes longer than those before says that they were quick; what is not done takes some time
+        each, remaining = max(each, waited), stage.total - stage.done
+        return max(remaining * each - waited, 0.25 * min(remaining, 1.0) * each)
 
     def line(self) -> str:
         """Return where the run stands in one line, empty before the first report."""

@@ -52,3 +52,18 @@ def test_a_stage_that_begins_again_is_measured_anew() -> None:
 
 def test_durations_in_words() -> None:
     assert [duration_words(one) for one in (40.2, 200.0, 7500.0)] == ["40 s", "3 min 20 s", "2 h 5 min"]
+
+
+def test_work_that_is_not_done_takes_some_time():
+    """Two quick steps of ten, then a slow one: the time left grows with it and is never 0."""
+    clock = Clock()
+    pace = Pace(clock)
+    for done in (0, 1, 2):
+        pace.tell("runs", done, 10)
+        clock.now += 1.0
+    assert pace.left("runs") == pytest.approx(8.0 * 1.0 - 1.0)
+    clock.now += 29.0
+    assert pace.left("runs") == pytest.approx(8.0 * 30.0 - 30.0)
+    pace.tell("runs", 9, 10)
+    clock.now += 100.0
+    assert pace.left("runs") > 10.0
