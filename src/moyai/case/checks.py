@@ -89,10 +89,13 @@ def _leave_to_the_particular(findings: Findings, faults: int, warnings: int) -> 
         replace(found, remedy=asked[found.path]) if found.path in asked and not found.remedy else found
         for found in findings.faults[faults:]
     ]
-    own = [found.path for found in (*findings.faults[faults:], *findings.warnings[warnings:])]
+    grave = [found.path for found in findings.faults[faults:]]
+    own = [*grave, *(found.path for found in findings.warnings[warnings:])]
 
-    def general(found: Fault) -> bool:
-        return not any(path == found.path or path.startswith((f"{found.path}.", f"{found.path}[")) for path in own)
+    def general(found: Fault, particular: list[str]) -> bool:
+        below = (f"{found.path}.", f"{found.path}[")
+        return not any(path == found.path or path.startswith(below) for path in particular)
 
-    findings.faults[:faults] = [found for found in findings.faults[:faults] if general(found)]
-    findings.warnings[:warnings] = [found for found in findings.warnings[:warnings] if general(found)]
+    # what is impossible is never left to a warning
+    findings.faults[:faults] = [found for found in findings.faults[:faults] if general(found, grave)]
+    findings.warnings[:warnings] = [found for found in findings.warnings[:warnings] if general(found, own)]
