@@ -186,11 +186,15 @@ def main():
         print(f"{storm.name}: {result.message}; largest H1/3 {peak:.2f} m (law {storm.peak_height:.2f} m)")
     rows, fitted = statements(data, pairs, laws)
     for name, found, error, planted in rows:
-        told = f" +- {error:.3f}" if math.isfinite(error) else ""
-        print(f"  {name}: {found:.3f}{told}" + (f" (planted or stated {planted:g})" if math.isfinite(planted) else ""))
+        reported = f" +- {error:.3f}" if math.isfinite(error) else ""
+        print(
+            f"  {name}: {found:.3f}{reported}" + (f" (planted or stated {planted:g})" if math.isfinite(planted) else "")
+        )
     for left in fitted.left_out:
-        told = ", ".join(f"{value:.3g}" for value in left.values)
-        print(f"    without {left.group}: {told}; rms of its prediction {left.rms / 1000:.2f} kN of {left.count} waves")
+        reported = ", ".join(f"{value:.3g}" for value in left.values)
+        print(
+            f"    without {left.group}: {reported}; rms of its prediction {left.rms / 1000:.2f} kN of {left.count} waves"
+        )
     print("  error (calc - obs)/calc against M m_B: mean, root mean square")
     height, period, angle, current, tension, _ = pairs.T
     speed = laws.orbital_factor * surface_speed(height, period, laws) * np.cos(angle) ** 2 + current - laws.slack_speed

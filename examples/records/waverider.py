@@ -102,8 +102,10 @@ def main():
             ("Tz s", ours["period_m02"], own[3]),
             ("Hm0 m", ours["spectral_height"], own[4] / 100.0),
         )
-        told = ", ".join(f"{name} {mine:.4g} / {theirs:.4g}" for name, mine, theirs in pairs)
-        print(f"  {hour}: {told}; entropy from {ours['entropy_bearing']:.0f} deg, {ours['flagged']} samples flagged")
+        reported = ", ".join(f"{name} {mine:.4g} / {theirs:.4g}" for name, mine, theirs in pairs)
+        print(
+            f"  {hour}: {reported}; entropy from {ours['entropy_bearing']:.0f} deg, {ours['flagged']} samples flagged"
+        )
 
 
 if __name__ == "__main__":

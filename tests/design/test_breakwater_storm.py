@@ -36,8 +36,8 @@ def test_slow_drift_is_on_and_switching_it_off_is_told(tmp_path):
     sea = with_drift.tree["SWL/frequency/storm"].to_dataset()
     assert with_drift.tree["SWL/time/storm"].attrs["drift"] == "newman"
     assert "slow-drift-off" not in codes(with_drift)
-    told = codes(without)["slow-drift-off"]
-    assert told.severity == "warning" and told.value == pytest.approx(float(sea.slow_motion_deviation[0]))
+    reported = codes(without)["slow-drift-off"]
+    assert reported.severity == "warning" and reported.value == pytest.approx(float(sea.slow_motion_deviation[0]))
     # 300 s hold a dozen natural periods of sway
     few = codes(with_drift)["few-slow-cycles"]
     assert few.value == pytest.approx(300.0 / float(sea.slow_sway_period)) and few.limit == 25.0

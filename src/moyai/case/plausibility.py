@@ -53,13 +53,13 @@ def check_plausibility(model: Block, findings: Findings) -> None:
     for path in numbers:
         last = next((step for step in reversed(path) if isinstance(step, str)), "")
         ends.setdefault(last, []).append(path)
-    told: set[KeyPath] = set()
+    reported: set[KeyPath] = set()
     for row in plausible_ranges(kind):
         last = row.factors[0].steps[-1]
         for first in list(numbers) if last == "*" else ends.get(last, ()):
             captured = _matched(first, row.factors[0].steps)
             if captured is not None:
-                _judge(row, first, captured, numbers, told, findings)
+                _judge(row, first, captured, numbers, reported, findings)
 
 
 def place_of(path: KeyPath, document: Document) -> KeyPath | None:
@@ -125,7 +125,7 @@ def _judge(
     first: KeyPath,
     captured: tuple[str | int, ...],
     numbers: dict[KeyPath, Entry],
-    told: set[KeyPath],
+    reported: set[KeyPath],
     findings: Findings,
 ) -> None:
     paths = [first, *(_path_of(factor, first, captured) for factor in row.factors[1:])]
@@ -134,7 +134,7 @@ def _judge(
     for factor, path, entry in zip(row.factors, paths, entries):
         if entry is None or not math.isfinite(entry.value) or entry.value == 0.0:
             return
-        if any(path[: len(bad)] == bad or any(_overlap(bad, key) for key in entry.of) for bad in told):
+        if any(path[: len(bad)] == bad or any(_overlap(bad, key) for key in entry.of) for bad in reported):
             return
         try:
             value *= abs(entry.value) ** factor.power
@@ -145,7 +145,7 @@ def _judge(
     blamed = _blamed(paths, entries, findings.document)
     if blamed is None:
         return
-    told.add(blamed[0])
+    reported.add(blamed[0])
     possible = row.possible[0] * (1.0 - 1e-9) <= value <= row.possible[1] * (1.0 + 1e-9)
     number = f"{value:.3g}{' ' + row.unit if row.unit else ''}"
     message = f"the {row.what} is {number}"

@@ -37,11 +37,11 @@ def nets(
         from moyai.records.nets.result import nets_result
 
         started = time.perf_counter()
-        campaign, document, told = load_nets(file)
+        campaign, document, reported = load_nets(file)
         folder = prepare_output(output if output is not None else Path("out") / file.stem)
         with progress_bars(quiet or as_json) as progress:
             found = measure_nets(campaign, progress)
-        found = replace(found, notices=(*told, *found.notices))
+        found = replace(found, notices=(*reported, *found.notices))
         result = nets_result(found, text=document.text)
         files = [result.write(folder / "results.nc")]
         if report:

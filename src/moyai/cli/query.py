@@ -126,13 +126,13 @@ def _overview(table: StudyTable, as_json: bool) -> None:
     import numpy as np
 
     counts = {status: table.status.count(status) for status in dict.fromkeys(table.status)}
-    told = []
+    reported = []
     for name, variable in table.responses().items():
         values = table.column(name).values
         known = values[np.isfinite(values)] if values is not None else np.empty(0)
         ends = (float(known.min()), float(known.max())) if known.size else (math.nan, math.nan)
         labels = [str(dim) for dim in variable.dims if str(dim) not in table.names]
-        told.append((name, str(variable.attrs.get("units", "1")), *ends, ", ".join(labels)))
+        reported.append((name, str(variable.attrs.get("units", "1")), *ends, ", ".join(labels)))
     if as_json:
         keys = ("name", "unit", "smallest", "largest", "labels")
         print_json(
@@ -141,7 +141,7 @@ def _overview(table: StudyTable, as_json: bool) -> None:
                 "cases": table.count,
                 "status": counts,
                 "axes": [{"name": axis["name"], "labels": axis["labels"]} for axis in table.axes],
-                "responses": [dict(zip(keys, one)) for one in told],
+                "responses": [dict(zip(keys, one)) for one in reported],
             }
         )
         return
@@ -152,7 +152,7 @@ def _overview(table: StudyTable, as_json: bool) -> None:
         text = ", ".join(labels) if len(labels) <= 8 else f"{', '.join(labels[:3])}, ... {labels[-1]}"
         say(f"  {axis['name']} ({len(labels)}): {text}")
     rows = [[name, _number(low), _number(high), "" if unit == "1" else unit, labels]
-            for name, unit, low, high, labels in told]  # fmt: skip
+            for name, unit, low, high, labels in reported]  # fmt: skip
     _print(["response", "smallest", "largest", "unit", "by label"], rows, None)
     first = table.varying(1)
     say(f"for instance: moyai query RESULTS --by '{first[0] if first else 'RESPONSE'}' --top 5")

@@ -133,9 +133,9 @@ def _of_case(request: Request, path: Path, length: float, gravity: float, from_m
     numbers, notices, waters = _judge(
         scale, motions, float(prototype.model.site.density), float(prototype.model.site.gravity)
     )
-    told = tuple(Notice("case", fault.message, remedy=fault.remedy) for fault in scaled.case.warnings)
+    reported = tuple(Notice("case", fault.message, remedy=fault.remedy) for fault in scaled.case.warnings)
     needs = _needs(request, scaled.rows, scale)
-    return Answer(scale, scaled.rows, needs, numbers, (*notices, *told), scaled.text, waters, scaled.files)
+    return Answer(scale, scaled.rows, needs, numbers, (*notices, *reported), scaled.text, waters, scaled.files)
 
 
 def _of_figures(request: Request, length: float, gravity: float, from_model: bool) -> Answer:

@@ -149,10 +149,10 @@ def _with_replays(
         again.write(folder / name / "results.nc")
         write_report(again, folder / name)
         folders[index] = name
-    told = [[component, index, value, folders.get(index, "")] for component, index, value in governs]
+    reported = [[component, index, value, folders.get(index, "")] for component, index, value in governs]
     kind = "utilisation" if utilised(result) else "watch"
     tree = result.tree.copy()
-    tree.attrs.update({"governing": json.dumps(told), "governing_kind": kind})
+    tree.attrs.update({"governing": json.dumps(reported), "governing_kind": kind})
     return replace(result, tree=tree)
 
 
@@ -259,7 +259,7 @@ class _Teller:
 
     def __init__(self, plan: Study, silent: bool, each: bool = False) -> None:
         self.plan, self.silent, self.each = plan, silent, each
-        self.told = time.monotonic()
+        self.reported = time.monotonic()
 
     def __call__(self, standing: Standing) -> None:
         from moyai.report.formatting import format_quantity
@@ -267,9 +267,9 @@ class _Teller:
         now = time.monotonic()
         if self.each and not self.silent and standing.latest is not None:
             tell(self._case(standing))
-        if self.silent or (now - self.told < 5.0 and standing.done < standing.total):
+        if self.silent or (now - self.reported < 5.0 and standing.done < standing.total):
             return
-        self.told = now
+        self.reported = now
         parts = [f"{standing.done} of {standing.total} cases"]
         if standing.failed:
             parts.append(f"{standing.failed} failed")

@@ -29,7 +29,7 @@ class _Stage:
     done: float
     total: float
     started: float
-    told: float
+    reported: float
 
 
 class Pace:
@@ -58,7 +58,7 @@ class Pace:
         # The last one reported stands last: the innermost
         self._stages[what] = self._stages.pop(what)
         if done > stage.done:
-            stage.told = now
+            stage.reported = now
         stage.done, stage.total = done, total
 
     def left(self, what: str) -> float:
@@ -66,7 +66,7 @@ class Pace:
         stage = self._stages.get(what)
         if stage is None or not stage.done > stage.first:
             return math.nan
-        each, waited = (stage.told - stage.started) / (stage.done - stage.first), self._clock() - stage.told
+        each, waited = (stage.reported - stage.started) / (stage.done - stage.first), self._clock() - stage.reported
         # a step that takes longer than those before says that they were quick; what is not done takes some time
         each, remaining = max(each, waited), stage.total - stage.done
         return max(remaining * each - waited, 0.25 * min(remaining, 1.0) * each)

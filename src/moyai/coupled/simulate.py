@@ -158,8 +158,8 @@ def simulate_coupled(
         load_steps=load_steps, keep_nodes=keep_nodes, keep_bars=keep_bars,
     )  # fmt: skip
     if safety == 1.0 and step is None:
-        per_row, told = steps_at_the_pace(interval, per_row, stepped.run.limit()[0])
-        notices.extend(told)
+        per_row, reported = steps_at_the_pace(interval, per_row, stepped.run.limit()[0])
+        notices.extend(reported)
     joint = Joint(list(moving.values()), stepped, tolerance, least=1e-3 * _least_weight(moving, network))
     logs = {name: BodyLog(bodies[name], moving[name]) for name in bodies}
     ending = _drive(joint, stepped, logs, start.time, interval, rows, per_row, network, progress)

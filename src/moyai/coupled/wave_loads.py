@@ -320,7 +320,7 @@ def _memory(
             path="loads.radiation_damping",
             remedy="give more and higher frequencies and finer panels, or leave the memory out",
         )
-    told = Notice(
+    reported = Notice(
         "memory",
         f"{len(best.poles)} poles carry the memory of the water, its frequency response within "
         f"{100.0 * best.error:.1g} % of the largest of each pair of motions",
@@ -330,4 +330,4 @@ def _memory(
         remedy="finer panels and a lid make the damping smoother",
     )
     kept = tuple(check for check in best.checks if "frequency response" not in check.name)
-    return StateSpaceMemory.of(best), kept, (told,)
+    return StateSpaceMemory.of(best), kept, (reported,)

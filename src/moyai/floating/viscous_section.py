@@ -247,9 +247,9 @@ def _notices(
     hollows: int,
     numbers: EdgeDampingNumbers,
 ) -> tuple[Notice, ...]:
-    told: list[Notice] = []
+    reported: list[Notice] = []
     if not corners and not plates:
-        told.append(
+        reported.append(
             Notice(
                 "viscous-no-edge",
                 "the section has no edge under water that sheds eddies: no viscous damping is computed, and motions "
@@ -258,7 +258,7 @@ def _notices(
             )
         )
     elif smooth:
-        told.append(
+        reported.append(
             Notice(
                 "viscous-round",
                 f"{smooth} bends of the outline are too round for a corner; no eddies are counted there",
@@ -268,7 +268,7 @@ def _notices(
             )
         )
     if hollows:
-        told.append(
+        reported.append(
             Notice(
                 "viscous-hollow",
                 "the outline is hollow under water: for the damping by eddies the water in the hollow is taken to move "
@@ -279,7 +279,7 @@ def _notices(
         )
     if odd:
         worst = max(odd, key=lambda angle: abs(angle - 90.0))
-        told.append(
+        reported.append(
             Notice(
                 "viscous-angle",
                 f"no law covers corners of {worst:.0f} degrees: the damping of a right angle is used, in proportion to "
@@ -290,7 +290,7 @@ def _notices(
             )
         )
     if plates:
-        told.append(
+        reported.append(
             Notice(
                 "viscous-plates",
                 f"thin plates are given the drag coefficient {numbers.plate_coefficient:.2g} "
@@ -300,4 +300,4 @@ def _notices(
                 source="Graham (1980), valid for KC from 1 to 20",
             )
         )
-    return tuple(told)
+    return tuple(reported)

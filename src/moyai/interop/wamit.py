@@ -94,10 +94,10 @@ def read_wamit(
     third = find_companion(file, ".3")
     if first is None or third is None:
         raise InputError(f"no {file.stem}{'.1' if first is None else '.3'} in {file.parent}", path="coefficients")
-    told = _read_surroundings(first)
-    column = first_column or told.first_column
+    reported = _read_surroundings(first)
+    column = first_column or reported.first_column
     if column is None:
-        if told.hams:
+        if reported.hams:
             raise InputError(
                 f"{first.name} was written by HAMS: its first column may be a wave number, frequency or period",
                 path="first_column",
@@ -105,13 +105,13 @@ def read_wamit(
                 remedy="look up Output_frequency_type in ControlFile.in and give first_column",
             )
         column = "period"
-    if column == "period" and not told.hams:
+    if column == "period" and not reported.hams:
         zero_frequency_code = -1.0 if zero_frequency_code is None else zero_frequency_code
         infinite_frequency_code = 0.0 if infinite_frequency_code is None else infinite_frequency_code
-    gravity = told.gravity if gravity is None else gravity
-    length_scale = told.length_scale if length_scale is None else length_scale
-    water_depth = told.water_depth if water_depth is None else water_depth
-    reference_point = told.reference_point if reference_point is None else reference_point
+    gravity = reported.gravity if gravity is None else gravity
+    length_scale = reported.length_scale if length_scale is None else length_scale
+    water_depth = reported.water_depth if water_depth is None else water_depth
+    reference_point = reported.reference_point if reference_point is None else reference_point
     require(
         first.name,
         gravity=gravity,
@@ -136,7 +136,7 @@ def read_wamit(
         )
     drift = _read_drift(first, converter, omega, directions)
     return assemble(
-        program="HAMS" if told.hams else "WAMIT",
+        program="HAMS" if reported.hams else "WAMIT",
         source=first.name,
         dofs=DOFS,
         omega=omega,

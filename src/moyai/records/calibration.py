@@ -151,9 +151,9 @@ class _Fitter:
                 f"the model gives {prediction.size} predictions for {self.observed.size} observations", path="model"
             )
         if not np.isfinite(prediction).all():
-            told = ", ".join(f"{p.name} = {value:.6g}" for p, value in zip(self.parameters, values))
+            reported = ", ".join(f"{p.name} = {value:.6g}" for p, value in zip(self.parameters, values))
             raise InputError(
-                f"the model gives no number for observation {int(np.argmin(np.isfinite(prediction))) + 1} at {told}",
+                f"no number from the model for observation {int(np.argmin(np.isfinite(prediction))) + 1} at {reported}",
                 path="model",
                 remedy="narrow the bounds, or correct the model there",
             )

@@ -91,8 +91,8 @@ def read_with_wavespectra(path: str | Path) -> SpectrumArchive:
             continue
         if archive is not None:
             return archive
-    told = f" ({refused[:160]})" if kind else f" (tried {', '.join(several)})"
-    raise InputError(f"wavespectra finds no spectra in {file.name}{told}", path="file")
+    reported = f" ({refused[:160]})" if kind else f" (tried {', '.join(several)})"
+    raise InputError(f"wavespectra finds no spectra in {file.name}{reported}", path="file")
 
 
 def _archive(data: Any, name: str) -> SpectrumArchive | None:

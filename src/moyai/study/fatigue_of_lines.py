@@ -102,10 +102,10 @@ def fatigue(study: Study, result: Result, wanted: schema.Fatigue) -> tuple[xr.Da
     coords = {str(dim): life.coords[dim] for dim in life.dims if dim in life.coords}
     data = {"life": (life.dims, life.values, attributes)}
     if wanted.equivalent_cycles is not None:
-        told = f"constant range of the same damage in {wanted.equivalent_cycles:g} cycles a year"
+        reported = f"constant range of the same damage in {wanted.equivalent_cycles:g} cycles a year"
         units = response_of(result, _sums(wanted, next(iter(curves.values())))).attrs.get("units", "1").split("^")[0]
         values = xr.concat(ranges, index).transpose(..., "line").values
-        data["equivalent_range"] = (life.dims, values, {"units": units, "long_name": told})
+        data["equivalent_range"] = (life.dims, values, {"units": units, "long_name": reported})
     out = xr.Dataset(data, coords=coords)
     out.attrs.update({"response": wanted.response, "curve": words})
     return out, _notices(curves, wanted)

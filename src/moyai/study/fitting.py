@@ -204,11 +204,11 @@ def _predict(fit: Fit, run: RunCase, values: Array, row: Row) -> tuple[float, st
     try:
         result = run(case_of(_document(fit, values, row), fit.base_path), silent)
     except CaseError as error:
-        told = ", ".join(
+        reported = ", ".join(
             f"{item.name} = {value:g} {item.unit}".strip() for (item, _), value in zip(fit.parameters, values)
         )
         raise InputError(
-            f"the case is refused at {told}: {error.faults[0].message}", path="fit", remedy="narrow the bounds"
+            f"the case is refused at {reported}: {error.faults[0].message}", path="fit", remedy="narrow the bounds"
         ) from None
     if result.status == "interrupted":
         raise KeyboardInterrupt

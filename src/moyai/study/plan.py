@@ -212,8 +212,8 @@ def _wanted_of_assessment(document: Document, assess: schema.Assessment | None) 
         except InputError as error:
             fault = error.fault
             place = ("study", "assess", "fatigue")
-            told = document.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy)
-            raise CaseError([told]) from None
+            reported = document.fault(place, fault.message, allowed=fault.allowed, remedy=fault.remedy)
+            raise CaseError([reported]) from None
         wanted += [Wanted(one.response, "rainflow", (), exponent) for exponent in sorted(exponents)]
     for extreme in assess.extremes if assess is not None else ():
         message = fault_of(extreme)

@@ -227,8 +227,8 @@ def test_gap_of_a_twin_pontoon_is_told(pontoon_problem, lid):
     )
     result = run(problem)
     assert result.status == "converged", result.message
-    told = [notice for notice in result.notices if notice.code == "gap-resonance"]
-    assert told and told[0].severity == ("warning" if lid == 0.0 else "information")
+    reported = [notice for notice in result.notices if notice.code == "gap-resonance"]
+    assert reported and reported[0].severity == ("warning" if lid == 0.0 else "information")
 
 
 def test_operators_in_slightly_oblique_waves_keep_their_energy(pontoon_problem):

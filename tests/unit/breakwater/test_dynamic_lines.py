@@ -197,12 +197,12 @@ def test_a_tabulated_sea_is_the_sea_summed_at_the_nodes() -> None:
         ({"dynamic": "perhaps"}, "dynamic"),
     ],
 )
-def test_impossible_lines_in_motion_get_one_clear_message(tmp_path, changes, told) -> None:
+def test_impossible_lines_in_motion_get_one_clear_message(tmp_path, changes, reported) -> None:
     path = tmp_path / "case.yaml"
     path.write_text(text(**changes))
     with pytest.raises(CaseError) as caught:
         moyai.load_case(path)
-    assert told in str(caught.value)
+    assert reported in str(caught.value)
 
 
 @pytest.fixture(scope="module")
@@ -237,7 +237,7 @@ def test_snaps_are_found_counted_and_judged(snapping, tmp_path) -> None:
 def test_lines_in_motion_that_do_not_fit_the_rest_of_the_case_are_named(tmp_path) -> None:
     path = tmp_path / "case.yaml"
     words = text()
-    for changed, told in (
+    for changed, reported in (
         (words.replace("analysed_periods: 3", "memory: convolution"), "as states"),
         (words.replace("anchor: {x: 211.5 cm}", "anchor: {x: 211.5 cm}\n    bed_friction: 0.4"), "bed friction of 0.4"),
     ):
@@ -245,7 +245,7 @@ def test_lines_in_motion_that_do_not_fit_the_rest_of_the_case_are_named(tmp_path
         path.write_text(changed)
         with pytest.raises(CaseError) as caught:
             moyai.load_case(path)
-        assert told in str(caught.value)
+        assert reported in str(caught.value)
 
 
 def test_lines_are_carried_along_to_where_a_run_starts(tmp_path):

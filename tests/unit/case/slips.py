@@ -42,7 +42,7 @@ class Slip:
     outcome: str
 
     @property
-    def told(self) -> bool:
+    def reported(self) -> bool:
         """Whether it was stopped or warned of."""
         return self.outcome in ("stopped", "warned")
 
@@ -148,10 +148,10 @@ def table(found: list[Slip]) -> str:
     lines = []
     for kind in [*sorted({slip.structure for slip in found}), ""]:
         group = [slip for slip in found if not kind or slip.structure == kind]
-        told = sum(slip.told for slip in group)
+        reported = sum(slip.reported for slip in group)
         stopped = sum(slip.outcome == "stopped" for slip in group)
         lines.append(
-            f"{kind or 'all':16s} {told:5d} of {len(group):5d} told, {100 * told / max(len(group), 1):5.1f} %, "
+            f"{kind or 'all':16s} {reported:5d} of {len(group):5d} told, {100 * reported / max(len(group), 1):5.1f} %, "
             f"{stopped} of them stopped"
         )
     lines += [f"{slip.outcome} {slip.file} {slip.path} {slip.value} x{slip.factor:g}" for slip in found
@@ -168,10 +168,10 @@ if __name__ == "__main__":
         start = time.time()
         some = list(slips(file, content, place))
         gathered += some
-        told_here = sum(slip.told for slip in some)
+        told_here = sum(slip.reported for slip in some)
         print(f"{file:40s} {told_here:4d} of {len(some):4d} {time.time() - start:7.1f} s", flush=True)
         if "--list" in sys.argv:
             for slip in some:
-                if not slip.told:
+                if not slip.reported:
                     print(f"    {slip.outcome} {slip.path} {slip.value} x{slip.factor:g}")
     print(table(gathered))

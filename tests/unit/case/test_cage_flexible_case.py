@@ -123,12 +123,12 @@ def test_a_rope_is_found_by_its_own_key(rope):
 
 def test_weights_of_one_mass_are_alike_however_they_are_told():
     """A mass in air and its weight in water give the same sinkers, with the water that they drag along."""
-    told = build(case()).cage.design.sinkers
-    submerged = (told.mass - 1025.0 * told.volume) * 9.81
+    reported = build(case()).cage.design.sinkers
+    submerged = (reported.mass - 1025.0 * reported.volume) * 9.81
     same = build(case(("mass: 120 kg", f"submerged_weight: {submerged!r} N"))).cage.design.sinkers
     for key in ("mass", "volume", "added_mass"):
-        assert getattr(same, key) == pytest.approx(getattr(told, key), rel=1e-12)
-    assert told.added_mass > 0.0
+        assert getattr(same, key) == pytest.approx(getattr(reported, key), rel=1e-12)
+    assert reported.added_mass > 0.0
 
 
 def test_an_infinite_depth_is_refused():

@@ -247,8 +247,8 @@ def test_figures_that_change_nothing_are_told(tmp_path):
     )
     text = text.replace("{cable: 3, sheet: 4, anchor: 1.5}", "{sheet: 4, anchor: 1.5}")
     (tmp_path / "case.yaml").write_text(text, encoding="utf-8")
-    told = {fault.path: fault for fault in load_case(tmp_path / "case.yaml").warnings}
-    assert "change nothing" in told["structure.drag.blockage"].message
+    reported = {fault.path: fault for fault in load_case(tmp_path / "case.yaml").warnings}
+    assert "change nothing" in reported["structure.drag.blockage"].message
 
 
 def test_a_strength_without_a_factor_is_judged_by_the_default_which_is_said(tmp_path):

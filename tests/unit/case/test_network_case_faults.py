@@ -138,11 +138,11 @@ EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples" / "network")
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_are_sound(example):
-    told = [item.message for item in load_case(example).warnings]
+    reported = [item.message for item in load_case(example).warnings]
     # the waves of that flume are as steep as they were
     known = {"flume_box": ["linear theory neglects harmonics"]}.get(example.stem, [])
-    assert len(told) == len(known)
-    assert all(words in message for words, message in zip(known, told, strict=True))
+    assert len(reported) == len(known)
+    assert all(words in message for words, message in zip(known, reported, strict=True))
 
 
 def test_there_is_an_example_of_every_part():

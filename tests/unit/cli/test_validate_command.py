@@ -112,9 +112,9 @@ def test_a_row_comes_as_its_case_ends():
 
 
 def test_progress_is_told():
-    told = []
-    compute([("circle", GOOD), ("circle", WRONG)], lambda what, done, total: told.append((done, total)))
-    assert told == [(0, 2), (1, 2), (2, 2)]
+    reported = []
+    compute([("circle", GOOD), ("circle", WRONG)], lambda what, done, total: reported.append((done, total)))
+    assert reported == [(0, 2), (1, 2), (2, 2)]
 
 
 def test_topics_are_the_modules_and_their_names_are_unique():

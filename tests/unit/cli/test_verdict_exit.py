@@ -87,8 +87,8 @@ analyses: [statics]
     def moyai(*arguments: str) -> Result:
         return CliRunner().invoke(app, list(arguments))
 
-    told = json.loads(moyai("check", "case.yaml", "--json").stdout)
-    limits = {item["name"]: item["limit"] for item in told["criteria"]}
+    reported = json.loads(moyai("check", "case.yaml", "--json").stdout)
+    limits = {item["name"]: item["limit"] for item in reported["criteria"]}
     assert limits == {"least_freeboard": 2.0, "least_metacentric_height": 0.0}
     assert "Freeboard" in moyai("check", "case.yaml").stdout
     done = moyai("run", "case.yaml", "--json", "--no-report", "--require-hold")

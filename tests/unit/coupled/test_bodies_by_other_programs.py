@@ -232,8 +232,8 @@ def test_rows_off_the_pace_of_the_wave_are_told() -> None:
     assert "0.78 of the pace" in notice.message and "output_step" in notice.remedy
     # a long row finds its pace
     assert steps_at_the_pace(1.0, 3, 1.0 / 210.0) == (3, ())
-    count, told = steps_at_the_pace(1.0, 3, 1.0 / 211.6)
-    assert not told and 3 <= count <= 12
+    count, reported = steps_at_the_pace(1.0, 3, 1.0 / 211.6)
+    assert not reported and 3 <= count <= 12
 
 
 @pytest.mark.parametrize("seed", [*range(1), *(pytest.param(s, marks=pytest.mark.slow) for s in range(1, 3))])

@@ -311,7 +311,7 @@ def test_rest_of_a_moored_box_is_where_it_stays() -> None:
 def test_points_and_bodies_that_do_not_fit_are_named() -> None:
     body, network = pendulum(None)
     other = RigidBody("bob", 2.0, (0.02,) * 3, position=(0, 0, -2.1), points={"hook": (0, 0, 0.3)})
-    for bodies, told in (
+    for bodies, reported in (
         ({"bob": other}, "the point 'hook' of body 'bob' is at"),
         (
             {"bob": RigidBody("bob", 2.0, (0.02,) * 3, points={"hock": (0, 0, 0)})},
@@ -322,7 +322,7 @@ def test_points_and_bodies_that_do_not_fit_are_named() -> None:
     ):
         with pytest.raises(InputError) as caught:
             simulate_coupled(network, bodies, duration=1.0, output_step=0.1)
-        assert told in str(caught.value)
+        assert reported in str(caught.value)
     still = Motion(0.0, 1.0, np.zeros((3, 3)), np.zeros((3, 3)))
     with pytest.raises(InputError, match="carried by a body and driven by a motion"):
         simulate_coupled(network, {"bob": body}, duration=1.0, output_step=0.1, motions={"hook": still})

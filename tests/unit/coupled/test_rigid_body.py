@@ -196,11 +196,11 @@ def test_drag_brings_a_body_to_its_terminal_speed() -> None:
         ({"free": (True,) * 5}, "six"),
     ],
 )
-def test_impossible_bodies_are_refused_with_one_message(changes, told) -> None:
+def test_impossible_bodies_are_refused_with_one_message(changes, reported) -> None:
     values = {"name": "b", "mass": 1.0, "inertia": (1.0, 1.0, 1.0), **changes}
     with pytest.raises(InputError) as caught:
         RigidBody(**values)
-    assert told in str(caught.value)
+    assert reported in str(caught.value)
 
 
 @pytest.mark.parametrize(

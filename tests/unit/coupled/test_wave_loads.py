@@ -156,14 +156,14 @@ def test_loads_about_another_point_give_the_same_motion() -> None:
 
 def test_what_coefficients_lack_is_named() -> None:
     data, *_ = dataset()
-    for changed, told in (
+    for changed, reported in (
         (data.drop_vars("infinite_frequency_added_mass"), "infinite frequency added mass"),
         (data.drop_vars("hydrostatic_stiffness"), "hydrostatic stiffness"),
         (data.isel(radiating_dof=slice(0, 3), influenced_dof=slice(0, 3)), "Surge, Sway, Heave"),
     ):
         with pytest.raises(InputError) as caught:
             loads(changed)
-        assert told in str(caught.value)
+        assert reported in str(caught.value)
     with pytest.raises(InputError, match="displaced volume"):
         WaveLoads.from_dataset(data, displaced_volume=-1.0, rest=(0, 0, 0))
     far = WaveComponents([20.0], [0.1], [0.0], [0.0], [40.0], WATER)

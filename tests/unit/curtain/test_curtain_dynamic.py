@@ -199,8 +199,8 @@ def test_sensitivity_names_what_the_peak_is_worth() -> None:
 
 def test_sensitivity_tells_of_a_cable_that_the_sum_hides() -> None:
     good, poor = PeakWorth(10.0, 10.0, 10.1, 9.9), PeakWorth(2.4, 2.4, 5.0, 2.3)
-    told = Worth({"both": good, "upper cable": good, "lower cable": poor}).notices("here")
-    assert len(told) == 1 and "lower cable by 108.3 %" in told[0].message and "upper" not in told[0].message
+    reported = Worth({"both": good, "upper cable": good, "lower cable": poor}).notices("here")
+    assert len(reported) == 1 and "lower cable by 108.3 %" in reported[0].message and "upper" not in reported[0].message
     assert not Worth({"both": good, "upper cable": good}).notices("here")
     missing = PeakWorth(10.0, 10.0, math.nan, 9.9)
     assert [n.code for n in Worth({"both": missing}, ("the run stopped",)).notices("here")] == ["dynamic-sensitivity"]
@@ -490,8 +490,8 @@ def test_a_run_that_turning_sections_spoil_is_made_again_with_held_normals(
     monkeypatch.setattr(analysis, "run_span", stopping)
     result = moyai.run(moyai.load_case(slack_span_in_oblique_waves(tmp_path, "cells_along: 8, cells_down: 4")))
     assert result.status == "converged", result.message
-    (told,) = [notice for notice in result.notices if notice.code == "dynamic-turning"]
-    assert "held as in the just-taut span" in told.message and way in told.message
+    (reported,) = [notice for notice in result.notices if notice.code == "dynamic-turning"]
+    assert "held as in the just-taut span" in reported.message and way in reported.message
     taken = next(check for check in result.checks if "viscosity" in check.name)
     assert 0.0 < taken.value < 0.05
     (run,) = kept
@@ -539,8 +539,10 @@ def test_a_snap_is_run_until_it_is_past_its_peak() -> None:
         "water": FLUME, "flow": Flow(), "duration": 0.4 * rise, "output_step": rise / 50.0, "speed": 0.3,
         "weight": False, "deep": True, "profile": "sag",
     }  # fmt: skip
-    plan, run, told = analysis_dynamic.through(span, Mesh(8, 4), Plan("snap", arguments, rise, open=True), silent, "")
-    assert plan.arguments["duration"] == pytest.approx(3.2 * rise) and not told
+    plan, run, reported = analysis_dynamic.through(
+        span, Mesh(8, 4), Plan("snap", arguments, rise, open=True), silent, ""
+    )
+    assert plan.arguments["duration"] == pytest.approx(3.2 * rise) and not reported
     assert 0.5 * rise < run.peak("both")[1] < 1.5 * rise
     given = analysis_dynamic.through(span, Mesh(8, 4), Plan("snap", arguments, rise), silent, "")[1]
     assert given.history.time[-1] == pytest.approx(0.4 * rise)
@@ -650,12 +652,12 @@ def test_the_start_of_an_irregular_sea_is_told(tmp_path: Path) -> None:
     result = moyai.run(
         moyai.load_case(write(tmp_path, changed(text, {"{cells_along": "{settled_periods: 0, cells_along"})))
     )
-    told = [notice for notice in result.notices if notice.code == "dynamic-start"]
+    reported = [notice for notice in result.notices if notice.code == "dynamic-start"]
     run = result.tree["/SWL/dynamic/sea"].to_dataset()
     late = run["both_tension"].values[run["time"].values > 0.5 * float(run["time"][-1])]
-    assert len(told) == 1 and told[0].value > 1.5
+    assert len(reported) == 1 and reported[0].value > 1.5
     peak = float(result.tree["/SWL/dynamic"].to_dataset()["both_peak"][0])
-    assert told[0].value == pytest.approx(peak / late.max())
+    assert reported[0].value == pytest.approx(peak / late.max())
 
 
 @pytest.mark.parametrize(
@@ -676,9 +678,9 @@ def test_cables_that_stretch_as_no_rope_are_told(tmp_path: Path) -> None:
     """Newtons for kilonewtons, without a breaking load that the check could compare them with."""
     text = changed(CASE, {"400 kN": "400 N", "cells_down: 4}": "cells_down: 4, sensitivity: false}"})
     result = moyai.run(moyai.load_case(write(tmp_path, text)))
-    told = [notice for notice in result.notices if notice.code == "dynamic-stretched"]
+    reported = [notice for notice in result.notices if notice.code == "dynamic-stretched"]
     run = result.tree["/SWL/dynamic/snap in the current"].to_dataset()
-    assert len(told) == 1 and told[0].value == pytest.approx(float(run["line_tension_maximum"].max()) / 400.0)
+    assert len(reported) == 1 and reported[0].value == pytest.approx(float(run["line_tension_maximum"].max()) / 400.0)
 
 
 def test_a_span_let_go_slack_is_gathered_and_bears_nothing() -> None:

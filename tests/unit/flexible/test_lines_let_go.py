@@ -76,8 +76,8 @@ def test_a_step_by_hand_that_drag_outruns_within_a_row_is_told():
     network, motion, flow = _strained(0)
     usual = simulate(network, motion, duration=1.0, output_step=1.0, flow=flow)
     coarse = 1.0 / usual.steps * 3.0
-    told = simulate(network, motion, duration=1.0, output_step=1.0, flow=flow, step=coarse)
-    assert "step-not-stable" in [notice.code for notice in told.notices]
+    reported = simulate(network, motion, duration=1.0, output_step=1.0, flow=flow, step=coarse)
+    assert "step-not-stable" in [notice.code for notice in reported.notices]
 
 
 def _hung(stiffness, rows, alone):

@@ -158,8 +158,8 @@ def test_the_tangent_is_the_derivative_and_blind_to_translation() -> None:
     move = 1e-3 * rng.normal(size=(4, 3))
     before, _ = forces_on_panels(panels, points, np.zeros((4, 3)), water, 1000.0)
     after, _ = forces_on_panels(panels, points + move, np.zeros((4, 3)), water, 1000.0)
-    told = -np.einsum("ijab,jb->ia", blocks[0], move)
-    assert np.allclose(after - before, told, atol=2e-2 * np.abs(told).max())
+    reported = -np.einsum("ijab,jb->ia", blocks[0], move)
+    assert np.allclose(after - before, reported, atol=2e-2 * np.abs(reported).max())
 
 
 def test_a_light_plate_slows_down_as_it_must_at_steps_far_above_its_own_time() -> None:

@@ -129,9 +129,9 @@ def test_a_failure_keeps_the_nearest_state(tmp_path):
     builder.free("low", (10.0, 0.0, -10.0), mass=10.0)
     builder.line("tie", "top", "low", BarType("tie", 20.0, 1e7, 0.04, drag_normal=1.2), length=20.0, segments=4)
     network = builder.build()
-    with pytest.raises(ConvergenceError, match="nearest state in") as told:
+    with pytest.raises(ConvergenceError, match="nearest state in") as reported:
         solve_equilibrium(network, flow=Flow((0.5, 0.2, 0.0)), most_steps=40, state_file=tmp_path / "rest.npz")
-    assert "along x and y: the current carries them away" in str(told.value)
+    assert "along x and y: the current carries them away" in str(reported.value)
     assert read_state(tmp_path / "rest.npz", network).position.shape == (5, 3)
 
 

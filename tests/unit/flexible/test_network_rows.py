@@ -103,8 +103,8 @@ def test_a_step_that_is_too_long_is_told_even_when_the_run_ends():
     sound = simulate(network, motions, duration=3.0, output_step=0.05)
     assert not [notice for notice in sound.notices if notice.code == "step-not-stable"]
     bold = simulate(network, motions, duration=3.0, output_step=0.05, step=1.3 * sound.step)
-    told = [notice for notice in bold.notices if notice.code == "step-not-stable"]
-    assert len(told) == 1 and told[0].severity == "warning" and told[0].value > 1.0
+    reported = [notice for notice in bold.notices if notice.code == "step-not-stable"]
+    assert len(reported) == 1 and reported[0].severity == "warning" and reported[0].value > 1.0
 
 
 def test_sensitivity_bears_a_step_given_by_hand():

@@ -110,7 +110,7 @@ def test_a_mechanism_is_named(volume: float) -> None:
     builder.line("two", "middle", "right", thin, length=6.0, segments=1)
     network = builder.build()
     place = solve_equilibrium(network).state.position
-    told = advice(network, place, Flow())
-    assert ("a mechanism: nothing resists a motion that is largest at node 1 (point 'middle')" in told) == (
+    reported = advice(network, place, Flow())
+    assert ("a mechanism: nothing resists a motion that is largest at node 1 (point 'middle')" in reported) == (
         volume > 0.0
     )

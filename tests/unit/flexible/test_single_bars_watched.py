@@ -34,8 +34,8 @@ def test_snaps_of_one_bar_are_told_because_they_hang_on_the_step():
         still = {"top": Motion(0.0, 10.0, np.zeros((2, 3)), np.zeros((2, 3)))}
         usual = simulate(builder.build(), still, duration=2.0, output_step=0.1)
         fine = simulate(builder.build(), still, duration=2.0, output_step=0.1, step=usual.step / 20.0)
-        told = [notice for notice in usual.notices if notice.code == "wave-front"]
-        assert len(told) == 1 and "few steps" in told[0].message and "shorter step" in told[0].remedy
+        reported = [notice for notice in usual.notices if notice.code == "wave-front"]
+        assert len(reported) == 1 and "few steps" in reported[0].message and "shorter step" in reported[0].remedy
         errors.append(abs(usual.tension_peak.max() / fine.tension_peak.max() - 1.0))
     assert max(errors) > 0.02
 

@@ -120,8 +120,8 @@ def test_a_body_that_turns_over_is_told(tmp_path):
     path = tmp_path / "case.yaml"
     path.write_text(text, encoding="utf-8")
     result = run(build(load_case(path)))
-    told = [item for item in result.notices if item.code == "body-turned-over"]
-    assert told and "from upright" in told[0].message and told[0].value > 1.05
+    reported = [item for item in result.notices if item.code == "body-turned-over"]
+    assert reported and "from upright" in reported[0].message and reported[0].value > 1.05
 
 
 def test_what_a_peak_is_worth_is_told_with_bodies(tmp_path):

@@ -153,8 +153,8 @@ def test_another_depth_and_a_body_of_wave_length_are_told(tmp_path) -> None:
     path = written(tmp_path, memory="false", duration="0.5 s")
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace("water_depth: 0.5 m", "water_depth: 0.8 m"), encoding="utf-8")
-    told = " ".join(item.message for item in moyai.run(load_case(path)).notices)
-    assert "those of 0.5 m of water" in told and "0.8 m" in told
+    reported = " ".join(item.message for item in moyai.run(load_case(path)).notices)
+    assert "those of 0.5 m of water" in reported and "0.8 m" in reported
     small = moyai.run(load_case(written(tmp_path, loads="added_mass: [1, 1, 1]", duration="0.5 s", period="0.7 s")))
     assert any(item.code == "body-not-small" for item in small.notices)
     long = build(load_case(written(tmp_path, loads="added_mass: [1, 1, 1]", duration="0.5 s", period="2 s")))

@@ -250,7 +250,7 @@ def test_lid_takes_energy_at_the_gap_resonance():
     damped = solve(section, water, omega, modes=modes, lid=0.05)
     (notice,) = free.notices
     assert notice.code == "gap-resonance" and notice.severity == "warning"
-    assert [told.severity for told in damped.notices] == ["information"]
+    assert [reported.severity for reported in damped.notices] == ["information"]
     gap = free.normal.surface
     inside = np.abs(gap.u.real) < 0.5
     swing = np.abs(free.normal.scattered_surface[:, inside & (gap.kind == 1)]).max(axis=1) * omega / GRAVITY

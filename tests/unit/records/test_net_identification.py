@@ -199,13 +199,13 @@ def test_wrong_speed_or_period_is_told():
 def test_lift_is_reported():
     rng = np.random.default_rng(35)
     net = specimen()
-    for share, told in ((0.0, False), (0.2, True)):
+    for share, reported in ((0.0, False), (0.2, True)):
         rig = dataclasses.replace(QUIET, lift_share=share)
         runs = tuple(towed_run(rig, TANK, i, 1.5, 0.5, name=n, rng=rng) for n, i in (("f", None), ("n", net)))
         found = measure_nets(NetCampaign("t", TANK, (net,), runs, vibration="none"))
         whole = 1.5 + 4e-3 / net.projected_area
         assert found.towing[0].lift == pytest.approx(share * whole, abs=2e-3)
-        assert any(item.code == "net-lift" for item in found.notices) == told
+        assert any(item.code == "net-lift" for item in found.notices) == reported
 
 
 # --- the frame --------------------------------------------------------------------------------------------------------
@@ -535,9 +535,9 @@ def test_clipped_and_spiky_records_are_told():
     codes = [item.code for item in measure_nets(NetCampaign("t", TANK, (net,), (run,), vibration="none")).notices]
     assert not [code for code in codes if code.startswith("net-record")]
     found = measure_nets(NetCampaign("t", TANK, (net,), (spoilt,), vibration="none"))
-    told = {item.code: item for item in found.notices}
-    assert "1 of 1500 samples of the force are spikes" in told["net-record-spikes"].message
-    assert "velocity" in told["net-record-clipped"].message
+    reported = {item.code: item for item in found.notices}
+    assert "1 of 1500 samples of the force are spikes" in reported["net-record-spikes"].message
+    assert "velocity" in reported["net-record-clipped"].message
 
 
 def test_noise_of_the_reading_at_rest_widens_the_interval():

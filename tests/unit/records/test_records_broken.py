@@ -55,7 +55,7 @@ def table(heading: str = "time,level [m]", mark: str = ",", comma: bool = False)
     return "\n".join(rows) + "\n"
 
 
-def told(error: pytest.ExceptionInfo[InputError]) -> str:
+def reported(error: pytest.ExceptionInfo[InputError]) -> str:
     fault = error.value.fault
     return f"{fault.path} {fault.message} {fault.remedy}"
 
@@ -67,7 +67,7 @@ def test_what_is_no_such_file_is_told_by_its_name(tmp_path: Path, ending: str, c
         pytest.importorskip("pyarrow")
     with pytest.raises(InputError) as error:
         survey_of(tmp_path, f"record.{ending}", content, channel=", unit: m")
-    assert f"record.{ending} cannot be read as" in told(error) and "engine" not in told(error)
+    assert f"record.{ending} cannot be read as" in reported(error) and "engine" not in reported(error)
 
 
 def test_a_mat_file_is_opened_before_its_units_are_asked_for(tmp_path: Path) -> None:
@@ -88,7 +88,7 @@ def test_decimal_commas_are_not_taken_for_delimiters(tmp_path: Path) -> None:
     rows += [f"{t:.2f};{e:.3f};15.2;1013.2".replace(".", ",") for t, e in zip(TIME, LEVEL)]
     with pytest.raises(InputError) as error:
         survey_of(tmp_path, "comma.csv", "\n".join(rows))
-    assert "line 2" in told(error) and "decimal" in told(error)
+    assert "line 2" in reported(error) and "decimal" in reported(error)
     result = survey_of(tmp_path, "comma.csv", "\n".join(rows), keys="decimal: ','")
     assert result.tree["waves"]["count"].values[0, 0] > 100
 
@@ -102,7 +102,7 @@ def test_dates_without_a_format_ask_for_one(tmp_path: Path) -> None:
     rows = ["time,level [m]"] + [f"2024-01-01T00:{i // 60:02d}:{i % 60:02d},{LEVEL[i]:.3f}" for i in range(1000)]
     with pytest.raises(InputError) as error:
         survey_of(tmp_path, "dates.csv", "\n".join(rows))
-    assert "line 2" in told(error) and "time.format" in told(error)
+    assert "line 2" in reported(error) and "time.format" in reported(error)
 
 
 def test_an_offset_from_utc_counts_once(tmp_path: Path) -> None:

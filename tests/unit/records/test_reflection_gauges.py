@@ -72,8 +72,8 @@ def test_standard_error_is_that_of_repeated_noise():
     noise = 0.01 * (rng.normal(size=(4000, 4)) + 1j * rng.normal(size=(4000, 4)))
     result = separate_waves(x, gauges(x, incident, reflected, k) + noise, k)
     scatter = np.sqrt(np.mean(np.abs(result.incident - incident) ** 2))
-    told = np.sqrt(np.mean(result.standard_error[:, 0] ** 2))
-    assert told == pytest.approx(scatter, rel=0.05)
+    reported = np.sqrt(np.mean(result.standard_error[:, 0] ** 2))
+    assert reported == pytest.approx(scatter, rel=0.05)
     assert np.isnan(separate_waves(x[:2], [1.0, 1.0], 2.1).standard_error).all()
 
 

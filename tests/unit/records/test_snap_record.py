@@ -91,9 +91,9 @@ def test_slow_sampling_is_told_with_what_it_costs(samples):
         losses.append(1.0 - float(read_raw(time, both, known)) / known["peak"])
         if seed == 0:
             found = read(time, both, known)
-            told = {item.code: item for item in found.notices}
-            assert "snap-sampling" in told
-            assert "Hz" in told["snap-sampling"].remedy
+            reported = {item.code: item for item in found.notices}
+            assert "snap-sampling" in reported
+            assert "Hz" in reported["snap-sampling"].remedy
     mean, worst = sampling_loss(samples)
     # after the top the tension falls a little slower than a sine
     assert min(losses) >= 0.0

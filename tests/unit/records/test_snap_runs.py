@@ -151,11 +151,11 @@ def test_command_writes_result_and_page_and_says_generated(made, tmp_path) -> No
     _, planted, folder = made
     call = RUN.invoke(app, ["measure", "snaps", str(folder / "set.yaml"), "-o", str(tmp_path / "out"), "--json"])
     assert call.exit_code == 0, call.output
-    told = json.loads(call.output)
-    assert told["origin"] == "generated"
-    assert [run["impact"] for run in told["runs"]] == pytest.approx(planted, rel=0.015)
+    reported = json.loads(call.output)
+    assert reported["origin"] == "generated"
+    assert [run["impact"] for run in reported["runs"]] == pytest.approx(planted, rel=0.015)
     result = read_result(tmp_path / "out" / "results.nc")
-    assert result.tree["runs"]["model_tension"].shape == (4, len(told["agreement"]))
+    assert result.tree["runs"]["model_tension"].shape == (4, len(reported["agreement"]))
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert GENERATED in page and "C_T over" in page
     assert (tmp_path / "out" / "report_tables" / "cables.csv").exists()

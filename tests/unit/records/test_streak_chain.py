@@ -151,9 +151,9 @@ def test_waves_to_the_other_side_turn_the_sign(folder):
 def test_faults_of_the_file_are_told_with_their_line(folder, pairs, line, message):
     with pytest.raises(CaseError) as found:
         load_streaks(changed(folder, "faulty", *pairs))
-    told = [fault for fault in found.value.faults if message in str(fault)]
-    assert len(told) == 1, found.value
-    assert abs(told[0].line - line) <= 1
+    reported = [fault for fault in found.value.faults if message in str(fault)]
+    assert len(reported) == 1, found.value
+    assert abs(reported[0].line - line) <= 1
 
 
 def test_all_faults_are_told_at_once(folder):

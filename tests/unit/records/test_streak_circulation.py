@@ -73,12 +73,12 @@ def test_scattered_drift_gives_the_planted_circulation(section, method, toleranc
 
 
 @pytest.mark.parametrize(("sizes", "told"), [([1.2, 1.5, 2.0], True), ([1.5, 1.75, 2.0], False), ([1.5, 2, 9], True)])
-def test_a_limit_carried_by_two_contours_is_told(sizes, told):
+def test_a_limit_carried_by_two_contours_is_told(sizes, reported):
     random = np.random.default_rng(5)
     points = cloud_around(SECTIONS[0], 60, 0.1, random)
     found = measure_circulation(points, vortex(points, 2e-3, 1e-3), SECTIONS[0].outline, sizes, resamples=0)
     few = [notice for notice in found.notices if notice.code == "contours-few"]
-    assert [notice.value for notice in few] == ([2.0] if told else [])
+    assert [notice.value for notice in few] == ([2.0] if reported else [])
 
 
 @pytest.mark.slow

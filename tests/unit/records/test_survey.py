@@ -261,9 +261,9 @@ def test_unit_slip_and_drift_in_a_survey(tmp_path):
     text = path.read_text().replace("kind: elevation}", "kind: elevation, quality: {drift_share: 0.5}}")
     path.write_text(text)
     result = run_survey(load_survey(path))
-    told = {notice.code: notice for notice in result.notices}
-    assert "elevation" in told["unit-slip"].message and "100" in told["unit-slip"].message
-    assert "elevation" in told["drift"].message
+    reported = {notice.code: notice for notice in result.notices}
+    assert "elevation" in reported["unit-slip"].message and "100" in reported["unit-slip"].message
+    assert "elevation" in reported["drift"].message
     np.testing.assert_allclose(result.tree["blocks"]["channel_0_deviation"].values[15:21].mean(), 35.0, rtol=0.5)
 
 
@@ -416,8 +416,8 @@ spectrum: {segment: 200 s, lowest: 0.05 Hz, highest: 0.4 Hz}
         encoding="utf-8",
     )
     result = run_survey(load_survey(tmp_path / "w.yaml"))
-    told = [notice for notice in result.notices if notice.code == "short-gaps-filled"]
-    assert len(told) == 1 and "0.25 %" in told[0].message
+    reported = [notice for notice in result.notices if notice.code == "short-gaps-filled"]
+    assert len(reported) == 1 and "0.25 %" in reported[0].message
     spectra = result.tree["spectra"]
     height = 4.0 * math.sqrt(np.trapezoid(spectra["density"].values[0, 0], spectra["frequency"].values))
     assert height == pytest.approx(4.0 * np.std(level), rel=0.03)

@@ -110,8 +110,8 @@ def test_anchors_that_fail_lower_the_status(tmp_path):
     slide = 1.2 * side / (0.5 * (1e5 - 1.2 * up))
     assert np.allclose(used.sel(line="seaward").values, slide[None, :], rtol=1e-9)
     assert np.isinf(used.sel(line="shoreward").values).all()
-    told = " ".join(notice.message for notice in result.notices)
-    assert "upwards" in told and "danforth on sand" in told
+    reported = " ".join(notice.message for notice in result.notices)
+    assert "upwards" in reported and "danforth on sand" in reported
 
 
 def test_extremes_over_seeds_find_the_known_distribution(tmp_path):
@@ -169,8 +169,8 @@ def test_return_levels_over_a_scatter_diagram(tmp_path):
 )
 def test_what_cannot_be_assessed_is_told_and_the_cases_are_kept(tmp_path, assessment, word):
     _, result = assessed(tmp_path, GRID, assessment)
-    told = " ".join(f"{notice.message} {notice.remedy}" for notice in result.notices)
-    assert word in told
+    reported = " ".join(f"{notice.message} {notice.remedy}" for notice in result.notices)
+    assert word in reported
     assert np.isfinite(result.tree["SWL/time/storm"]["worst"].values).all()
 
 
@@ -178,10 +178,10 @@ def test_the_report_names_the_governing_case_and_leads_to_its_replay(tmp_path):
     study, result = assessed(
         tmp_path, GRID + "- lines_lost: true", "{lines: {codes: {name: API RP 2SK, analysis: dynamic}}}"
     )
-    told = [[*item, f"governing/case {item[1]}"] for item in governing(study, result, 3)]
-    result.tree.attrs.update({"governing": json.dumps(told), "governing_kind": "utilisation"})
+    reported = [[*item, f"governing/case {item[1]}"] for item in governing(study, result, 3)]
+    result.tree.attrs.update({"governing": json.dumps(reported), "governing_kind": "utilisation"})
     page = render_html(compose(result))
-    assert f'href="governing/case {told[0][1]}/report.html"' in page
+    assert f'href="governing/case {reported[0][1]}/report.html"' in page
     assert "no, see the standard" in page and "lost line" in page
 
 

@@ -104,8 +104,8 @@ def left_after(session: int, seconds: float) -> list[str]:
     """Return the processes of a session that are still there when the time is up; a loaded machine ends them late."""
     deadline = time.monotonic() + seconds
     while True:
-        told = subprocess.run(["pgrep", "-s", str(session)], capture_output=True, text=True, check=False)
-        left = told.stdout.split()
+        reported = subprocess.run(["pgrep", "-s", str(session)], capture_output=True, text=True, check=False)
+        left = reported.stdout.split()
         if not left or time.monotonic() > deadline:
             return left
         time.sleep(0.2)
@@ -177,16 +177,16 @@ def test_a_folder_of_another_study_is_refused_and_left_alone(tmp_path):
 
 def test_a_second_run_in_the_same_folder_is_refused_while_the_first_is_at_work(tmp_path):
     study = load_study(study_cases.write_study(tmp_path, heights=2, seeds=2))
-    told = []
+    reported = []
 
     def meddle(standing):
         if standing.done == 2:
             with pytest.raises(InputError, match="another run is at work"):
                 run_study(study, tmp_path / "out", study_cases.fast_case, workers=1)
-            told.append(standing.done)
+            reported.append(standing.done)
 
     run_study(study, tmp_path / "out", study_cases.fast_case, workers=1, watch=meddle)
-    assert told == [2]
+    assert reported == [2]
     assert len((tmp_path / "out" / "study.jsonl").read_text(encoding="utf-8").splitlines()) == 1 + 4
     # The folder is free again afterwards
     assert run_study(study, tmp_path / "out", study_cases.fast_case, workers=1).status == "converged"

@@ -78,8 +78,8 @@ def test_snaps_are_fitted_apart_and_the_maximum_is_that_of_both_kinds(tmp_path):
     # A quarter of the peaks follows on slack, and only in the higher sea
     snapping = np.isfinite(result.tree["SWL/time/storm"]["tension_snap_peaks"].values).sum(axis=-1)
     assert (snapping[0] == 0).all() and abs(snapping[1].mean() / 149 - 0.25) < 0.04
-    told = [notice.message for notice in result.notices if notice.code == "extremes-distance"]
-    assert any("weibull" in message for message in told), "one law for both kinds is far from them"
+    reported = [notice.message for notice in result.notices if notice.code == "extremes-distance"]
+    assert any("weibull" in message for message in reported), "one law for both kinds is far from them"
     assert abs(together["design_value"].values[1, 0] - exact(0.9, True)) > 0.05 * exact(0.9, True)
     assert "snaps apart" in str(apart.attrs["family"])
     assert "Generalised Pareto fits of snap peaks" in render_html(compose(result))

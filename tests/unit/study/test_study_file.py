@@ -69,8 +69,8 @@ def test_paths_that_lead_nowhere_say_where_they_end(path, words):
 
 
 def test_a_misspelt_last_key_is_told_by_the_schema_of_the_case(tmp_path):
-    told = faults(tmp_path, "- grid: {'waves[storm].significant_hight': [1 m]}")
-    assert "unknown key 'significant_hight'" in told and "case 1 of 1" in told
+    reported = faults(tmp_path, "- grid: {'waves[storm].significant_hight': [1 m]}")
+    assert "unknown key 'significant_hight'" in reported and "case 1 of 1" in reported
 
 
 def test_all_wrong_paths_of_a_study_are_told_at_once(tmp_path):
@@ -80,10 +80,10 @@ def test_all_wrong_paths_of_a_study_are_told_at_once(tmp_path):
     structur.draught: [3 m]
 - seeds: {path: 'waves[strom].seed', count: 2}
 """
-    told = faults(tmp_path, variations)
+    reported = faults(tmp_path, variations)
     for word in ("unknown key 'significant_hight'", "no key 'structur'", "no entry 'strom'"):
-        assert told.count(word) == 1, told
-    assert [f"study.yaml:{line}:" in told for line in (7, 8, 9)] == [True] * 3, told
+        assert reported.count(word) == 1, reported
+    assert [f"study.yaml:{line}:" in reported for line in (7, 8, 9)] == [True] * 3, reported
 
 
 @pytest.mark.parametrize("search", ["limit", "optimise"])
@@ -104,8 +104,8 @@ def test_a_misspelt_last_key_of_a_search_is_told(tmp_path, search):
 
 
 def test_a_path_that_does_not_exist_is_told_with_its_line(tmp_path):
-    told = faults(tmp_path, "- grid: {'waves[strom].seed': [1, 2]}")
-    assert "study.yaml:6" in told and "did you mean 'storm'" in told
+    reported = faults(tmp_path, "- grid: {'waves[strom].seed': [1, 2]}")
+    assert "study.yaml:6" in reported and "did you mean 'storm'" in reported
 
 
 def test_a_grid_runs_every_value_with_every_other_the_last_fastest(tmp_path):
@@ -176,11 +176,11 @@ def test_a_table_gives_a_case_a_row(tmp_path):
 )
 def test_bad_tables_are_told_by_row_and_column(tmp_path, text, word):
     (tmp_path / "seas.csv").write_text(text, encoding="utf-8")
-    told = faults(
+    reported = faults(
         tmp_path,
         "- table: {file: seas.csv, columns: {Hs: 'waves[0].significant_height', Tp: 'waves[0].peak_period'}}",
     )
-    assert word in told
+    assert word in reported
 
 
 def test_return_periods_pair_the_rarest_waves_with_the_next_rarer_current_and_the_reverse(tmp_path):
@@ -254,8 +254,8 @@ def test_samples_follow_their_distributions_and_their_seed(tmp_path, method):
 
 
 def test_faults_of_cases_are_told_once_with_the_first_case_that_shows_them(tmp_path):
-    told = faults(tmp_path, "- grid: {'structure.draught': [3 m, -1 m], 'waves[0].peak_period': [4 s, 5 s]}")
-    assert "draught -1 m" in told and "and 1 more cases" in told and told.count("structure.draught") == 1
+    reported = faults(tmp_path, "- grid: {'structure.draught': [3 m, -1 m], 'waves[0].peak_period': [4 s, 5 s]}")
+    assert "draught -1 m" in reported and "and 1 more cases" in reported and reported.count("structure.draught") == 1
 
 
 @pytest.mark.parametrize(
@@ -298,8 +298,8 @@ def test_spectra_of_a_file_replace_a_sea_state_and_keep_its_seed(tmp_path):
     assert [case.labels for case in study.cases] == [("2020-01-01T00:00",), ("2020-01-02T00:00",)]
     sea = case_at(study, study.cases[1]).model.waves[0]
     assert (sea.kind, sea.record, sea.seed, sea.name) == ("spectrum_file", 1, 1, "storm")
-    told = faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', direction: true}")
-    assert "tells no direction" in told
+    reported = faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', direction: true}")
+    assert "tells no direction" in reported
     assert "0 to 1" in faults(tmp_path, "- spectra: {file: buoy.data_spec, sea: 'waves[storm]', records: [5]}")
 
 
@@ -318,10 +318,10 @@ def test_a_study_of_spectra_that_was_moved_with_its_files_is_the_same_study(tmp_
 
 
 @pytest.mark.parametrize(("word", "told"), [("structure", "moyai run"), ("fit", "moyai fit")])
-def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path, word, told):
+def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path, word, reported):
     path = tmp_path / "other.yaml"
     path.write_text(f"moyai: 1\ntitle: t\n{word}: {{}}\n", encoding="utf-8")
-    with pytest.raises(CaseError, match=told) as caught:
+    with pytest.raises(CaseError, match=reported) as caught:
         load_study(path)
     assert len(caught.value.faults) == 1
 

@@ -125,15 +125,15 @@ def test_alone_it_tells_what_there_is_to_ask(folder):
         (["--pivot", "peak_period,peak_period"], "twice"),
     ],
 )
-def test_questions_without_sense_are_answered_with_one_sentence(folder, words, told):
+def test_questions_without_sense_are_answered_with_one_sentence(folder, words, reported):
     code, text = asked(folder, *words)
-    assert code == 2 and told in text and "internal error" not in text
+    assert code == 2 and reported in text and "internal error" not in text
 
 
 def test_what_holds_no_results_of_a_study_is_told(tmp_path, folder, monkeypatch):
-    for place, told in ((tmp_path, "no results of a study"), (tmp_path / "none.nc", "no such file")):
+    for place, reported in ((tmp_path, "no results of a study"), (tmp_path / "none.nc", "no such file")):
         code, text = asked(place)
-        assert code == 2 and told in text
+        assert code == 2 and reported in text
     (tmp_path / "s.yaml").write_text("moyai: 1\n", encoding="utf-8")
     assert "not its results" in asked(tmp_path / "s.yaml")[1]
     (tmp_path / "a.zarr").mkdir()
@@ -188,11 +188,11 @@ def test_a_study_whose_cases_are_all_refused_is_refused_itself(tmp_path):
         ("- lines_lost: {path: structure.section}", "the only line"),
     ],
 )
-def test_a_structure_without_a_list_of_lines_is_told_what_can_be_lost(tmp_path, variation, told):
+def test_a_structure_without_a_list_of_lines_is_told_what_can_be_lost(tmp_path, variation, reported):
     with pytest.raises(CaseError) as caught:
         load_study(study_cases.write_text(tmp_path, variation))
-    assert told in str(caught.value)
-    if "no list" in told:
+    assert reported in str(caught.value)
+    if "no list" in reported:
         assert "lines" in str(caught.value) and "'remove'" in str(caught.value)
 
 

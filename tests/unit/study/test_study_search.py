@@ -149,10 +149,10 @@ def test_a_search_is_watched_by_what_it_finds(tmp_path):
     grid = "- grid: {'waves[storm].peak_period': [4 s, 5 s]}"
     study = load_study(study_cases.write_text(tmp_path, grid, limit=LIMIT))
     assert study.watch == "limit/limit"
-    told = []
-    run_study(study, tmp_path / "out", study_cases.linear_case, workers=1, watch=told.append)
+    reported = []
+    run_study(study, tmp_path / "out", study_cases.linear_case, workers=1, watch=reported.append)
     exact = np.sqrt(250.0 / 1000.0 * 5.0 / np.array([4.0, 5.0]) * (54.5 / 55.0) ** 4)
-    assert told[-1].largest[0] == pytest.approx(exact[0], abs=0.003) and told[-1].latest.index == 1
+    assert reported[-1].largest[0] == pytest.approx(exact[0], abs=0.003) and reported[-1].latest.index == 1
     with pytest.raises(CaseError) as caught:
         load_study(study_cases.write_text(tmp_path, grid, limit=LIMIT, watch="SWL/tension"))
     assert "limit/limit" in str(caught.value)

@@ -178,9 +178,9 @@ def measure_nets(campaign: NetCampaign, progress: Progress = silent) -> NetFindi
     laws, joint = _laws(campaign, towing, notices)
     tensions = []
     for cage in campaign.cages:
-        found, told = measure_tensions(cage)
+        found, reported = measure_tensions(cage)
         tensions.append((cage.name, found))
-        notices.extend(told)
+        notices.extend(reported)
     unique = {notice.message: notice for notice in notices}
     return NetFindings(
         campaign=campaign,
@@ -254,11 +254,11 @@ def _towing(
     if carried and frame is None:
         notices.append(_no_frame("towed through still water"))
     for tow in carried:
-        found, told = tow_coefficients(
+        found, reported = tow_coefficients(
             tow, campaign.specimen(tow.run.net), campaign.tank, frame, campaign.confidence, campaign.calibration
         )
         out.append(found)
-        notices.extend(told)
+        notices.extend(reported)
     lifts = [abs(item.lift) / item.drag for item in out if math.isfinite(item.lift) and item.drag > 0.0]
     if lifts and float(np.median(lifts)) > 0.05:
         notices.append(
@@ -328,10 +328,10 @@ def _waves(
                         "information",
                     )
                 )
-        found, told = wave_coefficients(whole, frame, specimen, tank, campaign.confidence, campaign.calibration)
+        found, reported = wave_coefficients(whole, frame, specimen, tank, campaign.confidence, campaign.calibration)
         fits.append(whole)
         waves.append(found)
-        notices.extend(told)
+        notices.extend(reported)
         done(count + 1)
     return fits, waves
 

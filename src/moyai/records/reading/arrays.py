@@ -232,8 +232,8 @@ def read_mat(path: Path, wanted: Sequence[str], rows: int) -> Iterator[RawChunk]
     arrays = {column: _mat_column(path, column) for column in wanted}
     sizes = {column: array.size for column, array in arrays.items()}
     if len(set(sizes.values())) > 1:
-        told = ", ".join(f"{column} {size}" for column, size in sizes.items())
-        raise InputError(f"{path.name}: the variables have different lengths: {told}", path="column")
+        reported = ", ".join(f"{column} {size}" for column, size in sizes.items())
+        raise InputError(f"{path.name}: the variables have different lengths: {reported}", path="column")
     size = next(iter(sizes.values()))
     if size == 0:
         raise InputError(f"{path.name} has no samples", path="file")

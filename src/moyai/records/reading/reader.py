@@ -187,8 +187,8 @@ def _unit_of(path: Path, source: LoggerSource, column: ColumnSource) -> tuple[Un
     if own is None:
         if form == "mat":  # which states no units: is the variable there at all?
             read_arrays.check_mat(path, str(column.column))
-        told = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
-        raise InputError(f"{place} {told}", path=f"channels.{column.name}.unit", remedy="give 'unit'")
+        reported = f"states the unit [{stated}], which is not understood" if stated else "states no unit"
+        raise InputError(f"{place} {reported}", path=f"channels.{column.name}.unit", remedy="give 'unit'")
     return own, si_symbol(own)
 
 
@@ -341,7 +341,7 @@ class _Clock:
         highest = np.maximum.accumulate(before)
         late = time <= highest
         row = int(np.argmax(late))
-        told = (
+        reported = (
             f"{self._place(raw, row)}: the time {instant_text(time[row], self.dated)} does not come after "
             f"{instant_text(highest[row], self.dated)}"
         )
@@ -349,13 +349,13 @@ class _Clock:
             remedy = "sort or cut the file, or say 'order: drop' to leave such rows out"
             if time[row] == highest[row] and not self.time.rate > 0.0:
                 remedy = "give 'rate' where the logger rounds its stamps, for instance to whole seconds, or " + remedy
-            raise InputError(told, path="time", remedy=remedy)
+            raise InputError(reported, path="time", remedy=remedy)
         kept = ~late
         if kept.any():
             self.last = float(time[kept][-1])
         count = int(late.sum())
         notice = Notice(
-            "time-order", f"{counted(count, 'row')} left out: {told}", float(count), 0.0, remedy="check the logger"
+            "time-order", f"{counted(count, 'row')} left out: {reported}", float(count), 0.0, remedy="check the logger"
         )
         return time[kept], kept, (notice,)
 

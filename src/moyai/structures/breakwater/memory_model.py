@@ -146,7 +146,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
         return list(checks), []
     kept = [check for check in checks if check.name not in CAUSAL]
     worst = max((check.value for check in checks if check.name in CAUSAL), default=0.0)
-    told = Notice(
+    reported = Notice(
         "lid-memory",
         f"{unit.name}: a damping lid of constant fraction has no causal memory; added mass and damping in time are off "
         f"by up to {100.0 * worst:.1f} % of their largest values",
@@ -154,7 +154,7 @@ def _causality(unit: FloatingUnit, checks: tuple[IdentityCheck, ...]) -> tuple[l
         severity="information" if worst < 0.05 else "warning",
         remedy="trust the frequency domain near the gap resonance, or lower the lid",
     )
-    return kept, [told]
+    return kept, [reported]
 
 
 def _functions(unit: FloatingUnit, beam: Hydrodynamics) -> tuple[MemoryFunctions, MemoryPlan]:

@@ -83,7 +83,8 @@ def hierarchy(unit: LevelCurtain, settings: Settings, *, speed: float | None = N
         found.append(
             ModelRole(
                 SPAN, "governs", "cables, skirt and anchor lines in waves and in a snap",
-                "cloth between cables, toe free to rise: no shape is taken for granted; its band is that of its mesh",
+                "cloth between cables, toe free to rise: no shape is taken for granted; its band is that of seeds and "
+                "meshes",
             )
         )  # fmt: skip
     wanted: tuple[tuple[Analysis, str, str], ...] = (

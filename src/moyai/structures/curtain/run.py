@@ -114,9 +114,9 @@ def _level_steps(
         answer = solve_impact(unit, settings.impact)
         groups = impact_groups(unit, settings.impact, answer)
         if problem.record is not None:
-            ratios, told = record_ratios(problem.record, answer)
+            ratios, reported = record_ratios(problem.record, answer)
             groups["impact"] = groups["impact"].merge(ratios)
-            collected.notices.extend(told)
+            collected.notices.extend(reported)
         collected.groups.update({f"{root}/{name}": data for name, data in groups.items()})
         collected.checks.extend(impact_checks(unit, answer))
         plate.extend(_numbered(collected, impact_notices(unit, settings.impact, answer)))

@@ -62,9 +62,9 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "planning_confirmed": ("1", "whether the formula was read in its source"),
     # the governing steady load and what stands next to it
     **{
-        f"steady_{name}{end}": (unit, f"{words}, governing steady load{told}")
+        f"steady_{name}{end}": (unit, f"{words}, governing steady load{reported}")
         for name, unit, words in QUANTITIES
-        for end, told in (("", ""), ("_low", ", lower end of its band"), ("_high", ", upper end of its band"))
+        for end, reported in (("", ""), ("_low", ", lower end of its band"), ("_high", ", upper end of its band"))
     },
     "steady_load_bound": ("N/m", "weights of toe and sheet: no load normal to the sheet can exceed it with a free toe"),
     "cause_line_load": ("N/m", "load per length with one thing varied"),

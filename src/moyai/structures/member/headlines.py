@@ -231,11 +231,11 @@ def _range_text(item: MeasuredRange, number: float, reynolds: float) -> str:
             return f"{symbol} above {low:g}"
         return f"{symbol} {low:g} to {high:g}"
 
-    told = " and ".join(
+    reported = " and ".join(
         text for text in (words("KC", item.keulegan_carpenter), words("Re", item.reynolds)) if text
     ) or "no range stated"  # fmt: skip
     outside = "" if item.holds(number, reynolds) else " (outside)"
-    return f"{item.name}: {told}{outside}"
+    return f"{item.name}: {reported}{outside}"
 
 
 __all__ = ["DECIDES", "headlines_of", "range_notices"]

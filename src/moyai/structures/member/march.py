@@ -95,8 +95,8 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
     for first in range(0, count, size):
         part = replace(strips, centres=strips.centres[first : first + size])
         block = _sample(problem, member, wave, part)
-        gammas, per_length, numbers, told = _block_forces(problem, member, wave, block, time)
-        for notice in told:
+        gammas, per_length, numbers, reported = _block_forces(problem, member, wave, block, time)
+        for notice in reported:
             notices.setdefault(notice.code, notice)
         for cause in range(len(CAUSES)):
             force[cause] += np.einsum("tsa,ax->tx", per_length[cause], axes) * strips.length
@@ -177,7 +177,7 @@ def _block_forces(
         rate = _local_rate(relative, wave.period)
     else:
         omega = np.maximum(mean_frequency(relative, rate), 1e-9)
-    numbers, drag, inertia, told = _coefficients(problem, member, relative, rate, block, omega, wave.regular)
+    numbers, drag, inertia, reported = _coefficients(problem, member, relative, rate, block, omega, wave.regular)
     law = problem.circulation
     gamma_now = np.zeros(relative.shape[:2])
     settled = np.zeros(relative.shape[:2])
@@ -222,7 +222,7 @@ def _block_forces(
     numbers["drag"] = drag
     numbers["effective_inertia"] = _effective(problem, section.area, block, forces.inertia, magnus, wave)
     numbers["plain_inertia"] = _effective(problem, section.area, block, forces.inertia, np.zeros_like(magnus), wave)
-    return gammas, per_length, numbers, told
+    return gammas, per_length, numbers, reported
 
 
 def _local_rate(velocity: Array, period: float) -> Array:
@@ -298,7 +298,7 @@ def _coefficients(
     beta = width**2 * omega / (2.0 * math.pi * problem.kinematic_viscosity)
     count = relative.shape[1]
     drag, inertia = np.empty((count, 2)), np.empty((count, 2, 2))
-    told: dict[str, Notice] = {}
+    reported: dict[str, Notice] = {}
     wet = block.wet.max(axis=0) > 0.0
     for strip in range(count):
         # drag laws of steady and wave flow take the largest velocity in KC
@@ -311,9 +311,9 @@ def _coefficients(
         found = problem.rule.at(section, flow)
         drag[strip], inertia[strip] = found.drag, found.inertia
         for notice in found.notices if wet[strip] else ():
-            known = told.get(notice.code)
+            known = reported.get(notice.code)
             if known is None or abs(notice.value - notice.limit) > abs(known.value - known.limit):
-                told[notice.code] = notice
+                reported[notice.code] = notice
     numbers = {
         "velocity_first": first,
         "velocity_second": second,
@@ -323,4 +323,4 @@ def _coefficients(
         "beta": beta,
         "frequency": omega,
     }
-    return numbers, drag, inertia, list(told.values())
+    return numbers, drag, inertia, list(reported.values())

@@ -116,17 +116,19 @@ def _sea_steps(
         return
     waves = waves_of(problem, sea, water)
     runs: list[tuple[Wave, WaveForces]] = []
-    told: list[Notice] = []
+    reported: list[Notice] = []
     for number, wave in enumerate(waves):
         progress(f"forces, {sea.name}", number, len(waves))
         found = march(problem, member, wave)
         runs.append((wave, found))
         collected.groups[f"{root}/time/{sea.name}/wave {number + 1}"] = time_dataset(wave, found)
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
-        told.extend(wave_notices(problem, member, wave, found))
+        reported.extend(wave_notices(problem, member, wave, found))
         collected.checks.append(_periodicity(sea.name, wave, found))
         yield
-    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
+    collected.notices.extend(
+        replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
+    )
     progress(f"forces, {sea.name}", len(waves), len(waves))
 
 
@@ -144,7 +146,7 @@ def _realisations(
     found: list[xr.Dataset] = []
     records: list[xr.Dataset] = []
     seeds: list[int] = []
-    told: list[Notice] = []
+    reported: list[Notice] = []
     variances: list[float] = []
     for number in range(count):
         progress(f"realisations, {sea.name}", number, count)
@@ -154,7 +156,7 @@ def _realisations(
         seeds.append(seed)
         found.append(sea_dataset(problem, member, [(wave, forces)]))
         records.append(time_dataset(wave, forces).assign_attrs(seed=seed))
-        told.extend(wave_notices(problem, member, wave, forces))
+        reported.extend(wave_notices(problem, member, wave, forces))
         variances.append(float(np.var(forces.elevation)))
         # kept after each realisation, so that an interrupted run holds those that ended
         numbers, kept = gathered(found, seeds)
@@ -162,7 +164,9 @@ def _realisations(
         collected.groups[f"{root}/waves/{sea.name}"] = numbers
         yield
     collected.checks.append(_variance(sea, variances))
-    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
+    collected.notices.extend(
+        replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
+    )
     progress(f"realisations, {sea.name}", count, count)
 
 

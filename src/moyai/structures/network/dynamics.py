@@ -112,7 +112,7 @@ def run(
     motions = motions_of(problem, plan.duration)
     nodes = kept_nodes(assembly, round(plan.duration / plan.output_step) + 1)
 
-    def told(what: str, done: float, total: float) -> None:
+    def reported(what: str, done: float, total: float) -> None:
         progress(plan.name, done, total)
 
     options = {**options_of(problem, plan), "duration": plan.duration - begin.time}
@@ -120,10 +120,10 @@ def run(
     if problem.bodies:
         options = _of_bodies(options)
         left = None if earlier is None else (earlier.state, earlier.bodies)
-        coupled = run_coupled(problem, network, hung, told, left, motions=motions, keep_nodes=nodes, **options)
+        coupled = run_coupled(problem, network, hung, reported, left, motions=motions, keep_nodes=nodes, **options)
         history = coupled.history
     else:
-        history = simulate(network, motions, start=begin, progress=told, keep_nodes=nodes, **options)
+        history = simulate(network, motions, start=begin, progress=reported, keep_nodes=nodes, **options)
     progress(plan.name, 1.0, 1.0)
     if history.status == "not_converged":
         history = sound_rows(history)
@@ -142,7 +142,7 @@ def run(
         notices += capsized(series)
     why = doubt(assembly, history, snaps, governing)
     sensitivity, told_of_peak, history = _worth(
-        problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, told
+        problem, assembly, plan, (begin, hung), (history, coupled), (governing, worst, why), earlier, reported
     )
     notices += told_of_peak
     failure = ""
@@ -166,7 +166,7 @@ def _worth(
     made: tuple[History, CoupledRun | None],
     peak: tuple[str, int, str],
     earlier: Earlier | None,
-    told: Progress,
+    reported: Progress,
 ) -> tuple[PeakSensitivity | None, list[Notice], History]:
     """Find what the peak of a run is worth: as asked for, or as far as it costs little.
 
@@ -186,13 +186,13 @@ def _worth(
         ], history  # fmt: skip
     try:
         if asked:
-            found = _sensitivity(problem, assembly, plan, starts, made, worst, told)
+            found = _sensitivity(problem, assembly, plan, starts, made, worst, reported)
             return found, list(found.notices()), history
         if problem.settings.mesh_check == "off" or coupled is not None or not affordable(history, bool(why)):
             return None, [unchecked(why)] if why else [], history
         motions = motions_of(problem, plan.duration)
         checked = check_peak(
-            assembly, history, motions, governing, starts[0], plan.skip, options_of(problem, plan), told
+            assembly, history, motions, governing, starts[0], plan.skip, options_of(problem, plan), reported
         )
         return checked, [unchecked(why)] if checked is None and why else [], history
     except (ConvergenceError, InputError) as error:

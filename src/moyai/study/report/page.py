@@ -421,15 +421,15 @@ def _matrix(pages: StudyPages, names: tuple[str, ...]) -> tuple[Block, ...]:
     governs = tuple(n for n, index in enumerate(chosen) if int(index) in {one.index for one in pages.governing})
     blocks.append(Table("matrix", "Cases", tuple(columns), emphasised=governs, failed=failures, collapsed=count > 60))
     if failures:
-        told = [int(chosen[n]) for n in failures]
+        reported = [int(chosen[n]) for n in failures]
         blocks.append(
             Table(
                 "failures",
                 "Cases that failed or were refused",
                 (
-                    Column("Case", [str(index) for index in told]),
-                    Column("Where", [pages.case_words(index) for index in told]),
-                    Column("Why", [str(pages.message[index]) for index in told]),
+                    Column("Case", [str(index) for index in reported]),
+                    Column("Where", [pages.case_words(index) for index in reported]),
+                    Column("Why", [str(pages.message[index]) for index in reported]),
                 ),
             )
         )

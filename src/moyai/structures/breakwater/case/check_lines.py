@@ -39,7 +39,7 @@ def count_panels(unit: FloatingUnit) -> None:
 
 
 def check_chain_on_bed(
-    model: Any, lines: Sequence[Any], depth: float, level: str, findings: Findings, told: set[str]
+    model: Any, lines: Sequence[Any], depth: float, level: str, findings: Findings, reported: set[str]
 ) -> None:
     """Warn of chains to the bed that leave nothing on it at rest: their anchors are pulled upwards.
 
@@ -57,7 +57,7 @@ def check_chain_on_bed(
         Names of the lines that were reported of at another level; the highest level comes first.
     """
     for index, (entry, line) in enumerate(zip(model.lines, lines)):
-        if not isinstance(line, Line) or line.name in told or not _begins_with_chain(entry):
+        if not isinstance(line, Line) or line.name in reported or not _begins_with_chain(entry):
             continue
         if line.bed_clearance(depth) != 0.0:
             continue
@@ -65,7 +65,7 @@ def check_chain_on_bed(
         uplift = float(state.vertical_tension_anchor[0])
         if not (float(state.grounded_length[0]) <= 0.0 < uplift):
             continue
-        told.add(line.name)
+        reported.add(line.name)
         needed = _length_with_chain_on_bed(line, depth)
         remedy = "bring the anchor nearer or lengthen the line"
         if needed is not None:

@@ -95,8 +95,8 @@ def irregular_sea(
         if ended != "interrupted" or not members:
             members.append(one)
         if ended == "diverged":
-            told = f"{unit.name}, {sea.name}, seed {one.seed}: {one.run.simulation.message}"
-            notices.append(Notice("diverged", told, severity="error"))
+            reported = f"{unit.name}, {sea.name}, seed {one.seed}: {one.run.simulation.message}"
+            notices.append(Notice("diverged", reported, severity="error"))
         if ended != "converged":
             status = {"diverged": "not_converged", "interrupted": "interrupted"}[ended]
             break
@@ -210,9 +210,9 @@ def _lines_in_motion(
     if not (passing & movable(unit)).any() or shared.settings.lines.mode != "auto":
         return members, [], moved, ()
     if not isinstance(shared.cummins.memory, StateSpaceMemory):
-        told = f"{unit.name}, {shared.sea.name}: lines in motion need the memory of the water as states"
+        reported = f"{unit.name}, {shared.sea.name}: lines in motion need the memory of the water as states"
         remedy = "give structure.gap_damping_lid where water resonates between hulls, or memory: state_space"
-        return members, [], moved, (Notice("lines-stay-at-rest", told, remedy=remedy),)
+        return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=remedy),)
     period = float(frequency.slow_sway_period) if "slow_sway_period" in frequency else 0.0
     given = EventSettings(shared.model, shared.cummins, shared.expected, shared.settings, shared.peak_period, period)
     loads = np.array([line.breaking_load for line in unit.lines])
@@ -224,8 +224,8 @@ def _lines_in_motion(
         try:
             found = events_in_motion(given, members, int(line), max(best, 0.0) * load, progress)
         except (InputError, ConvergenceError) as error:
-            told = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
-            return members, shown, moved, (Notice("lines-stay-at-rest", told, remedy=error.fault.remedy),)
+            reported = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
+            return members, shown, moved, (Notice("lines-stay-at-rest", reported, remedy=error.fault.remedy),)
         moved[line] = True
         members = [_with_events(shared.model, one, item, int(line)) for one, item in zip(members, found, strict=True)]
         counts += [item.count for item in found]
@@ -240,18 +240,18 @@ def _lines_in_motion(
                 for item, one in zip(found, members, strict=True)
             ]
     names = ", ".join(line.name for line, there in zip(unit.lines, moved, strict=True) if there)
-    told = (
+    reported = (
         f"{unit.name}, {shared.sea.name}: peaks of line {names} pass {SNAP_RATIO:g} times the mean with lines at rest "
         f"at every instant; {min(counts)} to {max(counts)} events of each realisation were run in motion, over "
         f"{given.lead:.0f} s up to each, until the next could not pass the largest"
     )
-    notices = [Notice("lines-set-in-motion", told, severity="information")]
+    notices = [Notice("lines-set-in-motion", reported, severity="information")]
     if still_open:
-        told = (
+        reported = (
             f"{unit.name}, {shared.sea.name}: in {still_open} searches of {len(counts)} the limit of {MOST_EVENTS} "
             "events ended the reruns; the tension is judged at the bound that the next event leaves open"
         )
-        notices.append(Notice("events-left-open", told, value=still_open, limit=0.0))
+        notices.append(Notice("events-left-open", reported, value=still_open, limit=0.0))
     return members, shown, moved, tuple(notices)
 
 

@@ -186,13 +186,13 @@ def run_with_lines(
     if not has_dynamic_lines(unit) or simulation.status == "interrupted":
         return TimeRun(name, simulation, attributes)
     if not isinstance(cummins.memory, StateSpaceMemory):
-        told = Notice(
+        reported = Notice(
             "lines-at-rest",
             f"{unit.name}, {name}: the memory of the water has no states, which lines in motion need; the lines are at "
             "rest at every instant",
             remedy="give structure.gap_damping_lid where water resonates between hulls",
         )
-        return TimeRun(name, replace(simulation, notices=(*simulation.notices, told)), attributes)
+        return TimeRun(name, replace(simulation, notices=(*simulation.notices, reported)), attributes)
     moving, lines = run_on_lines(
         model, cummins, forcing, expected, settings.lines,
         static_lines=compiled_lines(unit, reach, at_rest_only=True), waves=sea.waves, current=sea.current,

@@ -219,7 +219,7 @@ def _one_period(
         measures = own_water_motion(unit, np.array([omega]), np.array([sea.heading]))
         waves = MovingWater(forcing, np.array([omega]), np.array([0.5 * sea.height + 0j]), measures, ramp)
     run = run_with_lines(name, attributes, model, cummins, waves, expected, settings, around, duration, progress)
-    told: tuple[Notice, ...] = ()
+    reported: tuple[Notice, ...] = ()
     if _need_motion(model, run, begin, settings):
         moving = with_lines_in_motion(model)
         try:
@@ -229,9 +229,9 @@ def _one_period(
             model = moving
         except InputError as error:
             message = f"{unit.name}, {sea.name}: {error.fault.message}; lines stay at rest at every instant"
-            told = (Notice("lines-stay-at-rest", message, remedy=error.fault.remedy),)
+            reported = (Notice("lines-stay-at-rest", message, remedy=error.fault.remedy),)
     simulation = run.simulation
-    notices = (*simulation.notices, *told)
+    notices = (*simulation.notices, *reported)
     if simulation.status == "diverged":
         notices = (
             *notices,

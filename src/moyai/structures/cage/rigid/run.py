@@ -157,7 +157,7 @@ def _sea_steps(
 ) -> Iterator[None]:
     waves = waves_of(problem, sea, water)
     runs: list[Run] = []
-    told: list[Notice] = []
+    reported: list[Notice] = []
     for number, wave in enumerate(waves):
         progress(f"time, {sea.name}", number, len(waves))
         found = run_wave(problem, lines, rest, water, wave, progress=silent if wave.regular else progress)
@@ -166,7 +166,7 @@ def _sea_steps(
         series = time_dataset(problem, found, lines)
         collected.groups[f"{root}/time/{sea.name}/{label}"] = series
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, water, runs, lines)
-        told.extend(run_notices(problem, found))
+        reported.extend(run_notices(problem, found))
         collected.checks.extend(run_checks(sea.name, problem, found, lines))
         if found.march.status == "interrupted":
             collected.interrupted = STOPPED
@@ -177,7 +177,9 @@ def _sea_steps(
             )
         collected.notices.extend(height_notices(sea.name, series))
         yield
-    collected.notices.extend(replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(told))
+    collected.notices.extend(
+        replace(notice, message=f"{sea.name}: {notice.message}") for notice in most_severe(reported)
+    )
     progress(f"time, {sea.name}", len(waves), len(waves))
 
 

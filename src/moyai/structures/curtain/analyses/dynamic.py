@@ -76,9 +76,9 @@ def dynamic_answer(
     for number, plan in enumerate(plans):
         progress(f"dynamic, {plan.name}", number, len(plans))
         place = f"dynamic, {plan.name}"
-        plan, run, told = through(span, given.mesh, plan, progress, place)
+        plan, run, reported = through(span, given.mesh, plan, progress, place)
         progress(place, 1, 1)
-        notices.extend(told)
+        notices.extend(reported)
         worth: Worth | None = None
         interrupted = run.history.status == "interrupted"
         if run.history.status == "not_converged":

@@ -291,8 +291,8 @@ def _irregular(unit: LevelCurtain, settings: WaveSettings, sea: IrregularSea, im
             {"period": peak, "duration": sea.duration, "counted_from": transient, "seed": sea.seed + typical},
         ),
     }
-    told = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in shown.notices)
-    return WaveAnswer(groups, float(tops.mean()), float(tops.max()), (*told, *notices))
+    reported = tuple(replace(notice, message=f"{sea.name}: {notice.message}") for notice in shown.notices)
+    return WaveAnswer(groups, float(tops.mean()), float(tops.max()), (*reported, *notices))
 
 
 def _realisation(

@@ -96,14 +96,14 @@ def _map(group: Group, speed: Array, height: Array, used: Array, names: NDArray[
         for j in range(rows):
             value, x, y = float(used[i, j]), _LEFT + i * cell, _TOP + (rows - 1 - j) * _CELL
             name = "" if names is None else str(names[i, j])
-            told = (
+            reported = (
                 f"current {format_quantity(float(speed[i]), 'm/s')}, height {format_quantity(float(height[j]), 'm')}: "
                 f"{format_number(value)}" + (f", {name}" if name else "")
             )
             fill = colour(value) if math.isfinite(value) else "#d8d8d8"
             parts.append(
                 f'<rect x="{x:.1f}" y="{y:.1f}" width="{cell - 1:.1f}" height="{_CELL - 1:.1f}" fill="{fill}">'
-                f"<title>{escape(told)}</title></rect>"
+                f"<title>{escape(reported)}</title></rect>"
             )
             shown = format_fixed(value, 2) if value < 10.0 else (">9" if math.isfinite(value) else "–")
             label = f"{shown} {codes.get(name, '')}".strip() if cell > 52.0 else shown

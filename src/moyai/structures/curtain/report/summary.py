@@ -38,8 +38,8 @@ def models_table(levels: tuple[CurtainLevel, ...]) -> Table | None:
     for level in levels:
         group = level.part("models")
         names = group.labels("model")
-        told = [words(group, f"model_{what}", "model", len(names)) for what in ("of", "role", "reason")]
-        for name, of, role, reason in zip(names, *told, strict=True):
+        reported = [words(group, f"model_{what}", "model", len(names)) for what in ("of", "role", "reason")]
+        for name, of, role, reason in zip(names, *reported, strict=True):
             rows.setdefault((name, of, role), ([], reason))[0].append(level.name)
     if not rows:
         return None
