@@ -191,9 +191,9 @@ def main():
             f"  {name}: {found:.3f}{reported}" + (f" (planted or stated {planted:g})" if math.isfinite(planted) else "")
         )
     for left in fitted.left_out:
-        reported = ", ".join(f"{value:.3g}" for value in left.values)
+        found = ", ".join(f"{value:.3g}" for value in left.values)
         print(
-            f"    without {left.group}: {reported}; rms of its prediction {left.rms / 1000:.2f} kN of {left.count} waves"
+            f"    without {left.group}: {found}; rms of its prediction {left.rms / 1000:.2f} kN of {left.count} waves"
         )
     print("  error (calc - obs)/calc against M m_B: mean, root mean square")
     height, period, angle, current, tension, _ = pairs.T
