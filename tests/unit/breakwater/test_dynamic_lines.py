@@ -186,7 +186,7 @@ def test_a_tabulated_sea_is_the_sea_summed_at_the_nodes() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "reported"),
     [
         ({"segment": SEGMENT.replace(", mass: 0.1315 kg/m", "")}, "lacks mass"),
         ({"segment": SEGMENT.replace("drag_normal: 2.4, ", "")}, "lacks drag_normal"),

@@ -184,7 +184,7 @@ def test_drag_brings_a_body_to_its_terminal_speed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "reported"),
     [
         ({"mass": -1.0}, "mass of body 'b' is -1"),
         ({"inertia": (1.0, 1.0, 3.0)}, "none above the sum"),

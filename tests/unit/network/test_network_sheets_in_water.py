@@ -26,7 +26,9 @@ settings: {{duration: 0.5 s, output_step: 0.1 s}}
 """
 
 
-@pytest.mark.parametrize(("more", "told"), [("", True), (", added_mass: 114 kg/m2", False), (", added_mass: 0", False)])
+@pytest.mark.parametrize(
+    ("more", "reported"), [("", True), (", added_mass: 114 kg/m2", False), (", added_mass: 0", False)]
+)
 def test_a_run_tells_of_cloth_that_takes_no_water_along(more: str, reported: bool, tmp_path: Path) -> None:
     path = tmp_path / "case.yaml"
     path.write_text(CASE.format(more=more), encoding="utf-8")
@@ -49,7 +51,7 @@ def test_added_mass_lengthens_the_periods_of_a_flap(tmp_path: Path) -> None:
     assert slowest[1] / slowest[0] == pytest.approx(2.0, rel=1e-3)
 
 
-@pytest.mark.parametrize(("speed", "told"), [(0.05, False), (1.5, True)])
+@pytest.mark.parametrize(("speed", "reported"), [(0.05, False), (1.5, True)])
 def test_a_run_tells_of_sheets_that_turned_away_from_their_water(speed: float, reported: bool, tmp_path: Path) -> None:
     """A flap that streams in a strong current lies across to where its added mass acts."""
     text = CASE.replace("mass: 40 kg/m2", "mass: 2.5 kg/m2").replace("drag_normal: 0", "drag_normal: 1.5")

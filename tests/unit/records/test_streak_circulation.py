@@ -72,7 +72,9 @@ def test_scattered_drift_gives_the_planted_circulation(section, method, toleranc
     assert mirrored.limit == pytest.approx(-planted, rel=tolerance)
 
 
-@pytest.mark.parametrize(("sizes", "told"), [([1.2, 1.5, 2.0], True), ([1.5, 1.75, 2.0], False), ([1.5, 2, 9], True)])
+@pytest.mark.parametrize(
+    ("sizes", "reported"), [([1.2, 1.5, 2.0], True), ([1.5, 1.75, 2.0], False), ([1.5, 2, 9], True)]
+)
 def test_a_limit_carried_by_two_contours_is_told(sizes, reported):
     random = np.random.default_rng(5)
     points = cloud_around(SECTIONS[0], 60, 0.1, random)

@@ -317,7 +317,7 @@ def test_a_study_of_spectra_that_was_moved_with_its_files_is_the_same_study(tmp_
     assert keys[0] == keys[1] != keys[2]
 
 
-@pytest.mark.parametrize(("word", "told"), [("structure", "moyai run"), ("fit", "moyai fit")])
+@pytest.mark.parametrize(("word", "reported"), [("structure", "moyai run"), ("fit", "moyai fit")])
 def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path, word, reported):
     path = tmp_path / "other.yaml"
     path.write_text(f"moyai: 1\ntitle: t\n{word}: {{}}\n", encoding="utf-8")

@@ -108,7 +108,7 @@ def test_alone_it_tells_what_there_is_to_ask(folder):
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         (["-w", "height"], "no condition"),
         (["-w", "hight > 1"], "no axis and no response"),
@@ -181,7 +181,7 @@ def test_a_study_whose_cases_are_all_refused_is_refused_itself(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("variation", "told"),
+    ("variation", "reported"),
     [
         ("- lines_lost: {path: structure.anchors}", "no list 'structure.anchors'"),
         ("- lines_lost: {path: mooring}", "no list 'mooring'"),

@@ -25,6 +25,7 @@ from moyai.sea.water import Water
 from moyai.structures.network import model
 from moyai.structures.network.assembly import mesh_bars, sphere
 from moyai.structures.network.bodies import BodyPlan
+from moyai.structures.network.case import schema_bodies as bodies
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import ElevationRecord, NetworkCase, WavesOneByOne
 from moyai.structures.network.coefficients import BodyCoefficients
@@ -360,11 +361,11 @@ def _sheet(name: str, entry: parts.NetworkSheet) -> model.SheetPlan:
 
 
 def _body(
-    name: str, entry: parts.BoxBody | parts.CylinderBody | parts.AssembledBody, case: NetworkCase, folder: Path
+    name: str, entry: bodies.BoxBody | bodies.CylinderBody | bodies.AssembledBody, case: NetworkCase, folder: Path
 ) -> BodyPlan:
-    if isinstance(entry, parts.AssembledBody):
+    if isinstance(entry, bodies.AssembledBody):
         return _assembled(name, entry)
-    size = entry.size if isinstance(entry, parts.BoxBody) else (entry.diameter, entry.diameter, entry.height)
+    size = entry.size if isinstance(entry, bodies.BoxBody) else (entry.diameter, entry.diameter, entry.height)
     if entry.inertia is not None:
         inertia = entry.inertia
     else:
@@ -384,13 +385,13 @@ def _coefficients(entry: Any, case: NetworkCase, folder: Path) -> BodyCoefficien
     for key in ("reference_point", "body", "length_scale", "first_column"):
         if getattr(entry, key, None) is not None:
             options[key] = getattr(entry, key)
-    if isinstance(entry, parts.WamitBody):
+    if isinstance(entry, bodies.WamitBody):
         # WAMIT files are made dimensionless with these
         options |= {"density": case.site.density, "gravity": case.site.gravity}
     return BodyCoefficients(entry.program, folder / entry.path, entry.draught, entry.origin, entry.memory, options)
 
 
-def _assembled(name: str, entry: parts.AssembledBody) -> BodyPlan:
+def _assembled(name: str, entry: bodies.AssembledBody) -> BodyPlan:
     pieces: list[RodPart | VolumePart] = [
         RodPart(
             rod.start, rod.end, rod.diameter, rod.mass, rod.drag_normal, rod.added_mass_normal, rod.drag_end,

@@ -10,6 +10,7 @@ import numpy as np
 
 from moyai.case.check_sea import check_file
 from moyai.case.findings import Findings, duplicates
+from moyai.structures.network.case import schema_bodies as bodies
 from moyai.structures.network.case import schema_parts as parts
 from moyai.structures.network.case.schema import NetworkCase
 
@@ -17,8 +18,8 @@ from moyai.structures.network.case.schema import NetworkCase
 _FAR_FROM_AFLOAT = 0.1
 
 
-def _volume(body: parts.BoxBody | parts.CylinderBody) -> float:
-    if isinstance(body, parts.BoxBody):
+def _volume(body: bodies.BoxBody | bodies.CylinderBody) -> float:
+    if isinstance(body, bodies.BoxBody):
         return math.prod(body.size)
     return math.pi / 4.0 * body.diameter**2 * body.height
 
@@ -38,7 +39,7 @@ def check_bodies(model: NetworkCase, findings: Findings, folder: Path) -> None:
                     f"'{point}' starts at z = {height:.4g} m above still water, under the bed",
                     allowed=f"at least {bed:.4g} m", remedy="raise the position of the body",
                 )  # fmt: skip
-        if isinstance(body, parts.AssembledBody):
+        if isinstance(body, bodies.AssembledBody):
             continue
         most = model.site.density * _volume(body)
         if body.mass > most:
@@ -59,13 +60,13 @@ def _turned(angles: list[float]) -> np.ndarray:
 
 
 def _check_coefficients(
-    name: str, body: parts.BoxBody | parts.CylinderBody, density: float, folder: Path, findings: Findings
+    name: str, body: bodies.BoxBody | bodies.CylinderBody, density: float, folder: Path, findings: Findings
 ) -> None:
     given, path = body.coefficients_file, ("structure", "bodies", name, "coefficients_file")
     assert given is not None
     check_file((*path, "path"), given.path, folder, findings, folder_allowed=given.program == "nemoh")
-    box = isinstance(body, parts.BoxBody)
-    height = body.size[2] if isinstance(body, parts.BoxBody) else body.height
+    box = isinstance(body, bodies.BoxBody)
+    height = body.size[2] if isinstance(body, bodies.BoxBody) else body.height
     if given.draught >= height:
         findings.fault(
             (*path, "draught"), f"a draught of {given.draught:g} m drowns a body of {height:g} m",

@@ -38,9 +38,9 @@ from moyai.case.schema_types import (
 )
 from moyai.core import quantities
 from moyai.structures.network.case.criteria import NetworkCriteria, NetworkKeeps
+from moyai.structures.network.case.schema_bodies import NetworkBody
 from moyai.structures.network.case.schema_parts import (
     NetworkBed,
-    NetworkBody,
     NetworkLine,
     NetworkLineType,
     NetworkNet,
