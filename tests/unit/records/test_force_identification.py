@@ -109,6 +109,22 @@ def test_vector_and_component_drag_of_a_circular_orbit_differ_by_the_speed_facto
     assert vector.drag.value / component.drag.value == pytest.approx(8 / (3 * math.pi), rel=2e-3)
 
 
+def test_a_flow_that_turns_asks_for_the_vector_form_and_not_for_harmonics():
+    angle = 2 * math.pi * np.arange(600) / 60.0
+    time, velocity = angle / 6.0, 0.5 * np.column_stack([np.cos(angle), -0.5 * np.sin(angle)])
+    rate = 3.0 * np.column_stack([-np.sin(angle), -0.5 * np.cos(angle)])
+    force = 180.0 * rate + 150.0 * velocity * np.linalg.norm(velocity, axis=1)[:, np.newaxis]
+    setup = Setup(1000.0, 0.1, (0.3, 0.3), period=2 * math.pi / 6.0, methods=("least_squares",))
+    record = ForceRecord(time, force, velocity)
+    (notice,) = identify(record, setup).notices
+    assert notice.code == "identification-drag-form" and notice.value == pytest.approx(0.5)
+    assert "drag_form: vector" in notice.remedy
+    assert identify(record, replace(setup, form="vector")).notices == ()
+    # a flow to and fro has nothing to turn
+    flat = ForceRecord(time, force, velocity * np.array([1.0, 0.1]))
+    assert "identification-drag-form" not in {notice.code for notice in identify(flat, setup).notices}
+
+
 def test_harmonics_bias_least_squares_unless_they_are_fitted_beside_it():
     record, setup = synthetic(np.random.default_rng(3), harmonics=0.05)
     plain = identify(record, replace(setup, methods=("fourier", "least_squares")))

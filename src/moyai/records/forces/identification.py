@@ -22,6 +22,7 @@ from moyai.records.forces.fit import (
 )
 from moyai.records.forces.notices import (
     collinear_notices,
+    drag_form_notices,
     harmonic_notices,
     implausible_notices,
     periodicity_notices,
@@ -140,6 +141,9 @@ def identify(record: ForceRecord, setup: Setup) -> Identification:
             if setup.regular and method != "fourier":
                 notices.extend(harmonic_notices(fit, used, omega))
     notices += unknown_notices(fits) + implausible_notices(fits, setup)
+    if turning := drag_form_notices(used, rate, setup):
+        # the harmonics that this leaves over are no fault of the record
+        notices = [*turning, *(notice for notice in notices if notice.code != "identification-harmonics")]
     speeds = velocity_amplitudes(used, period, orders if setup.regular else None)
     numbers = tuple(float(speed * period / width) for speed, width in zip(speeds, setup.widths))
     if len(blocks) < 8:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from moyai.core.arrays import Array
 from moyai.core.errors import InputError
 from moyai.core.validity import Notice
-from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, Fit, Setup, beside_columns
+from moyai.records.forces.fit import UNKNOWN_SHARE, Coefficient, Fit, Setup, beside_columns, force_columns
 from moyai.records.forces.record import ForceRecord
 
 #: Condition number of the scaled equations above which inertia and drag cannot be distinguished
 LARGEST_CONDITION = 1e7
 #: Share of the variance of a velocity outside its harmonics that is reported, and above which it is not periodic
 TOLD_SHARE, APERIODIC_SHARE = 0.01, 0.5
+#: Speed across over that along from which the form of drag matters [-]
+TURNING_FLOW = 0.2
 #: C_M over its ideal value within which measurements lie
 PLAUSIBLE_INERTIA = (0.2, 3.0)
 
@@ -120,6 +124,44 @@ def periodicity_notices(record: ForceRecord, period: float, orders: int) -> list
                 )
             )
     return notices
+
+
+def drag_form_notices(record: ForceRecord, rate: Array, setup: Setup) -> list[Notice]:
+    """Report a flow that turns, fitted by each axis with its own speed alone, where the common speed explains more.
+
+    In a circular orbit the common speed is steady, and the drag of one axis is 3 pi/8 of that with its own speed.
+    """
+    if setup.form != "component" or record.components < 2:
+        return []
+    spread = record.velocity.std(axis=0)
+    ratio = float(spread.min()) / max(float(spread.max()), 1e-300)
+    if ratio < TURNING_FLOW:
+        return []
+    own, common = (_unexplained(record, rate, replace(setup, form=form)) for form in ("component", "vector"))
+    if common >= own:
+        return []
+    return [
+        Notice(
+            "identification-drag-form",
+            f"the flow turns, its speed across is {ratio:.2g} of that along; drag u|u| of each axis leaves the common "
+            "speed out, and C_D comes out up to 18 % high",
+            value=ratio,
+            limit=TURNING_FLOW,
+            remedy="give 'drag_form: vector'",
+            source="8/(3 pi) of a circular orbit",
+        )
+    ]
+
+
+def _unexplained(record: ForceRecord, rate: Array, setup: Setup) -> float:
+    """Return the variance that inertia, drag and a mean leave of the forces, over theirs, summed over components."""
+    left = 0.0
+    for component in range(record.components):
+        columns = np.column_stack([force_columns(record, rate, setup, component), np.ones(record.time.size)])
+        force = record.force[:, component]
+        answer, *_ = np.linalg.lstsq(columns, force, rcond=None)
+        left += float(np.var(force - columns @ answer)) / max(float(np.var(force)), 1e-300)
+    return left
 
 
 def harmonic_notices(fit: Fit, record: ForceRecord, omega: float) -> list[Notice]:
