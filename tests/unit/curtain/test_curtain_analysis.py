@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,9 @@ from moyai.case.builder import build
 from moyai.case.reader import load_case
 from moyai.core.errors import InputError
 from moyai.core.results import read_result
+from moyai.structures.curtain.analyses.dynamic import SpanLoad
 from moyai.structures.curtain.analyses.limits import fastest_water, sea_loads
+from moyai.structures.curtain.analyses.loads import loads_dataset
 from moyai.structures.curtain.assembly import assemble
 from moyai.structures.curtain.limits.utilisation import utilisation
 from moyai.structures.curtain.run import run
@@ -513,3 +516,18 @@ def test_site_axes_turn_with_the_curtain(tmp_path):
     first, second = (run(problem_of(tmp_path, case)).tree["SWL/loads"] for case in (text, turned))
     for name in ("steady_load", "wave_load"):
         assert first[name].values == pytest.approx(second[name].values, rel=1e-9, nan_ok=True)
+
+
+def test_a_joint_is_bounded_by_its_cable_at_the_end_at_which_the_cable_is_judged(small):
+    problem, _ = small
+    unit = assemble(problem, "SWL", 0.0)
+    unit = replace(unit, curtain=replace(unit.curtain, joint_distance=1e3))
+    settings = replace(problem.settings, analyses=("statics", "waves"))
+    curve = drag_curve(unit, 2.0)
+    moved = {"upper cable": SpanLoad(9e3, "sea", False, 12e3)}
+    table, _ = loads_dataset(unit, settings, (), (), None, None, curve, moved)
+    cable, joint = (table.sel(component=name) for name in ("upper cable", "joint"))
+    assert float(cable["governing_load"]) == pytest.approx(9e3) and float(cable["governing_high"]) == pytest.approx(
+        12e3
+    )
+    assert float(joint["governing_load"]) == pytest.approx(12e3) and str(joint["load_bound"].values) == "at most"

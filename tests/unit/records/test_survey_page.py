@@ -202,3 +202,45 @@ waves: {channels: [elevation]}
     share = float(re.search(r"([\d.]+) % of the time lies in no wave", figures["highest wave"]["detail"])[1])
     # a ninth, and the waves cut by the ends of three blocks of fifty waves
     assert 11.1 <= share <= 11.1 + 100.0 * 2.0 / 50.0
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.002])
+def test_calm_blocks_do_not_enter_the_reflection_of_the_page(tmp_path: Path, noise: float) -> None:
+    """Planted 0.3 in the first and last of three blocks; still water, or the noise of the gauges, between them."""
+    time = np.arange(0.0, 1800.0, 0.25)
+    number, random = 0.1, np.random.default_rng(0)
+    omega = math.sqrt(9.81 * number * math.tanh(number * 20.0))
+    columns = [time]
+    for x in (0.0, 8.0, 18.0):
+        level = np.cos(number * x - omega * time) + 0.3 * np.cos(-number * x - omega * time + 0.4)
+        level[(time >= 600.0) & (time < 1200.0)] = 0.0
+        columns.append(level + noise * random.standard_normal(time.size))
+    np.savetxt(
+        tmp_path / "g.csv", np.column_stack(columns), delimiter=",", header="time,a,b,c", comments="", fmt="%.4f"
+    )
+    (tmp_path / "r.yaml").write_text("""
+moyai: 1
+title: reflection
+site: {water_depth: 20, density: 1025, gravity: 9.81, x_axis_bearing_deg: 270}
+loggers:
+  - name: g
+    file: g.csv
+    time: {column: time}
+    channels:
+      - {name: a, column: a, unit: m, kind: elevation}
+      - {name: b, column: b, unit: m, kind: elevation}
+      - {name: c, column: c, unit: m, kind: elevation}
+blocks: {length: 10 min}
+reflection: {front: [{channel: a, x: 0}, {channel: b, x: 8}, {channel: c, x: 18}]}
+spectrum: {segment: 100 s, lowest: 0.04 Hz, highest: 0.5 Hz}
+waves: {channels: [a]}
+""")
+    result = run_survey(load_survey(tmp_path / "r.yaml"))
+    shown = next(
+        block for section in compose(result).sections for block in section.blocks if isinstance(block, KeyFigures)
+    )
+    (figure,) = [item for item in shown.items if item.label == "reflection"]
+    assert float(figure.text) == pytest.approx(0.3, abs=0.005)
+    if noise == 0.0:
+        assert math.isnan(result.tree["reflection"]["reflection_coefficient"].values[1])
+        assert figure.detail == "of the energy of 2 blocks"

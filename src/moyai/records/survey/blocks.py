@@ -25,6 +25,9 @@ from moyai.records.survey.tensions import find_delay, split_tension, tension_sta
 from moyai.series.spectra import WelchOptions, cross_spectra, spectrum_of
 from moyai.series.zero_crossing import STATISTICS, Waves, find_waves
 
+#: Part of the samples of a block that repeat the one before, beyond which a gauge stands still: calm water, or stuck
+_STILL = 0.5
+
 
 @dataclass(frozen=True, eq=False)
 class BlockResult:
@@ -373,6 +376,10 @@ def _reflection(survey: Survey, data: _Samples, notices: list[Notice]) -> dict[s
         found = separate_irregular(step, front, use.front_positions, survey.water, options, lowest=low, highest=high)
     except InputError as error:
         notices.append(Notice("reflection-skipped", f"a block has no reflection analysis: {error.fault.message}"))
+        return {}
+    still = float(np.mean(np.diff(front, axis=0) == 0.0, axis=0).max())
+    if still > _STILL and math.isfinite(found.reflection):
+        notices.append(Notice("reflection-skipped", "a block in which a gauge stands still has no reflection analysis"))
         return {}
     notices.extend(found.notices)
     out = {

@@ -25,7 +25,8 @@ EQUATIONS = (
         "5",
         "balance with the energy of the rope",
         (f"{_SEAS}.anchor_energy.EnergyModel.fluctuating_tension", f"{_SEAS}.anchor_energy.calibrate"),
-        "M = 0.2 would be a negative added mass: it is a share of energy that reaches the rope",
+        "M = 0.2 would be a negative added mass: it is a share of energy that reaches the rope, or K = 890 kN/m is "
+        "the force of a strain of one, 890 kN, and M is 9.2",
     ),
 )
 

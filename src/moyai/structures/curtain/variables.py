@@ -278,7 +278,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "steady_load": ("", "steady load"),
     "steady_low": ("", "steady load at the lower end of its band"),
     "steady_high": ("", "steady load at the upper end of its band"),
-    "governing_high": ("", "governing load with the upper end of the steady load"),
+    "governing_high": ("", "governing load with the upper end of the steady load, or of the mean of realisations"),
     "utilisation_high": ("1", "governing load at the upper end times safety factor over capacity"),
     "wave_load": ("", "what waves add to the steady load"),
     "impact_load": ("", "what an impact adds to the steady load"),

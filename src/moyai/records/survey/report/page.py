@@ -12,6 +12,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.results import Result
+from moyai.core.wording import counted
 from moyai.records.survey.report.compass import come_from, with_bearings
 from moyai.records.survey.report.lanes import Span, flag_lanes
 from moyai.report.document import (
@@ -217,11 +218,14 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
                 "longer time"
             )
             items.append(KeyFigure("largest tension", format_quantity(float(largest[row, column]), "N"), detail))
-    for name, words in (("reflection_coefficient", "reflection"), ("transmission_coefficient", "transmission")):
+    for name, words in (("reflected_height", "reflection"), ("transmitted_height", "transmission")):
         if "reflection" in tree.children and name in tree["reflection"]:
-            values = _values(tree, "reflection", name)
-            if np.isfinite(values).any():
-                items.append(KeyFigure(words, f"{np.nanmean(values):.3f}", "mean of the blocks"))
+            height, incident = _values(tree, "reflection", name), _values(tree, "reflection", "incident_height")
+            known = np.isfinite(height) & (incident > 0.0)
+            if known.any():
+                # calm blocks have coefficients of noise: energies are added, not coefficients
+                ratio = math.sqrt(float(np.sum(height[known] ** 2) / np.sum(incident[known] ** 2)))
+                items.append(KeyFigure(words, f"{ratio:.3f}", f"of the energy of {counted(int(known.sum()), 'block')}"))
     shares = [
         _values(tree, "blocks", f"channel_{place}_share")
         for place, _ in enumerate(str(tree["blocks"].attrs.get("channels", "")).split("\n"))
@@ -229,7 +233,6 @@ def _key_figures(result: Result, clock: _Clock) -> list[Block]:
     ]
     if shares:
         sound = float(np.nanmean(shares))
-        # 99.75 % is not all of it
         words = format_percent(min(sound, 0.999) if sound < 1.0 else sound, 3)
         items.append(KeyFigure("sound samples", words, "mean of the channels"))
     return [KeyFigures(tuple(items))]
@@ -489,9 +492,8 @@ def _whole(tree: Any, clock: _Clock) -> list[Block]:
         scale, shape = float(group["weibull_scale"].values[tone]), float(group["weibull_shape"].values[tone])
         shown = np.where(exceeded > 0.0, exceeded, np.nan)
         series.append(Series(f"{gauge}, all waves", {"h": ratio}, np.log10(shown), 0, tone, "points"))
-        series.append(
-            Series(f"{gauge}, Weibull", {"h": ratio}, -((ratio / scale) ** shape) * math.log10(math.e), 0, tone)
-        )
+        fitted = -((ratio / scale) ** min(shape, 100.0)) * math.log10(math.e)
+        series.append(Series(f"{gauge}, Weibull", {"h": ratio}, fitted, 0, tone))
     rayleigh = -((ratio * 1.41573) ** 2) * math.log10(math.e)
     series.append(Series("Rayleigh", {"h": ratio}, rayleigh, 0, len(gauges), dash="dash"))
     floor = -math.ceil(math.log10(max(float(np.max(group["wave_count"].values)), 10.0)))
@@ -592,9 +594,7 @@ def _quality(tree: Any, clock: _Clock) -> list[Block]:
         collapsed=True,
     )
     channels = str(tree["blocks"].attrs.get("channels", "")).split("\n")
-    spans = [
-        Span(str(name), str(what), float(start), float(end))
-        for name, what, start, end in zip(channel, kind, group["start"].values, group["end"].values, strict=True)
-    ]
+    ends = zip(channel, kind, group["start"].values, group["end"].values, strict=True)
+    spans = [Span(str(name), str(what), float(start), float(end)) for name, what, start, end in ends]
     begin, end = float(clock.start[0]), float(clock.start[-1]) + clock.length
     return [flag_lanes(channels, spans, begin, end, clock.text), summary, listing]

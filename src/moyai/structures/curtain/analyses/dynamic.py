@@ -34,11 +34,15 @@ _LONGER, _SAME = 4, 0.01
 
 
 class SpanLoad(NamedTuple):
-    """Highest tension of a component [N, N/m], the run in which it stands, and whether smaller cells give more."""
+    """Highest tension of a component, the run in which it stands, whether smaller cells give more, and what is judged.
+
+    Tensions in N, N/m; what is judged is the upper end of the interval of the mean, the tension itself without one.
+    """
 
     load: float
     run: str
     at_least: bool = False
+    judged: float = math.nan
 
 
 @dataclass(frozen=True)

@@ -129,17 +129,18 @@ def _decided(
 ) -> dict[str, float | str]:
     """Return a row with the load of the moving span, the load that governs and its utilisation."""
     component = str(row["component"])
-    line, run, more = moved.get("anchor line" if component == "anchor" else component, SpanLoad(math.nan, ""))
-    load = line * _factor(unit, component) if component == "anchor" else line
+    span = moved.get("anchor line" if component == "anchor" else component, SpanLoad(math.nan, ""))
+    factor, run = _factor(unit, component) if component == "anchor" else 1.0, span.run
+    load = factor * span.load
     row = row | {"dynamic_load": load, "dynamic_source": run if math.isfinite(load) else ""}
     row |= governing_load(row, roles)
-    if more and row["governing"] == "dynamic":
+    if span.at_least and row["governing"] == "dynamic":
         row |= {"load_bound": "at least"}
     governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
     # the upper end of the steady load is added to what waves add; with a moving span it counts where it alone is more
     above = governing - steady + high
     if row["governing"] == "dynamic":
-        above = max(governing, high) if math.isfinite(high) else governing
+        above = max(one for one in (governing, high, factor * span.judged) if math.isfinite(one))
     row |= {"governing_high": above}
     judged = math.isfinite(float(row["capacity"])) and math.isfinite(governing)
     strength = _strength(unit, component)
@@ -150,15 +151,21 @@ def _decided(
 
 
 def _with_joint(unit: LevelCurtain, rows: list[dict[str, float | str]]) -> list[dict[str, float | str]]:
-    """Return the rows with the joint loaded by no more than the load line in which it lies [eq:curtain-joint-load]."""
+    """Return the rows with the joint loaded by no more than the load line in which it lies [eq:curtain-joint-load].
+
+    As a bound it takes the upper end of what the cables vary with.
+    """
     cables = [row for row in rows if row["component"] in ("upper cable", "lower cable")]
     strength = _strength(unit, "joint")
     for row in rows:
         if row["component"] != "joint":
             continue
-        for load, used in (("steady_low", ""), ("steady_load", ""), ("steady_high", ""),
-                           ("governing_load", "utilisation"), ("governing_high", "utilisation_high")):  # fmt: skip
-            known = [float(cable[load]) for cable in cables if math.isfinite(float(cable[load]))]
+        for load, end, used in (
+            ("steady_low", "steady_low", ""), ("steady_load", "steady_load", ""), ("steady_high", "steady_high", ""),
+            ("governing_load", "governing_high", "utilisation"),
+            ("governing_high", "governing_high", "utilisation_high"),
+        ):  # fmt: skip
+            known = [float(cable[end]) for cable in cables if math.isfinite(float(cable[end]))]
             if not known or not float(row[load]) > sum(known):
                 continue
             row[load] = sum(known)

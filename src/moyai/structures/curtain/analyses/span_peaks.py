@@ -174,7 +174,7 @@ class _Runs:
         peaks, coords = event_variables(self.samples)
         self.groups[""] = labelled(xr.Dataset({**table, "run_of": run_of, **peaks}, coords={"run": names, **coords}))
         found = governing_peaks(self.samples)
-        loads = {name: SpanLoad(peak.value, peak.run, peak.at_least) for name, (_, peak) in found.items()}
+        loads = {name: SpanLoad(peak.value, peak.run, peak.at_least, peak.judged) for name, (_, peak) in found.items()}
         notices = (*self.notices, *mesh_notices(found))
         return DynamicAnswer(self.groups, tuple(self.checks), notices, loads)
 
