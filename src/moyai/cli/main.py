@@ -39,6 +39,7 @@ from moyai.cli.convert import Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
+from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
 from moyai.cli.study import study
@@ -67,6 +68,7 @@ app.command()(query)
 app.command()(fit)
 app.add_typer(measure)
 app.command()(compare)
+app.command("report")(report_command)
 app.command()(convert)
 app.command()(scale)
 app.command()(reproduce)

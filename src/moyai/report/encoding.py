@@ -14,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.core.arrays import Array
 from moyai.report.document import Cell, Column, Figure, Series, Table
 from moyai.report.formatting import DisplayUnit, axis_label, display_unit, plain_number
 
@@ -149,8 +150,45 @@ def _same_abscissa(first: Series, second: Series) -> bool:
     )
 
 
+def figure_columns(figure: Figure) -> list[tuple[str, Sequence[Cell] | Array]]:
+    """Return the data of a figure as columns: series over one abscissa share its columns, others follow side by side.
+
+    Parameters
+    ----------
+    figure : Figure
+
+    Returns
+    -------
+    list of (str, sequence)
+        Heading with its unit, and numbers (texts below the bars of a bar chart); columns may differ in length.
+    """
+    if figure.categories:
+        bars: list[tuple[str, Sequence[Cell] | Array]] = [("", figure.categories)]
+        return bars + [(axis_label(item.label, figure.panels[item.panel].unit), item.y) for item in figure.series]
+    groups: list[list[Series]] = []
+    for item in figure.series:
+        for group in groups:
+            if _same_abscissa(group[0], item):
+                group.append(item)
+                break
+        else:
+            groups.append([item])
+    columns: list[tuple[str, Sequence[Cell] | Array]] = []
+    for group in groups:
+        for abscissa in figure.abscissae:
+            if abscissa.key in group[0].x:
+                columns.append((axis_label(abscissa.label, abscissa.unit), group[0].x[abscissa.key]))
+        for item in group:
+            panel = figure.panels[item.panel]
+            name = (
+                item.label if len(figure.panels) == 1 or item.label == panel.label else f"{panel.label}: {item.label}"
+            )
+            columns.append((axis_label(name, panel.unit), item.y))
+    return columns
+
+
 def figure_csv(figure: Figure) -> str:
-    """Return the data of a figure as CSV; series over one abscissa share its columns, others follow side by side.
+    """Return the data of a figure as CSV, as :func:`figure_columns` has them.
 
     Parameters
     ----------
@@ -161,33 +199,9 @@ def figure_csv(figure: Figure) -> str:
     str
         Header row with units, then numbers; empty cells where nothing is known.
     """
-    if figure.categories:
-        columns = [["", *figure.categories]]
-        for item in figure.series:
-            panel = figure.panels[item.panel]
-            columns.append([axis_label(item.label, panel.unit), *(plain_number(value) for value in item.y)])
-        return _columns_to_csv(columns)
-    groups: list[list[Series]] = []
-    for item in figure.series:
-        for group in groups:
-            if _same_abscissa(group[0], item):
-                group.append(item)
-                break
-        else:
-            groups.append([item])
-    columns = []
-    for group in groups:
-        for abscissa in figure.abscissae:
-            if abscissa.key in group[0].x:
-                values = [plain_number(float(value)) for value in group[0].x[abscissa.key]]
-                columns.append([axis_label(abscissa.label, abscissa.unit), *values])
-        for item in group:
-            panel = figure.panels[item.panel]
-            name = (
-                item.label if len(figure.panels) == 1 or item.label == panel.label else f"{panel.label}: {item.label}"
-            )
-            columns.append([axis_label(name, panel.unit), *(plain_number(float(value)) for value in item.y)])
-    return _columns_to_csv(columns)
+    return _columns_to_csv(
+        [[name, *(_csv_cell(value, 1.0) for value in values)] for name, values in figure_columns(figure)]
+    )
 
 
 def _columns_to_csv(columns: Sequence[Sequence[str]]) -> str:

@@ -1,4 +1,4 @@
-"""Write a result as a report: one HTML file, tables as CSV, a PDF on request."""
+"""Write a result as a report: one HTML file, a workbook, tables as CSV; PDF and Word on request."""
 
 from __future__ import annotations
 
@@ -51,6 +51,8 @@ def write_report(
     directory: str | os.PathLike[str],
     *,
     pdf: bool = False,
+    docx: bool = False,
+    template: Path | None = None,
     name: str = "report",
     document: Document | None = None,
 ) -> list[Path]:
@@ -66,6 +68,10 @@ def write_report(
         Made if it does not exist.
     pdf : bool
         Write ``<name>.pdf`` too.
+    docx : bool
+        Write ``<name>.docx`` too; needs the extra ``moyai[docx]``.
+    template : Path, optional
+        Word document whose styles, heads and feet are taken.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
     document : Document, optional
@@ -74,7 +80,7 @@ def write_report(
     Returns
     -------
     list of Path
-        The files written: HTML first, then the PDF, then the tables.
+        The files written: HTML first, PDF and Word where they are asked for, the workbook, the tables.
 
     Raises
     ------
@@ -84,6 +90,7 @@ def write_report(
     if not name or name in {".", ".."} or re.search(r'[\\/:*?"<>|\x00-\x1f]', name):
         raise InputError(f"{name!r} is no file name", path="name", remedy="leave out slashes and the like")
     from moyai.report.html import render_html
+    from moyai.report.workbook import render_workbook
 
     folder = Path(directory)
     document = document or compose_document(result)
@@ -92,6 +99,11 @@ def write_report(
         from moyai.report.pdf import render_pdf
 
         written.append(write_whole(folder / f"{name}.pdf", render_pdf(document)))
+    if docx:
+        from moyai.report.word import render_docx
+
+        written.append(write_whole(folder / f"{name}.docx", render_docx(document, template)))
+    written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
     used: set[str] = set()
     for table in document.tables():
         base, count = slug(table.key), 2

@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 
     from moyai.flexible.flow import Current
 
+#: Peak periods in a record, below which its largest values say nothing of the sea state
+LEAST_WAVES = 10.0
+
 
 @dataclass(frozen=True)
 class _Sea:
@@ -313,7 +316,7 @@ def _gathered(unit: FloatingUnit, members: list[Realisation], moved: NDArray[np.
 
 
 def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArray[np.bool_]) -> tuple[Notice, ...]:
-    """Tell of peaks out of range, of drift that was switched off, of records that are too short for slow drift."""
+    """Report peaks out of range, drift that was switched off, and records that are too short."""
     unit, sea = shared.model.unit, shared.sea
     out: list[Notice] = []
     where = f"{unit.name}, {sea.name}"
@@ -323,6 +326,19 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
         largest = data.line_tension_maximum_of_realisation.values[:, kept]
         mean = np.broadcast_to(data.line_tension_mean.values[kept], largest.shape)
         out.extend(snap_notices(f"{where}, time domain", names, largest, mean))
+    waves = sea.duration / shared.peak_period
+    if waves < LEAST_WAVES:
+        out.append(
+            Notice(
+                "short-record",
+                f"{where}: the record of {sea.duration:g} s holds {waves:.3g} peak periods; its largest values are "
+                "none of the sea state",
+                value=waves,
+                limit=LEAST_WAVES,
+                severity="error",
+                remedy=f"give a duration of {LEAST_WAVES * shared.peak_period:.0f} s or more",
+            )
+        )
     if "slow_sway_period" not in frequency:
         return tuple(out)
     period, slow = float(frequency.slow_sway_period), float(frequency.slow_motion_deviation.values[0])
@@ -343,10 +359,11 @@ def _notices(shared: _Sea, data: xr.Dataset, frequency: xr.Dataset, moved: NDArr
         out.append(
             Notice(
                 "few-slow-cycles",
-                f"{where}: the record of {sea.duration:g} s holds {cycles:.0f} natural periods of sway ({period:.3g} "
-                "s); its largest slow excursion scatters widely",
+                f"{where}: the record of {sea.duration:g} s holds {cycles:.2g} natural periods of sway ({period:.3g} "
+                "s); its largest slow excursion " + ("scatters widely" if cycles >= 1.0 else "is not in it"),
                 value=cycles,
                 limit=LEAST_CYCLES,
+                severity="warning" if cycles >= 1.0 else "error",
                 remedy=f"give a duration of {LEAST_CYCLES * period:.0f} s or more, or more settings.time.realisations",
             )
         )

@@ -1,0 +1,50 @@
+"""``moyai report``: the report of a result again, without running."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
+from moyai.core.errors import InputError
+
+
+def report(
+    results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.nc of any command.", show_default=False)],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder; that of the results when absent.")
+    ] = None,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Write report.pdf too.")] = False,
+    docx: Annotated[bool, typer.Option("--docx", help="Write report.docx too (Word).")] = False,
+    template: Annotated[
+        Path | None,
+        typer.Option("--template", metavar="DOCX", help="Word document whose styles, heads and feet are taken."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
+) -> None:
+    """Write the report of a result again, without running: page, workbook and tables; PDF and Word on request."""
+    with guard(as_json):
+        if template is not None and not docx:
+            raise InputError("a template is for Word", path="--template", remedy="add --docx")
+        from moyai.cli.runner import prepare_output
+        from moyai.cli.tables import figure_records, key_figures, print_summary
+        from moyai.core.results import read_result
+        from moyai.report.writer import compose_document, write_report
+
+        started = time.perf_counter()
+        result = read_result(results)
+        folder = prepare_output(output if output is not None else results.parent)
+        with progress_bars(quiet) as progress:
+            progress("report", 0, 1)
+            document = compose_document(result)
+            files = write_report(result, folder, pdf=pdf, docx=docx, template=template, document=document)
+        if as_json:
+            figures = figure_records(key_figures(result, document))
+            print_json({"key_figures": figures, "files": list(map(str, files)), "faults": []})
+        elif not quiet:
+            print_summary(rich_console(), result, files, time.perf_counter() - started, document)
+        raise typer.Exit(OK)

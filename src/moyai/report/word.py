@@ -1,0 +1,236 @@
+"""Write a document as a Word document (DOCX): text, tables and captions by the styles of a template, figures as images.
+
+The styles are those of Word by their English names (``Heading 1``, ``Table Grid``, ``Caption``), so that the template
+of an office gives fonts, heads and feet.
+"""
+
+from __future__ import annotations
+
+import io
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from moyai.core.errors import InputError
+from moyai.report.document import (
+    Animation,
+    Block,
+    Choice,
+    Document,
+    Drawing,
+    Figure,
+    KeyFigures,
+    Listing,
+    NoticeBlock,
+    Paragraph,
+    Table,
+)
+from moyai.report.encoding import column_unit
+from moyai.report.figures_static import draw_figure
+from moyai.report.formatting import pretty_unit
+from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
+
+WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
+_DOTS = 160  # per inch
+
+
+def render_docx(document: Document, template: Path | None = None) -> bytes:
+    """Return the report as DOCX.
+
+    Parameters
+    ----------
+    document : Document
+        Of choices marked so, the default alone is written, with a line that says it.
+    template : Path, optional
+        A DOCX whose styles, page, heads and feet are taken; its text stays in front. Word's own when left out.
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    InputError
+        When python-docx is not installed, or the template cannot be read.
+    """
+    try:
+        import docx
+    except ImportError:
+        raise InputError(
+            "Word documents need the package python-docx", path="--docx", remedy='pip install "moyai[docx]"'
+        ) from None
+    try:
+        paper = docx.Document(None if template is None else str(template))
+    except Exception as error:
+        # python-docx raises what its zip and XML readers raise
+        raise InputError(f"{template} cannot be read as DOCX: {error}", path="--template") from None
+    _Writer(paper).write(document)
+    stream = io.BytesIO()
+    paper.save(stream)
+    return stream.getvalue()
+
+
+class _Writer:
+    """Writes blocks one below the other; counts figures and tables."""
+
+    def __init__(self, paper: Any) -> None:
+        self._paper = paper
+        self._known = {style.name for style in paper.styles}
+        self._count = {"Figure": 0, "Table": 0}
+
+    def write(self, document: Document) -> None:
+        """Write title, badges, sections and foot."""
+        paper = self._paper
+        paper.core_properties.title = document.title
+        self._text(document.title, "Title")
+        if document.subtitle:
+            self._text(document.subtitle, "Subtitle")
+        for badge in badges_of(document):
+            line = paper.add_paragraph()
+            line.add_run(f"{badge.label}: {badge.word}".removeprefix(": ")).bold = True
+            line.add_run(f". {badge.message}" if badge.message else "")
+        _field(paper.add_paragraph(), r'TOC \o "1-2" \h', "Contents: press F9 to fill in")
+        for section in document.sections:
+            self._heading(section.title, 1)
+            for block in section.blocks:
+                self._block(block, 2)
+        self._text(foot_text(document))
+
+    def _text(self, text: str, style: str = "") -> Any:
+        return self._paper.add_paragraph(text, style=style if style in self._known else None)
+
+    def _heading(self, text: str, level: int) -> None:
+        name = f"Heading {level}"
+        line = self._text(text, name)
+        if name not in self._known:
+            line.runs[0].bold = True
+
+    def _block(self, block: Block, level: int) -> None:
+        match block:
+            case Figure():
+                self._picture(block.title, block.caption, draw_figure(block, image_format="png", width=WIDTH,
+                                                                      dots_per_inch=_DOTS))  # fmt: skip
+            case Drawing():
+                self._picture(block.title, block.caption, _rasterised(block.fixed_svg))
+            case Animation():
+                if block.still:
+                    self._picture(f"{block.title}: the governing moment", block.caption, _rasterised(block.still))
+            case Table():
+                self._table(block)
+            case KeyFigures():
+                rows = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in block.items]
+                self._grid((("Governing number", "Value", "Where, model and band"), *rows), widths=(0.3, 0.2, 0.5))
+            case Paragraph():
+                self._text(block.text)
+            case Listing():
+                self._heading(block.title, min(level, 4))
+                self._listing(block.text)
+            case NoticeBlock():
+                for severity, first, second in notice_items(block):
+                    line = self._paper.add_paragraph()
+                    line.add_run(f"{severity.capitalize()}: ").bold = True
+                    line.add_run(f"{first}. {second}".strip().removesuffix(" "))
+            case Choice():
+                self._choice(block, level)
+
+    def _choice(self, choice: Choice, level: int) -> None:
+        several = len(choice.options) > 1
+        options = choice.options if choice.print_all or not several else (choice.options[choice.default],)
+        for option in options:
+            if several:
+                self._heading(f"{choice.label}: {option.label}", min(level, 4))
+            for block in option.blocks:
+                self._block(block, level + several)
+        if len(options) < len(choice.options):
+            others = ", ".join(option.label for option in choice.options if option is not options[0])
+            self._text(f"Also in the interactive report: {others}.")
+
+    def _caption(self, kind: str, text: str, keep: bool = False) -> None:
+        """Write a caption with a number that Word counts and can refer to."""
+        self._count[kind] += 1
+        line = self._text(f"{kind} ", "Caption")
+        line.paragraph_format.keep_with_next = keep
+        _field(line, f"SEQ {kind} \\* ARABIC", str(self._count[kind]))
+        line.add_run(f". {text}")
+
+    def _picture(self, title: str, caption: str, image: bytes) -> None:
+        from docx.shared import Cm
+
+        self._paper.add_picture(io.BytesIO(image), width=Cm(WIDTH))
+        self._paper.paragraphs[-1].paragraph_format.keep_with_next = True
+        self._caption("Figure", f"{title}. {caption}" if caption else title)
+
+    def _table(self, table: Table) -> None:
+        self._caption("Table", table.title, keep=True)
+        units = [pretty_unit(column_unit(column).name) for column in table.columns]
+        heads = [f"{column.label} [{unit}]" if unit else column.label for column, unit in zip(table.columns, units)]
+        texts = [column_texts(column) for column in table.columns]
+        textual = [is_text_column(column) for column in table.columns]
+        self._grid((heads, *zip(*texts, strict=True)), right=[not text for text in textual], bold=table.emphasised)
+        if table.note:
+            self._text(table.note)
+
+    def _grid(self, rows: Any, *, right: Any = (), bold: tuple[int, ...] = (), widths: tuple[float, ...] = ()) -> None:
+        """Write rows of texts, the first as heads that stand on every page."""
+        from docx.enum.text import WD_ALIGN_PARAGRAPH
+        from docx.oxml import OxmlElement
+        from docx.shared import Cm, Pt
+
+        size = Pt(8.5 if len(rows[0]) < 8 else 6.5)
+        grid = self._paper.add_table(rows=len(rows), cols=len(rows[0]))
+        if "Table Grid" in self._known:
+            grid.style = "Table Grid"
+        for number, (texts, row) in enumerate(zip(rows, grid.rows)):
+            for column, (text, cell) in enumerate(zip(texts, row.cells)):
+                if widths:
+                    cell.width = Cm(WIDTH * widths[column])
+                line = cell.paragraphs[0]
+                line.paragraph_format.space_after = Pt(0)
+                run = line.add_run(text)
+                run.font.size = size
+                run.bold = number == 0 or number - 1 in bold
+                if number > 0 and right and right[column]:
+                    line.alignment = WD_ALIGN_PARAGRAPH.RIGHT
+        grid.rows[0]._tr.get_or_add_trPr().append(OxmlElement("w:tblHeader"))
+        self._paper.add_paragraph()
+
+    def _listing(self, text: str) -> None:
+        from docx.shared import Pt
+
+        line = self._paper.add_paragraph()
+        run = line.add_run(text)
+        run.font.name, run.font.size = "Consolas", Pt(7.5)
+
+
+def _field(paragraph: Any, code: str, shown: str) -> None:
+    """Append a field that Word updates, with what it shows until then."""
+    from docx.oxml import OxmlElement
+    from docx.oxml.ns import qn
+
+    def part(kind: str) -> Any:
+        mark = OxmlElement("w:fldChar")
+        mark.set(qn("w:fldCharType"), kind)
+        return mark
+
+    instruction = OxmlElement("w:instrText")
+    instruction.set(qn("xml:space"), "preserve")
+    instruction.text = f" {code} "
+    for element in (part("begin"), instruction, part("separate")):
+        paragraph.add_run()._r.append(element)
+    paragraph.add_run(shown)
+    paragraph.add_run()._r.append(part("end"))
+
+
+def _rasterised(svg: str) -> bytes:
+    """Return a drawing as PNG."""
+    import typst
+
+    with tempfile.TemporaryDirectory(prefix="moyai-report-") as name:
+        folder = Path(name)
+        (folder / "drawing.svg").write_text(svg, encoding="utf-8")
+        (folder / "drawing.typ").write_text(
+            f'#set page(width: auto, height: auto, margin: 0pt)\n#image("drawing.svg", width: {WIDTH}cm)\n',
+            encoding="utf-8",
+        )
+        found = typst.compile(str(folder / "drawing.typ"), root=name, format="png", ppi=float(_DOTS))
+        return bytes(found if isinstance(found, bytes) else found[0])

@@ -1,0 +1,228 @@
+"""Write a document as a workbook (XLSX): first page, tables and data of figures, a sheet each, numbers as numbers."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.report.decimate import envelope_indices
+from moyai.report.document import Block, Cell, Choice, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
+from moyai.report.encoding import column_unit, figure_columns
+from moyai.report.formatting import axis_label
+from moyai.report.html import badges_of, foot_text, notice_items
+
+if TYPE_CHECKING:
+    from xlsxwriter.format import Format
+    from xlsxwriter.worksheet import Worksheet
+
+#: Characters of the name of a sheet, and rows of a sheet, at most
+NAME, ROWS = 31, 1_048_576
+#: Samples of a series, beyond which extremes alone are written
+LONGEST = 2000
+_WIDEST = 60
+
+
+def render_workbook(document: Document) -> bytes:
+    """Return the report as XLSX.
+
+    Parameters
+    ----------
+    document : Document
+
+    Returns
+    -------
+    bytes
+        First the sheet ``Summary`` with the governing numbers, the notices and links to all others; then the tables in
+        the units that the page shows, the data of the figures, and the case. What is not known is an empty cell.
+    """
+    from xlsxwriter import Workbook
+
+    stream = io.BytesIO()
+    options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    with Workbook(stream, options) as book:
+        book.set_properties({"title": document.title, "comments": foot_text(document)})
+        _Book(book, document).write()
+    return stream.getvalue()
+
+
+class _Book:
+    """The sheets of a document."""
+
+    def __init__(self, book: Any, document: Document) -> None:
+        self._book, self._document = book, document
+        self._bold = book.add_format({"bold": True})
+        self._title = book.add_format({"bold": True, "font_size": 14})
+        self._head = book.add_format({"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"})
+        self._wrapped = book.add_format({"text_wrap": True, "valign": "top"})
+        self._top = book.add_format({"valign": "top"})
+        self._quiet = book.add_format({"font_color": "#666666"})
+        self._row = {
+            "emphasised": book.add_format({"bold": True}),
+            "failed": book.add_format({"font_color": "#B00020"}),
+        }
+        self._used: set[str] = set()
+        self._sheets: list[tuple[str, str]] = []
+
+    def write(self) -> None:
+        """Write every sheet, the summary as the first."""
+        summary = self._sheet("Summary", "")
+        for section in self._document.sections:
+            for block in section.blocks:
+                self._block(block, section.title)
+        self._summary(summary)
+
+    def _sheet(self, title: str, listed: str) -> Worksheet:
+        """Return a new sheet with a name that no other has, listed in the summary under a text."""
+        plain = " ".join(re.sub(r"[\[\]:*?/\\]", " ", title).split()).strip("'") or "sheet"
+        name, count = _shortened(plain, NAME), 2
+        while name.lower() in self._used or name.lower() == "history":
+            end = f" {count}"
+            name, count = _shortened(plain, NAME - len(end)) + end, count + 1
+        self._used.add(name.lower())
+        if listed:
+            self._sheets.append((name, listed))
+        return self._book.add_worksheet(name)
+
+    def _block(self, block: Block, place: str) -> None:
+        match block:
+            case Table():
+                self._table(block, place)
+            case Figure():
+                self._figure(block, place)
+            case Listing():
+                sheet = self._sheet(block.title, f"{place}: {block.title}")
+                sheet.set_column(0, 0, 120)
+                for number, line in enumerate(block.text.splitlines()[:ROWS]):
+                    sheet.write_string(number, 0, line)
+            case Choice():
+                several = len(block.options) > 1
+                for option in block.options:
+                    for item in option.blocks:
+                        self._block(item, f"{place}, {option.label}" if several else place)
+
+    def _table(self, table: Table, place: str) -> None:
+        sheet = self._sheet(table.title, f"{place}: {table.title}")
+        marks = dict.fromkeys(table.emphasised, self._row["emphasised"])
+        marks |= dict.fromkeys(table.failed, self._row["failed"])
+        columns: list[tuple[str, Sequence[Cell] | Array]] = []
+        for column in table.columns:
+            unit = column_unit(column)
+            values = [_scaled(value, unit.factor) for value in column.values]
+            columns.append((axis_label(column.label, unit.name), values))
+        self._columns(sheet, columns, marks)
+        if table.note:
+            sheet.write_string(table.row_count + 2, 0, table.note, self._quiet)
+
+    def _figure(self, figure: Figure, place: str) -> None:
+        thinned, words = _thinned(figure)
+        sheet = self._sheet(figure.title, f"{place}: data of the figure '{figure.title}'{words}")
+        self._columns(sheet, figure_columns(thinned), {})
+
+    def _columns(
+        self, sheet: Worksheet, columns: Sequence[tuple[str, Sequence[Cell] | Array]], marks: dict[int, Format]
+    ) -> None:
+        """Write headed columns; the heads stay in sight."""
+        sheet.freeze_panes(1, 0)
+        for number, (head, values) in enumerate(columns):
+            sheet.write_string(0, number, head, self._head)
+            widest = len(head) // 2
+            for row, value in enumerate(values[: ROWS - 1]):
+                widest = max(widest, _write(sheet, row + 1, number, value, marks.get(row)))
+            sheet.set_column(number, number, min(max(widest, 10) + 2, _WIDEST))
+
+    def _summary(self, sheet: Worksheet) -> None:
+        document = self._document
+        sheet.set_column(0, 0, 42)
+        sheet.set_column(1, 1, 24)
+        sheet.set_column(2, 2, 90)
+        sheet.write_string(0, 0, document.title, self._title)
+        sheet.write_string(1, 0, document.subtitle)
+        row = 3
+        for badge in badges_of(document):
+            sheet.write_string(row, 0, badge.label or "Status", self._top)
+            sheet.write_string(row, 1, badge.word, self._bold)
+            sheet.write_string(row, 2, badge.message, self._wrapped)
+            row += 1
+        row += 1
+        for block in document.blocks():
+            if isinstance(block, KeyFigures):
+                for item in block.items:
+                    sheet.write_string(row, 0, item.label[:1].upper() + item.label[1:], self._top)
+                    sheet.write_string(row, 1, item.text, self._wrapped)
+                    sheet.write_string(row, 2, item.detail, self._wrapped)
+                    row += 1
+        row += 1
+        for block in document.blocks():
+            if isinstance(block, NoticeBlock):
+                for severity, first, second in notice_items(block):
+                    sheet.write_string(row, 0, severity.capitalize(), self._top)
+                    sheet.write_string(row, 2, f"{first}\n{second}" if second else first, self._wrapped)
+                    row += 1
+        row += 1
+        for name, listed in self._sheets:
+            quoted = name.replace("'", "''")
+            sheet.write_url(row, 0, f"internal:'{quoted}'!A1", string=name)
+            sheet.write_string(row, 2, listed)
+            row += 1
+        sheet.write_string(row + 1, 0, foot_text(document), self._quiet)
+
+
+def _shortened(text: str, length: int) -> str:
+    """Return the words of a text that fit into a length, the first cut where it alone does not."""
+    if len(text) <= length:
+        return text
+    return (text[: length + 1].rpartition(" ")[0] or text[:length]).rstrip(" ,;:'")
+
+
+def _thinned(figure: Figure) -> tuple[Figure, str]:
+    """Return a figure with long series thinned, every extreme kept, and words that say so."""
+    lengths = {len(item.y) for item in figure.series if len(item.y) > LONGEST}
+    if not lengths:
+        return figure, ""
+    kept = {}
+    for length in lengths:
+        alike = np.column_stack([np.asarray(item.y, dtype=float) for item in figure.series if len(item.y) == length])
+        kept[length] = envelope_indices(alike, max(LONGEST // (2 * alike.shape[1]), 1))
+    series = tuple(
+        replace(
+            item,
+            x={key: np.asarray(values)[kept[len(item.y)]] for key, values in item.x.items()},
+            y=np.asarray(item.y)[kept[len(item.y)]],
+        )
+        if len(item.y) in kept
+        else item
+        for item in figure.series
+    )
+    most = max(lengths)
+    words = f", {len(kept[most])} of {most} samples, every extreme kept"
+    return replace(figure, series=series), words
+
+
+def _scaled(value: Cell, factor: float) -> Cell:
+    if value is None or isinstance(value, str):
+        return value
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else "no"
+    # a factor of 1e-3 leaves a tail of rounding that a spreadsheet shows
+    return float(f"{float(value) * factor:.15g}")
+
+
+def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None) -> int:
+    """Write a cell; return the characters that it takes."""
+    if isinstance(value, str):
+        sheet.write_string(row, column, value, style)
+        return len(value)
+    if value is None or math.isnan(value):
+        return 0
+    if math.isinf(value):
+        sheet.write_string(row, column, "inf" if value > 0.0 else "-inf", style)
+        return 4
+    sheet.write_number(row, column, float(value), style)
+    return 10

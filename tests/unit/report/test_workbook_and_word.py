@@ -1,0 +1,158 @@
+"""The report as workbook and as Word document, read by programs of other people: openpyxl and python-docx."""
+
+from __future__ import annotations
+
+import io
+import math
+import warnings
+
+import docx
+import numpy as np
+import openpyxl
+import pytest
+from typer.testing import CliRunner
+
+from moyai.cli.main import app
+from moyai.core.errors import InputError
+from moyai.core.validity import Notice
+from moyai.report.document import (
+    Abscissa,
+    Badge,
+    Choice,
+    Column,
+    Document,
+    Drawing,
+    Figure,
+    KeyFigure,
+    KeyFigures,
+    Listing,
+    NoticeBlock,
+    Option,
+    Panel,
+    Section,
+    Series,
+    Table,
+)
+from moyai.report.word import render_docx
+from moyai.report.workbook import LONGEST, NAME, render_workbook
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20"><rect width="40" height="20"/></svg>'
+
+
+def _table(title: str = "Lines [at rest]: a table with a long name") -> Table:
+    return Table(
+        "lines",
+        title,
+        (
+            Column("Line", ["=1+1", "seaward"]),
+            Column("Tension", [12345.678, math.nan], "N"),
+            Column("Holds", [True, False]),
+            Column("Reserve", [math.inf, -0.25], "1"),
+        ),
+        note="a note",
+        emphasised=(1,),
+    )
+
+
+def _figure(count: int) -> Figure:
+    time = np.linspace(0.0, 10.0, count)
+    level = np.sin(time)
+    level[count // 3] = 7.0
+    series = (Series("gauge", {"t": time}, level), Series("model", {"t": time}, -level, dash="dash"))
+    return Figure("record", "Record", (Abscissa("t", "time", "s"),), (Panel("level", "m"),), series)
+
+
+def _document(count: int = 50) -> Document:
+    choice = Choice("level", "Water level", (Option("HWL", (_table(),)), Option("LWL", (_table(),))))
+    blocks = (
+        KeyFigures((KeyFigure("largest tension", "12.3 kN", "line seaward"),)),
+        NoticeBlock((Notice("steep", "the wave is steep", 0.2, 0.14, remedy="take a lower one"),)),
+        choice,
+        _figure(count),
+        Drawing("section", "Section", SVG, SVG, "to scale"),
+        Listing("Case", "moyai: 1\n=a\n"),
+    )
+    badge = Badge("Design", "Holds", "all criteria hold", "good")
+    return Document("A title", "under it", "converged", "", (Section("all", "All", blocks),), {}, (badge,))
+
+
+def _read(document: Document) -> openpyxl.Workbook:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return openpyxl.load_workbook(io.BytesIO(render_workbook(document)))
+
+
+def test_a_sheet_a_table_with_units_in_the_heads_and_numbers_as_numbers():
+    book = _read(_document())
+    names = book.sheetnames
+    assert names[0] == "Summary" and len(set(map(str.lower, names))) == len(names)
+    assert all(len(name) <= NAME for name in names)
+    sheet = book[names[1]]
+    rows = list(sheet.iter_rows(values_only=True))
+    assert rows[0][:4] == ("Line", "Tension [kN]", "Holds", "Reserve")
+    # a text that looks like a formula stays a text; what is not known is empty
+    assert rows[1][:4] == ("=1+1", pytest.approx(12.345678), "yes", "inf") and sheet["A2"].data_type == "s"
+    assert rows[2][:4] == ("seaward", None, "no", -0.25)
+    assert sheet["A3"].font.bold and not sheet["A2"].font.bold
+
+
+def test_the_summary_has_badges_governing_numbers_notices_and_a_link_to_every_sheet():
+    book = _read(_document())
+    cells = [cell for row in book["Summary"].iter_rows() for cell in row if cell.value is not None]
+    texts = [str(cell.value) for cell in cells]
+    for wanted in ("A title", "Holds", "Largest tension", "12.3 kN", "Warning"):
+        assert wanted in texts
+    targets = {cell.hyperlink.location.rpartition("!")[0].strip("'") for cell in cells if cell.hyperlink}
+    assert targets == set(book.sheetnames[1:])
+    assert any("LWL: Lines [at rest]" in text for text in texts)
+
+
+def test_long_figures_keep_their_extremes_and_say_so():
+    book = _read(_document(10 * LONGEST))
+    rows = list(book["Record"].iter_rows(values_only=True))
+    values = np.array([row[1] for row in rows[1:]], dtype=float)
+    assert rows[0] == ("time [s]", "gauge [m]", "model [m]")
+    assert len(values) <= LONGEST + 2 and values.max() == 7.0
+    assert any("every extreme kept" in str(row[2]) for row in book["Summary"].iter_rows(values_only=True))
+    short = list(_read(_document(50))["Record"].iter_rows(values_only=True))
+    assert len(short) == 51
+
+
+def test_word_has_headings_counted_captions_tables_and_images():
+    paper = docx.Document(io.BytesIO(render_docx(_document())))
+    styles = [line.style.name for line in paper.paragraphs]
+    assert styles[0] == "Title" and "Heading 1" in styles and "Heading 2" in styles
+    captions = [line for line in paper.paragraphs if line.style.name == "Caption"]
+    assert [line.text.split(".")[0] for line in captions] == ["Table 1", "Table 2", "Figure 1", "Figure 2"]
+    assert "SEQ Figure" in captions[2]._p.xml
+    grid = paper.tables[1]
+    assert [cell.text for cell in grid.rows[0].cells] == ["Line", "Tension [kN]", "Holds", "Reserve"]
+    assert len(paper.inline_shapes) == 2
+
+
+def test_word_takes_the_styles_of_a_template(tmp_path):
+    office = docx.Document()
+    office.add_paragraph("Letterhead of the office")
+    office.styles["Heading 1"].font.name = "Courier New"
+    office.save(tmp_path / "office.docx")
+    paper = docx.Document(io.BytesIO(render_docx(_document(), tmp_path / "office.docx")))
+    assert paper.paragraphs[0].text == "Letterhead of the office"
+    assert paper.styles["Heading 1"].font.name == "Courier New"
+    (tmp_path / "bad.docx").write_text("no zip", encoding="utf-8")
+    with pytest.raises(InputError, match="cannot be read as DOCX"):
+        render_docx(_document(), tmp_path / "bad.docx")
+
+
+def test_the_report_is_written_again_from_the_results(tmp_path):
+    runner = CliRunner()
+    case = tmp_path / "member.yaml"
+    assert runner.invoke(app, ["new", "member", "-o", str(case)]).exit_code == 0
+    assert runner.invoke(app, ["run", str(case), "-o", str(tmp_path / "run"), "-q"]).exit_code == 0
+    first = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    done = runner.invoke(app, ["report", str(tmp_path / "run" / "results.nc"), "-o", str(tmp_path / "again"), "--docx"])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "again" / "report.html").read_text(encoding="utf-8") == first
+    book = openpyxl.load_workbook(tmp_path / "again" / "report.xlsx")
+    tables = list((tmp_path / "again" / "report_tables").glob("*.csv"))
+    assert len(book.sheetnames) > len(tables) and (tmp_path / "again" / "report.docx").exists()
+    assert runner.invoke(app, ["report", str(tmp_path / "none.nc")]).exit_code == 2
