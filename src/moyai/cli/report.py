@@ -23,10 +23,14 @@ def report(
         Path | None,
         typer.Option("--template", metavar="DOCX", help="Word document whose styles, heads and feet are taken."),
     ] = None,
+    dxf: Annotated[
+        str | None,
+        typer.Option("--dxf", metavar="m|mm", help="Write the drawings to scale as DXF too, in metres or millimetres."),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
-    """Write the report of a result again, without running: page, workbook and tables; PDF and Word on request."""
+    """Write the report of a result again, without running: page, workbook and tables; PDF, Word, DXF on request."""
     with guard(as_json):
         if template is not None and not docx:
             raise InputError("a template is for Word", path="--template", remedy="add --docx")
@@ -41,7 +45,7 @@ def report(
         with progress_bars(quiet) as progress:
             progress("report", 0, 1)
             document = compose_document(result)
-            files = write_report(result, folder, pdf=pdf, docx=docx, template=template, document=document)
+            files = write_report(result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, document=document)
         if as_json:
             figures = figure_records(key_figures(result, document))
             print_json({"key_figures": figures, "files": list(map(str, files)), "faults": []})

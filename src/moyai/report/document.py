@@ -289,11 +289,55 @@ class Listing:
     collapsed: bool = True
 
 
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """A line or an outline through ``points`` of shape (n, 2), or (n, 3) in space [m]; ``style`` names its kind."""
+
+    style: str
+    points: Array
+    closed: bool = False
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A circle [m]."""
+
+    style: str
+    centre: tuple[float, float]
+    radius: float
+
+
+@dataclass(frozen=True)
+class Words:
+    """A text of ``size`` [m] at a point [m]; ``anchor`` is ``start``, ``middle`` or ``end``."""
+
+    style: str
+    place: tuple[float, float]
+    text: str
+    size: float
+    anchor: str
+
+
+@dataclass(frozen=True)
+class Distance:
+    """A dimension from one point to another [m], drawn ``offset`` [m] away, downwards or to the right."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    text: str
+    offset: float
+    size: float
+
+
+Shape = Stroke | Disc | Words | Distance
+
+
 @dataclass(frozen=True)
 class Drawing:
-    """A drawing made of SVG by :mod:`moyai.report.drawing`.
+    """A drawing made of SVG by :mod:`moyai.report.sketch`.
 
     ``svg`` uses only CSS classes for colour, so that it follows light and dark; ``fixed_svg`` carries its colours.
+    ``shapes`` hold the same to scale in metres; none for a picture that is not to scale.
     """
 
     key: str
@@ -301,13 +345,15 @@ class Drawing:
     svg: str
     fixed_svg: str
     caption: str = ""
+    shapes: tuple[Shape, ...] = ()
 
 
 @dataclass(frozen=True)
 class Animation:
     """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`.
 
-    ``still`` is an SVG of its governing moment with colours, for paper.
+    ``still`` is an SVG of its governing moment with colours, for paper; ``shapes`` a structure in space that
+    stands still, for drawing programs.
     """
 
     key: str
@@ -315,6 +361,7 @@ class Animation:
     scene: Mapping[str, Any]
     caption: str = ""
     still: str = ""
+    shapes: tuple[Shape, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -1,185 +1,16 @@
-"""Drawings to scale as SVG: a small builder, and the section of a floating body on its lines.
-
-Colours come from CSS classes, so that a drawing follows light and dark on the page; :func:`with_colours` writes the
-light colours into the drawing for paper.
-"""
+"""Drawings to scale of a floating body: on its lines, its section, one moment of its motion."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 
 import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.report.formatting import format_number, trimmed
-
-_PAPER = """
-.water{fill:#cfe4f1;stroke:none}.surface{stroke:#1f7ab0;fill:none;stroke-width:1.4}
-.bed{fill:#cdbfa9;stroke:none}.bed-line{stroke:#1b2430;stroke-width:1;fill:none}
-.hull{fill:#eceff2;stroke:#1b2430;stroke-width:1.5;stroke-linejoin:round}
-.mooring{fill:none;stroke:#0b5a8a;stroke-width:1.8}.anchor{fill:#1b2430}
-.axis{stroke:#b3261e;fill:none;stroke-width:1.3}.axis-head{fill:#b3261e}.axis-text{fill:#b3261e;font-style:italic}
-.sheet{fill:none;stroke:#b4540a;stroke-width:3;stroke-linecap:round;stroke-linejoin:round}
-.ghost{fill:none;stroke:#b4540a;stroke-width:1;stroke-dasharray:4 3;opacity:.75}
-.buoy{fill:#f2b544;stroke:#1b2430;stroke-width:1}
-.flow{stroke:#1f7ab0;fill:none;stroke-width:1.2}.flow-head{fill:#1f7ab0}
-.chord{stroke:#5b6775;fill:none;stroke-width:.8;stroke-dasharray:2 3}
-.dimension{stroke:#5b6775;fill:none;stroke-width:.8}.dimension-head{fill:#5b6775}
-.note{fill:#1b2430}.faint{fill:#5b6775}.marker{fill:#1b2430;stroke:none}.hollow{fill:#fff;stroke:#1b2430;stroke-width:1}
-"""
-
-
-def with_colours(svg: str) -> str:
-    """Return a drawing that carries its (light) colours along, for files and paper."""
-    start = svg.index(">") + 1
-    return f"{svg[:start]}<style>{_PAPER}</style>{svg[start:]}"
-
-
-class Sketch:
-    """Collects the parts of a drawing in metres and writes them in pixels, x to the right and z up.
-
-    Parameters
-    ----------
-    extent : tuple of float
-        x from, x to, z from, z to [m].
-    width : float
-        Width of the drawing [px]; the height follows from the scale.
-    margin : tuple of float
-        Left, top, right, bottom [px].
-    title : str
-        Read out by screen readers.
-    """
-
-    def __init__(
-        self,
-        extent: tuple[float, float, float, float],
-        *,
-        width: float = 960.0,
-        margin: tuple[float, float, float, float] = (10.0, 10.0, 10.0, 10.0),
-        title: str = "",
-    ) -> None:
-        self.x0, x1, self.z0, self.z1 = extent
-        self.left, self.top = margin[0], margin[1]
-        self.scale = (width - margin[0] - margin[2]) / (x1 - self.x0)
-        self.width = width
-        self.height = self.scale * (self.z1 - self.z0) + margin[1] + margin[3]
-        self.title = title
-        self._parts: list[str] = []
-
-    def px(self, x: float) -> float:
-        """Pixel of x [m]."""
-        return self.left + self.scale * (x - self.x0)
-
-    def pz(self, z: float) -> float:
-        """Pixel of z [m]."""
-        return self.top + self.scale * (self.z1 - z)
-
-    def path(self, points: Array, style: str, closed: bool = False) -> None:
-        """Draw a line or an area through ``points`` of shape (n, 2) [m]."""
-        known = points[np.isfinite(points).all(axis=1)]
-        if len(known) < 2:
-            return
-        steps = " ".join(f"{self.px(x):.1f},{self.pz(z):.1f}" for x, z in known)
-        self._parts.append(f'<path class="{style}" d="M{steps.replace(" ", " L")}{" Z" if closed else ""}"/>')
-
-    def rectangle(self, x0: float, z1: float, x1: float, z0: float, style: str) -> None:
-        """Fill a rectangle between two corners [m]."""
-        self._parts.append(
-            f'<rect class="{style}" x="{self.px(x0):.1f}" y="{self.pz(z1):.1f}" '
-            f'width="{self.scale * (x1 - x0):.1f}" height="{max(self.scale * (z1 - z0), 0.0):.1f}"/>'
-        )
-
-    def dot(self, x: float, z: float, radius: float, style: str) -> None:
-        """Draw a dot of ``radius`` [px]."""
-        self._parts.append(f'<circle class="{style}" cx="{self.px(x):.1f}" cy="{self.pz(z):.1f}" r="{radius}"/>')
-
-    def text(
-        self,
-        x: float,
-        z: float,
-        words: str,
-        style: str = "note",
-        *,
-        shift: tuple[float, float] = (0.0, 0.0),
-        anchor: str = "middle",
-        size: float = 12.0,
-    ) -> None:
-        """Write ``words`` at a point [m], shifted in pixels."""
-        self._parts.append(
-            f'<text class="{style}" x="{self.px(x) + shift[0]:.1f}" y="{self.pz(z) + shift[1]:.1f}" '
-            f'text-anchor="{anchor}" font-size="{size:g}">{escape(words)}</text>'
-        )
-
-    def arrow(self, start: tuple[float, float], end: tuple[float, float], style: str, both: bool = False) -> None:
-        """Draw an arrow between two points in pixels."""
-        (x0, y0), (x1, y1) = start, end
-        self._parts.append(f'<path class="{style}" d="M{x0:.1f},{y0:.1f} L{x1:.1f},{y1:.1f}"/>')
-        length = math.hypot(x1 - x0, y1 - y0)
-        if length < 1e-9:
-            return
-        ux, uy = (x1 - x0) / length, (y1 - y0) / length
-        self._head(x1, y1, ux, uy, style)
-        if both:
-            self._head(x0, y0, -ux, -uy, style)
-
-    def _head(self, x: float, y: float, ux: float, uy: float, style: str) -> None:
-        size = 7.0 if style == "axis" else 5.5
-        bx, by = x - size * ux, y - size * uy
-        wx, wy = -0.4 * size * uy, 0.4 * size * ux
-        wings = f"L{bx + wx:.1f},{by + wy:.1f} L{bx - wx:.1f},{by - wy:.1f} Z"
-        self._parts.append(f'<path class="{style}-head" d="M{x:.1f},{y:.1f} {wings}"/>')
-
-    def turn(self, x: float, z: float, radius: float, style: str) -> None:
-        """Draw a clockwise three-quarter arrow about a point: positive roll, the top towards +x."""
-        cx, cy = self.px(x), self.pz(z)
-        angle = math.radians(-20.0)
-        sx, sy = cx - radius * math.cos(angle), cy - radius * math.sin(angle)
-        ex, ey = cx + radius * math.cos(math.radians(-40.0)), cy + radius * math.sin(math.radians(-40.0))
-        self._parts.append(
-            f'<path class="{style}" d="M{sx:.1f},{sy:.1f} A{radius:.1f},{radius:.1f} 0 0 1 {ex:.1f},{ey:.1f}"/>'
-        )
-        self._head(ex, ey, math.sin(math.radians(40.0)), math.cos(math.radians(40.0)), style)
-
-    def dimension(self, x0: float, z0: float, x1: float, z1: float, words: str, *, offset: float) -> None:
-        """Measure from one point to another, horizontally or vertically, ``offset`` [px] away from them."""
-        if abs(z1 - z0) <= 1e-12 * (abs(x1 - x0) + 1.0):
-            y = self.pz(z0) + offset
-            a, b = self.px(x0), self.px(x1)
-            for x, z in ((a, z0), (b, z1)):
-                self._parts.append(f'<path class="dimension" d="M{x:.1f},{self.pz(z):.1f} L{x:.1f},{y + 4:.1f}"/>')
-            self.arrow((a, y), (b, y), "dimension", both=True)
-            self._label(0.5 * (a + b), y - 5.0, words, "middle")
-            return
-        x = self.px(x0) + offset
-        a, b = self.pz(z0), self.pz(z1)
-        over = 4.0 if offset > 0 else -4.0
-        for y, at in ((a, x0), (b, x1)):
-            self._parts.append(f'<path class="dimension" d="M{self.px(at):.1f},{y:.1f} L{x + over:.1f},{y:.1f}"/>')
-        self.arrow((x, a), (x, b), "dimension", both=abs(a - b) > 14.0)
-        self._label(x + 1.5 * over, 0.5 * (a + b) + 4.0, words, "start" if offset > 0 else "end")
-
-    def _label(self, x: float, y: float, words: str, anchor: str) -> None:
-        self._parts.append(
-            f'<text class="note" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="12">{escape(words)}</text>'
-        )
-
-    def level_mark(self, x: float, z: float) -> None:
-        """Draw the triangle of a water level."""
-        cx, cy = self.px(x), self.pz(z)
-        self._parts.append(
-            f'<path class="hollow" d="M{cx:.1f},{cy:.1f} L{cx - 5:.1f},{cy - 8:.1f} L{cx + 5:.1f},{cy - 8:.1f} Z"/>'
-        )
-
-    def svg(self) -> str:
-        """Return the drawing."""
-        return (
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width:.0f} {self.height:.0f}" role="img" '
-            f'font-family="Segoe UI, Helvetica, Arial, Noto Sans CJK JP, sans-serif">'
-            f"<title>{escape(self.title)}</title>{''.join(self._parts)}</svg>"
-        )
+from moyai.report.sketch import Sketch
 
 
 def _metres(length: float) -> str:
@@ -225,7 +56,7 @@ class SectionGeometry:
         )
 
 
-def mooring_elevation(geometry: SectionGeometry) -> str:
+def mooring_elevation(geometry: SectionGeometry) -> Sketch:
     """Draw the body on its lines, the bed and the water to one scale, with axes and main distances.
 
     Parameters
@@ -234,8 +65,7 @@ def mooring_elevation(geometry: SectionGeometry) -> str:
 
     Returns
     -------
-    str
-        SVG with CSS classes.
+    Sketch
     """
     x0, x1, z0, z1 = geometry.box(with_lines=True)
     depth = geometry.water_depth
@@ -268,8 +98,8 @@ def mooring_elevation(geometry: SectionGeometry) -> str:
     _axes(sketch, (0.0, 0.0), 46.0)
     wave_x, wave_y = sketch.px(x0 - 0.5 * pad), sketch.pz(max(z1, 0.0)) - 16.0
     sketch.arrow((wave_x, wave_y), (wave_x + 70.0, wave_y), "dimension")
-    sketch._label(wave_x + 78.0, wave_y + 4.0, "waves of heading 0°", "start")
-    return sketch.svg()
+    sketch.label(wave_x + 78.0, wave_y + 4.0, "waves of heading 0°", "start")
+    return sketch
 
 
 def _line_labels(sketch: Sketch, geometry: SectionGeometry, bottom: float) -> None:
@@ -296,11 +126,11 @@ def _axes(sketch: Sketch, origin: tuple[float, float], length: float) -> None:
     x, y = sketch.px(origin[0]), sketch.pz(origin[1])
     sketch.arrow((x, y), (x + length, y), "axis")
     sketch.arrow((x, y), (x, y - length), "axis")
-    sketch._parts.append(f'<text class="axis-text" x="{x + length + 5:.1f}" y="{y - 4:.1f}" font-size="13">x</text>')
-    sketch._parts.append(f'<text class="axis-text" x="{x + 6:.1f}" y="{y - length + 4:.1f}" font-size="13">z</text>')
+    sketch.label(x + length + 5, y - 4, "x", "start", style="axis-text", size=13.0)
+    sketch.label(x + 6, y - length + 4, "z", "start", style="axis-text", size=13.0)
 
 
-def section_detail(geometry: SectionGeometry) -> str:
+def section_detail(geometry: SectionGeometry) -> Sketch:
     """Draw the section alone with its dimensions, centre of gravity and the signs of the motions.
 
     Parameters
@@ -309,8 +139,7 @@ def section_detail(geometry: SectionGeometry) -> str:
 
     Returns
     -------
-    str
-        SVG with CSS classes.
+    Sketch
     """
     x0, x1, z0, z1 = geometry.box(with_lines=False)
     width, height = x1 - x0, max(z1, 0.0) - z0
@@ -341,7 +170,7 @@ def section_detail(geometry: SectionGeometry) -> str:
         sketch.dot(gx, gz, 4.5, "marker")
         sketch.text(gx, gz, f"G, z = {_metres(gz)}", shift=(10.0, 15.0), anchor="start")
     _axes(sketch, (0.0, 0.0), 60.0)
-    return sketch.svg()
+    return sketch
 
 
 def _clipped(shape: Array, near: Array, sketch: Sketch, low: float) -> Array:
@@ -378,13 +207,11 @@ def _motion_signs(sketch: Sketch, box: tuple[float, float, float, float], top: f
     x, y = sketch.left + 26.0, sketch.top + 74.0
     sketch.arrow((x, y), (x + 44.0, y), "axis")
     sketch.arrow((x, y), (x, y - 44.0), "axis")
-    sketch._parts.append(f'<text class="axis-text" x="{x + 50:.1f}" y="{y + 4:.1f}" font-size="12">sway +</text>')
-    sketch._parts.append(f'<text class="axis-text" x="{x - 14:.1f}" y="{y - 50:.1f}" font-size="12">heave +</text>')
+    sketch.label(x + 50, y + 4, "sway +", "start", style="axis-text", size=12.0)
+    sketch.label(x - 14, y - 50, "heave +", "start", style="axis-text", size=12.0)
     centre = sketch.x0 + (x + 122.0 - sketch.left) / sketch.scale, sketch.z1 - (y - 10.0 - sketch.top) / sketch.scale
     sketch.turn(centre[0], centre[1], 18.0, "axis")
-    sketch._parts.append(
-        f'<text class="axis-text" x="{x + 122:.1f}" y="{y - 34:.1f}" text-anchor="middle" font-size="12">roll +</text>'
-    )
+    sketch.label(x + 122, y - 34, "roll +", "middle", style="axis-text")
 
 
 def snapshot(

@@ -1,4 +1,4 @@
-"""Write a result as a report: one HTML file, a workbook, tables as CSV; PDF and Word on request."""
+"""Write a result as a report: one HTML file, a workbook, tables as CSV; PDF, Word and DXF on request."""
 
 from __future__ import annotations
 
@@ -53,6 +53,7 @@ def write_report(
     pdf: bool = False,
     docx: bool = False,
     template: Path | None = None,
+    dxf: str | None = None,
     name: str = "report",
     document: Document | None = None,
 ) -> list[Path]:
@@ -72,6 +73,8 @@ def write_report(
         Write ``<name>.docx`` too; needs the extra ``moyai[docx]``.
     template : Path, optional
         Word document whose styles, heads and feet are taken.
+    dxf : {"m", "mm"}, optional
+        Write every drawing to scale as ``<name>_drawings/<key>.dxf`` in this unit; needs the extra ``moyai[dxf]``.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
     document : Document, optional
@@ -80,7 +83,7 @@ def write_report(
     Returns
     -------
     list of Path
-        The files written: HTML first, PDF and Word where they are asked for, the workbook, the tables.
+        The files written: HTML first, PDF, Word and DXF where they are asked for, the workbook, the tables.
 
     Raises
     ------
@@ -94,6 +97,11 @@ def write_report(
 
     folder = Path(directory)
     document = document or compose_document(result)
+    drawings: list[tuple[str, bytes]] = []
+    if dxf is not None:
+        from moyai.report.dxf import document_dxf
+
+        drawings = list(document_dxf(document, dxf))
     written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
     if pdf:
         from moyai.report.pdf import render_pdf
@@ -103,6 +111,7 @@ def write_report(
         from moyai.report.word import render_docx
 
         written.append(write_whole(folder / f"{name}.docx", render_docx(document, template)))
+    written += [write_whole(folder / f"{name}_drawings" / f"{slug(key)}.dxf", data) for key, data in drawings]
     written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
     used: set[str] = set()
     for table in document.tables():

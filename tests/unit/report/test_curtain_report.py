@@ -11,10 +11,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pyogrio
 import pytest
 import synthetic_curtain
 import xarray as xr
+from typer.testing import CliRunner
 
+from moyai.cli.main import app
 from moyai.core.results import Result
 from moyai.report.document import Animation, Document, Drawing, Figure, KeyFigures, Table
 from moyai.report.encoding import figure_csv, table_csv
@@ -139,7 +142,9 @@ def test_float_that_waves_do_not_judge_shows_its_steady_share_alone(result: Resu
 def test_drawings_are_to_scale(result: Result) -> None:
     """The span in pixels over the sag in pixels is that of the result; the skirt ends at its toe."""
     level = water_levels(result)[0]
-    svg = plan_drawing(level)
+    plan_sketch, section_sketch = plan_drawing(level), section_drawing(level)
+    assert plan_sketch is not None and section_sketch is not None
+    svg = plan_sketch.svg()
     drawn = re.search(r'class="sheet" d="M([^"]*)"', svg)
     assert drawn is not None
     points = np.array([[float(v) for v in pair.split(",")] for pair in drawn[1].replace("L", "").split()])
@@ -147,7 +152,7 @@ def test_drawings_are_to_scale(result: Result) -> None:
     x, y = (plan[name].sel(drag_case="given").values for name in ("plan_x", "plan_y"))
     assert np.ptp(points[:, 0]) / np.ptp(points[:, 1]) == pytest.approx(np.ptp(y) / np.ptp(x), rel=2e-3)
     assert points[0, 1] < points[len(points) // 2, 1], "downstream is drawn downwards"
-    section = section_drawing(level)
+    section = section_sketch.svg()
     assert "effective depth 4.1 m (3.95 to 4.2 m)" in section and "under the toe" in section
     assert "toe gap 3.9 m" in section
     skirt = re.search(r'class="sheet" d="M([^"]*)"', section)
@@ -158,12 +163,29 @@ def test_drawings_are_to_scale(result: Result) -> None:
     assert np.ptp(pixels[:, 0]) / np.ptp(pixels[:, 1]) == pytest.approx(np.ptp(x) / np.ptp(z), rel=3e-3)
 
 
+def test_drawings_go_to_drawing_programs_in_millimetres(result: Result, tmp_path: Path) -> None:
+    """GDAL finds the sheet of the plan as long as the span, from a command that runs nothing again."""
+    result.write(tmp_path / "results.nc")
+    run = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--dxf", "mm", "-q"])
+    assert run.exit_code == 0, run.output
+    (file,) = (tmp_path / "report_drawings").glob("hwl-plan*.dxf")
+    _, _, _, (layer,) = pyogrio.raw.read(file, columns=["Layer"])
+    _, bounds = pyogrio.read_bounds(file)
+    x0, _, x1, _ = bounds[:, list(layer).index("SHEET")]
+    y = result.tree["/HWL/plan"]["plan_y"].sel(drag_case="given").values
+    assert x1 - x0 == pytest.approx(1000.0 * np.ptp(y), rel=1e-6)
+    refused = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--dxf", "inch", "-o", f"{tmp_path}/no"])
+    assert refused.exit_code != 0 and not list((tmp_path / "no").glob("*.html"))
+
+
 def test_long_anchor_lines_are_cut(result: Result) -> None:
     tree = result.tree.copy()
     plan = tree["/HWL/plan"].to_dataset()
     plan["anchor_x"] = plan["anchor_x"] * 0.0 - 200.0
     tree["/HWL/plan"] = xr.DataTree(plan)
-    svg = plan_drawing(water_levels(replace(result, tree=tree))[0])
+    sketch = plan_drawing(water_levels(replace(result, tree=tree))[0])
+    assert sketch is not None
+    svg = sketch.svg()
     assert "to its anchor, 200 m from the float" in svg
     size = [float(value) for value in re.search(r'viewBox="0 0 (\S+) (\S+)"', svg).groups()]  # type: ignore[union-attr]
     assert size[1] < size[0]

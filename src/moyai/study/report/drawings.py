@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.report.document import Drawing
-from moyai.report.drawing import with_colours
 from moyai.report.formatting import display_unit, format_number
+from moyai.report.sketch import with_colours
 from moyai.study.report.reading import AxisLabels, StudyPages
 
 _WIDTH = 960.0

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.report.document import Drawing
-from moyai.report.drawing import Sketch, with_colours
+from moyai.report.sketch import Sketch
 
 # Bright on the dark of a picture, and apart for most colour-blind readers
 TONES = ("#56b4e9", "#e69f00", "#5fd38d", "#f0e442", "#ff8ac4", "#ff7043", "#b39ddb", "#80deea")
@@ -122,12 +122,11 @@ def drift_map(
         shift=(20.0 + length, -11.0),
         anchor="start",
     )
-    svg = sketch.svg()
     caption = (
         f"{len(position)} particles at their mean positions, settling and mass transport taken off. Thin lines: "
         "contours similar to the section along which the circulation is taken."
     )
-    return Drawing(key, title, svg, with_colours(svg), caption)
+    return sketch.drawing(key, title, caption)
 
 
 def _round(value: float) -> float:

@@ -9,7 +9,7 @@ from html import escape
 import numpy as np
 
 from moyai.report.document import Drawing
-from moyai.report.drawing import with_colours
+from moyai.report.sketch import with_colours
 
 #: Colours of the kinds of flags, which the colour-blind can distinguish.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#b5609a", "#b98500", "#4aa3d8", "#5a5f66", "#b3261e")

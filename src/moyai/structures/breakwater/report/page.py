@@ -10,12 +10,11 @@ from moyai.report.document import (
     Block,
     Choice,
     Document,
-    Drawing,
     Option,
     Paragraph,
     Section,
 )
-from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail, with_colours
+from moyai.report.drawing import SectionGeometry, mooring_elevation, section_detail
 from moyai.report.formatting import MINUS, format_quantity
 from moyai.report.general_page import case_listing, closing_section, provenance, report_title
 from moyai.report.reading import Group, root_of
@@ -149,23 +148,17 @@ def _drawings(level: Level) -> Sequence[Block | None]:
         lines_rest_shapes(level),
     )
     drawings = [
-        Drawing(
+        section_detail(geometry).drawing(
             figures.key(level, "section"),
             "Section and signs of the motions",
-            svg := section_detail(geometry),
-            with_colours(svg),
             "To scale. Axes x, z with the origin in the still water; positive roll turns the top towards +x.",
         )
     ]
     if geometry.lines:
         drawings.insert(
             0,
-            Drawing(
-                figures.key(level, "elevation"),
-                "Mooring at rest",
-                svg := mooring_elevation(geometry),
-                with_colours(svg),
-                "To scale, at rest.",
+            mooring_elevation(geometry).drawing(
+                figures.key(level, "elevation"), "Mooring at rest", "To scale, at rest."
             ),
         )
     return drawings

@@ -20,9 +20,10 @@ from moyai.report.animation import (
 )
 from moyai.report.decimate import focus_indices, mean_crossing_period, window_around
 from moyai.report.document import Abscissa, Animation, Block, Column, Figure, Mark, Panel, Series, Table
-from moyai.report.drawing import snapshot, with_colours
+from moyai.report.drawing import snapshot
 from moyai.report.formatting import format_quantity, largest_magnitude
 from moyai.report.reading import Group, common_scale
+from moyai.report.sketch import with_colours
 from moyai.report.waves import travelling_surface
 from moyai.structures.breakwater.report.figures import key
 from moyai.structures.breakwater.report.lines import in_motion, line_blocks, moving_paths

@@ -8,8 +8,8 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.report.document import Drawing
-from moyai.report.drawing import Sketch, with_colours
 from moyai.report.formatting import format_quantity
+from moyai.report.sketch import Sketch
 from moyai.structures.cage.report.rigid_reading import Level, Record, Section, key, line_path, section_of
 
 NET_LINES = 5
@@ -69,12 +69,9 @@ def elevation_drawing(level: Level) -> Drawing | None:
     sketch.dot(gx, gz, 3.5, "marker")
     sketch.text(gx, gz, "G", shift=(8.0, -6.0), anchor="start")
     _measures(sketch, section, level, extent, bed)
-    svg = sketch.svg()
-    return Drawing(
+    return sketch.drawing(
         key(level, "elevation"),
         "Cage at rest",
-        svg,
-        with_colours(svg),
         "To scale; G: centre of gravity. Waves of heading 0 come from the left (offshore).",
     )
 
@@ -130,12 +127,9 @@ def orbit_drawing(level: Level, sea: str, records: list[Record]) -> Drawing | No
         sketch.dot(float(placed[0, 0]), float(placed[0, 1]), 4.0, "marker")
         words = f"H {format_quantity(record.height, 'm')}, T {format_quantity(record.period, 's')}"
         sketch.text(cx, cz + 0.5 * cell, words, shift=(0.0, -4.0), size=12.0)
-    svg = sketch.svg()
-    return Drawing(
+    return sketch.drawing(
         key(level, sea, "orbits"),
         f"Orbits of the cage: {sea}",
-        svg,
-        with_colours(svg),
         "Centre of gravity over the last wave periods, x to the right, z up, one scale; thin circle: diameter H. The "
         "dot is the place when the crest passes x = 0.",
     )

@@ -10,9 +10,10 @@ from moyai.core.arrays import Array
 from moyai.report.animation import MovingBody, MovingLine, Surface, fairlead_motion, frame_times, side_view
 from moyai.report.decimate import focus_indices
 from moyai.report.document import Abscissa, Animation, Block, Figure, Mark, Panel, Series
-from moyai.report.drawing import snapshot, with_colours
+from moyai.report.drawing import snapshot
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import common_scale
+from moyai.report.sketch import with_colours
 from moyai.report.waves import travelling_surface
 from moyai.structures.cage.report.rigid_drawing import circle, net_lines
 from moyai.structures.cage.report.rigid_reading import Level, Record, Section, key, line_path, section_of

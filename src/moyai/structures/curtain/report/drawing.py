@@ -8,8 +8,8 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.report.document import Drawing
-from moyai.report.drawing import Sketch, with_colours
 from moyai.report.formatting import format_number, format_quantity, trimmed
+from moyai.report.sketch import Sketch
 from moyai.structures.curtain.report.reading import GIVEN, CurtainLevel, curve, key
 
 _FLOW_ARROWS = 9
@@ -46,7 +46,7 @@ def anchor_lines(level: CurtainLevel) -> list[tuple[Array, Array]]:
 def drawings(level: CurtainLevel) -> list[Drawing]:
     """Return section, plan and, with anchors, the section with the anchor lines; absent where shapes are unknown."""
     found = []
-    for name, title, svg, caption in (
+    for name, title, sketch, caption in (
         (
             "section-drawing",
             "Section where the span faces the current most" if _oblique(level) else "Section at mid-span",
@@ -61,8 +61,8 @@ def drawings(level: CurtainLevel) -> list[Drawing]:
         ),
         ("anchor-drawing", "Section with an anchor line", anchor_drawing(level), "To scale; the line drawn straight."),
     ):
-        if svg:
-            found.append(Drawing(key(level, name), title, svg, with_colours(svg), caption))
+        if sketch is not None:
+            found.append(sketch.drawing(key(level, name), title, caption))
     return found
 
 
@@ -71,12 +71,12 @@ def _oblique(level: CurtainLevel) -> bool:
     return abs(level.part("statics").value("flow_angle")) > _OBLIQUE
 
 
-def section_drawing(level: CurtainLevel) -> str:
+def section_drawing(level: CurtainLevel) -> Sketch | None:
     """Draw the section from the still water to the bed with effective depth, flare, toe gap and the current."""
     shape = section_curve(level)
     depth = level.depth
     if shape is None or not math.isfinite(depth):
-        return ""
+        return None
     others = [other for case in ("low", "high") if (other := section_curve(level, case)) is not None]
     width = max(float(np.ptp(np.concatenate([shape, *others])[:, 0])), 0.25 * depth)
     left, right = -0.95 * max(width, 0.55 * depth), float(shape[:, 0].max()) + 0.9 * max(width, 0.5 * depth)
@@ -109,7 +109,7 @@ def section_drawing(level: CurtainLevel) -> str:
     words = {"held": "toe with lower cable", "on the bed": "toe on the bed"}.get(level.toe, "toe, ballast")
     sketch.text(toe_x, toe_z, words, shift=(-12.0, 4.0 if toe_z + depth > 0.05 * depth else -8.0), anchor="end")
     _section_dimensions(sketch, level, (toe_x, toe_z), right)
-    return sketch.svg()
+    return sketch
 
 
 def _section_dimensions(sketch: Sketch, level: CurtainLevel, toe: tuple[float, float], right: float) -> None:
@@ -132,9 +132,9 @@ def _section_dimensions(sketch: Sketch, level: CurtainLevel, toe: tuple[float, f
         sketch.arrow((x - 28.0, y), (x + 28.0, y), "flow")
         words = f"{format_quantity(speed, 'm/s')} under the toe"
         if roomy:
-            sketch._label(x, y + 18.0, words, "middle")
+            sketch.label(x, y + 18.0, words, "middle")
         else:
-            sketch._label(x - 34.0, y + 4.0, words, "end")
+            sketch.label(x - 34.0, y + 4.0, words, "end")
     if abs(toe_x) > 0.05 * level.depth:
         sketch.dimension(0.0, toe_z, toe_x, toe_z, f"flare {metres(abs(toe_x))}", offset=34.0 if roomy else -22.0)
     left = sketch.x0 + 0.05 * (right - sketch.x0)
@@ -169,11 +169,11 @@ def _across(points: Array) -> Array:
     return np.column_stack([points[:, 1], -points[:, 0]])
 
 
-def plan_drawing(level: CurtainLevel) -> str:
+def plan_drawing(level: CurtainLevel) -> Sketch | None:
     """Draw the plan between the supports with sag, anchors and the direction of the current."""
     shape = plan_curve(level)
     if shape is None:
-        return ""
+        return None
     others = [other for case in ("low", "high") if (other := plan_curve(level, case)) is not None]
     lines = anchor_lines(level)
     span = float(np.ptp(shape[:, 1]))
@@ -206,7 +206,7 @@ def plan_drawing(level: CurtainLevel) -> str:
     for x, y in chord:
         sketch.dot(float(x), float(y), 7.0, "buoy")
     _plan_dimensions(sketch, level, shape, box)
-    return sketch.svg()
+    return sketch
 
 
 def _cut(ends: Array, most: float) -> tuple[Array, bool]:
@@ -243,19 +243,19 @@ def _plan_dimensions(sketch: Sketch, level: CurtainLevel, shape: Array, box: tup
         words += f" {format_quantity(speed, 'm/s')} at the surface"
     if abs(angle) > 1e-9:
         words += f", {format_quantity(abs(angle), 'rad')} from the normal"
-    sketch._label(sketch.px(box[0]) + 10.0, sketch.pz(box[3]) + 18.0, words, "start")
+    sketch.label(sketch.px(box[0]) + 10.0, sketch.pz(box[3]) + 18.0, words, "start")
     x, y = sketch.px(box[1]) - 64.0, sketch.pz(box[3]) + 22.0
     sketch.arrow((x, y), (x + 40.0, y), "axis")
     sketch.arrow((x, y), (x, y + 40.0), "axis")
-    sketch._parts.append(f'<text class="axis-text" x="{x + 45:.1f}" y="{y + 4:.1f}" font-size="13">y</text>')
-    sketch._parts.append(f'<text class="axis-text" x="{x + 5:.1f}" y="{y + 46:.1f}" font-size="13">x</text>')
+    sketch.label(x + 45, y + 4, "y", "start", style="axis-text", size=13.0)
+    sketch.label(x + 5, y + 46, "x", "start", style="axis-text", size=13.0)
 
 
-def anchor_drawing(level: CurtainLevel) -> str:
+def anchor_drawing(level: CurtainLevel) -> Sketch | None:
     """Draw one anchor line from its float to the bed, next to the curtain, seen along the span."""
     lines, shape, depth = anchor_lines(level), section_curve(level), level.depth
     if not lines or shape is None or not math.isfinite(depth):
-        return ""
+        return None
     start, end = lines[0]
     reach = float(math.hypot(*(end[:2] - start[:2])))
     side = -1.0 if end[0] <= start[0] else 1.0
@@ -288,4 +288,4 @@ def anchor_drawing(level: CurtainLevel) -> str:
         shift=(12.0 * side, -8.0),
         anchor="end" if side < 0.0 else "start",
     )
-    return sketch.svg()
+    return sketch

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table
-from moyai.report.drawing import with_colours
 from moyai.report.formatting import DASH, format_fixed, format_number, format_quantity, pretty_unit, trimmed
 from moyai.report.reading import Group
+from moyai.report.sketch import with_colours
 from moyai.structures.curtain.report.reading import CurtainLevel, key, texts, words
 
 _WIDTH, _LEFT, _TOP, _BOTTOM, _CELL = 960.0, 70.0, 16.0, 92.0, 34.0

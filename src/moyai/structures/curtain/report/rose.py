@@ -9,9 +9,9 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.report.document import Abscissa, Block, Column, Drawing, Figure, Mark, Panel, Series, Table
-from moyai.report.drawing import with_colours
 from moyai.report.formatting import format_number, trimmed
 from moyai.report.reading import Group
+from moyai.report.sketch import with_colours
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key, texts
 
 _WIDTH, _HEIGHT, _RADIUS = 760.0, 600.0, 225.0

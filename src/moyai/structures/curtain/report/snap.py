@@ -10,10 +10,10 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.report.animation import encode_track
 from moyai.report.document import Animation
-from moyai.report.drawing import Sketch, with_colours
 from moyai.report.encoding import encode_array
 from moyai.report.formatting import display_unit, format_quantity
 from moyai.report.reading import Group
+from moyai.report.sketch import Sketch, with_colours
 from moyai.structures.curtain.report.reading import CurtainLevel, attribute, key
 
 

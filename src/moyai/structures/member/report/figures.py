@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from moyai.core.arrays import Array
 from moyai.report.decimate import focus_indices, window_around
 from moyai.report.document import Abscissa, Column, Drawing, Figure, Mark, Panel, Series, Table
-from moyai.report.drawing import Sketch, with_colours
 from moyai.report.encoding import slug
 from moyai.report.formatting import format_quantity
 from moyai.report.reading import Group, common_scale
+from moyai.report.sketch import Sketch
 
 AXES = ("first", "second")
 COMPONENTS = ("x", "y", "z")
@@ -318,9 +318,8 @@ def section_drawing(level: Group) -> Drawing | None:
     sketch.dimension(ends[0], ends[2], ends[1], ends[2], format_quantity(width, "m"), offset=32.0)
     sketch.dimension(ends[1], ends[2], ends[1], ends[3], format_quantity(height, "m"), offset=32.0)
     sketch.dot(0.0, 0.0, 3.0, "marker")
-    svg = sketch.svg()
     caption = "To scale; first axis level, second axis upwards. Dot: the axis of the member."
-    return Drawing(slug(level.name, "section"), "Section", svg, with_colours(svg), caption)
+    return sketch.drawing(slug(level.name, "section"), "Section", caption)
 
 
 def member_table(level: Group) -> Table | None:
