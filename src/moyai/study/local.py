@@ -23,6 +23,7 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 _DEATHS = 2
 _GRACE = 3.0
+_STARTED = "started"
 
 
 def run_here(task: Task, cases: tuple[Combination, ...], progress: Progress = silent) -> Iterator[Record]:
@@ -68,13 +69,17 @@ def run_processes(task: Task, cases: tuple[Combination, ...], workers: int) -> I
                 for place, worker in enumerate(crew):
                     if worker.pipe not in ready:
                         continue
-                    record, job = worker.take()
-                    if record is not None:
-                        yield record
+                    answer = worker.take()
+                    if answer == _STARTED:
+                        continue
+                    job, worker.job = worker.job, None
+                    assert job is not None
+                    if answer is not None:
+                        yield answer
                         continue
                     # The pipe is closed: the worker died
                     combination, deaths = job
-                    if not worker.ever_answered and deaths:
+                    if not worker.started and deaths:
                         raise InputError(
                             "the worker processes do not start",
                             path="workers",
@@ -102,7 +107,7 @@ class _Worker:
         self.process.start()
         far.close()
         self.job: tuple[Combination, int] | None = None
-        self.ever_answered = False
+        self.started = False
 
     @property
     def busy(self) -> bool:
@@ -114,15 +119,14 @@ class _Worker:
         with contextlib.suppress(OSError):
             self.pipe.send(combination)
 
-    def take(self) -> tuple[Record | None, tuple[Combination, int]]:
-        assert self.job is not None
-        job, self.job = self.job, None
+    def take(self) -> Any:
+        """What the worker sent: ``_STARTED`` first, then records; None when it is dead."""
         try:
-            record = self.pipe.recv()
-            self.ever_answered = True
-            return record, job
+            answer = self.pipe.recv()
         except (EOFError, OSError):
-            return None, job
+            return None
+        self.started = True
+        return answer
 
     def exit_code(self) -> int | None:
         self.process.join(timeout=1.0)
@@ -159,6 +163,9 @@ def _serve(pipe: Any, task: Task, cancel: Any) -> None:
     # Ctrl-C reaches every process of the terminal; the parent decides what happens then
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _die_with_parent()
+    # Tells a case that kills its worker from a worker that cannot start
+    with contextlib.suppress(OSError):
+        pipe.send(_STARTED)
     while True:
         try:
             combination = pipe.recv()

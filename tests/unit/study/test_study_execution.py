@@ -16,7 +16,9 @@ from moyai.core.errors import InputError
 from moyai.core.results import read_result
 from moyai.study.execute import run_study
 from moyai.study.ledger import Ledger, Record
+from moyai.study.local import run_processes
 from moyai.study.plan import load_study
+from moyai.study.work import Task
 
 
 def responses(result):
@@ -55,6 +57,13 @@ def test_a_case_that_kills_its_worker_is_a_failed_row(tmp_path):
     result = run_study(study, tmp_path / "out", study_cases.deadly_case, workers=2)
     assert result.tree["case_status"].values.tolist() == [["converged", "failed", "converged"]]
     assert "died twice" in result.tree["case_message"].values[0, 1]
+
+
+def test_a_case_that_kills_fresh_workers_is_not_taken_for_workers_that_do_not_start(tmp_path):
+    study = load_study(study_cases.write_study(tmp_path, heights=1, seeds=2))
+    task = Task(study.base, study.base_path.resolve(), study.wanted, None, study_cases.deadly_case)
+    (record,) = run_processes(task, study.cases[1:], workers=1)
+    assert record.status == "failed" and "died twice" in record.message
 
 
 @pytest.mark.slow
