@@ -24,18 +24,22 @@ ENERGY_TOLERANCE = 0.02
 """Of the loss of the first harmonic, that damping may leave unexplained."""
 LEAST_LOSS = 0.05
 """Of the incident energy; below it the tolerance is 0.1 % of that, the accuracy of the coefficients."""
+SHOWN_LOSS = 0.25
+"""Of the incident energy; below it other harmonics may take 0.5 % of that, less than R and T are shown to."""
 
 
-def unexplained_share(loss: ArrayLike, work: ArrayLike) -> Array:
+def unexplained_share(loss: ArrayLike, work: ArrayLike, least: float = LEAST_LOSS) -> Array:
     """Return what of the loss of the first harmonic its work does not explain, over the loss [eq:floating-work].
 
     Parameters
     ----------
     loss, work : array_like
         Over the incident energy flux.
+    least : float
+        Loss below which the share is taken of this instead.
     """
     lost, taken = np.asarray(loss, dtype=float), np.asarray(work, dtype=float)
-    return np.asarray(np.abs(lost - taken) / np.maximum(np.abs(lost), LEAST_LOSS))
+    return np.asarray(np.abs(lost - taken) / np.maximum(np.abs(lost), least))
 
 
 @dataclass(frozen=True)

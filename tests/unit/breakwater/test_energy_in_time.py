@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from moyai.case.builder import build
+from moyai.case.reader import load_case
 from moyai.reproduce.inputs import problem_of
 from moyai.reproduce.nakamura.runs import variant
 from moyai.structures.breakwater.run import run
@@ -92,3 +94,49 @@ def test_no_period_out_of_its_range_decides_a_headline(at_rest, in_motion):
     assert np.isfinite(time.maximum_motion.values).all()
     moving = next(item for item in in_motion.headlines if item.name == "roll")
     assert moving.model == "time domain, lines in motion" and "out of its range" not in moving.detail
+
+
+TAUT = """\
+moyai: 1
+title: short chains at high water
+site: {water_depth: 9.2 m, density: 1025 kg/m3, gravity: 9.81 m/s2}
+waves: {name: daily, kind: regular, height: 0.4 m, period: 3 s, heading_deg: 0}
+wind: {speed: 20 m/s, heading_deg: 0, density: 1.225 kg/m3}
+current: {speed: 0.4 m/s, heading_deg: 0}
+structure:
+  kind: breakwater
+  length: 30 m
+  section: {shape: rectangle, beam: 4 m, height: 1.7 m}
+  draught: 1.1 m
+  centre_of_gravity_above_keel: 0.8 m
+  roll_gyradius: 1.25 m
+  wind_drag_coefficient: 1.2
+  current_drag_coefficient: 1.5
+lines:
+  - name: seaward
+    count: 3
+    fairlead: {x: -2 m, above_keel: 0 m}
+    anchor: {x: -37 m}
+    segments: [{catalogue: studless_chain_R3, diameter: 32 mm, length: 36.2 m}]
+  - name: shoreward
+    count: 3
+    fairlead: {x: 2 m, above_keel: 0 m}
+    anchor: {x: 37 m}
+    segments: [{catalogue: studless_chain_R3, diameter: 32 mm, length: 36.2 m}]
+analyses: [statics, frequency, time]
+settings: {time: {lines: {mode: quasi_static}}}
+"""
+
+
+def test_a_motion_that_never_repeats_has_no_reflection_and_its_largest_values_are_of_a_hundred_periods(tmp_path):
+    (tmp_path / "taut.yaml").write_text(TAUT, encoding="utf-8")
+    result = run(build(load_case(tmp_path / "taut.yaml")))
+    data = result.tree["SWL/time/daily"].to_dataset().sel(period=3.0)
+    record = result.tree["SWL/time/daily/T3"].to_dataset()
+    assert np.isnan(data[["reflection_coefficient", "transmission_coefficient", "dissipation"]].to_array()).all()
+    (notice,) = [notice for notice in result.notices if notice.code == "not-steady"]
+    assert "does not repeat" in notice.message
+    assert "100 periods" in notice.message
+    last = record.tension.values[record.time.values > float(record.time[-1]) - 300.0]
+    assert data.line_tension_maximum.values == pytest.approx(last.max(axis=0))
+    assert result.status == "converged"

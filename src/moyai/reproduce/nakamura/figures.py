@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.floating.energy import ENERGY_TOLERANCE, unexplained_share
+from moyai.floating.energy import ENERGY_TOLERANCE, SHOWN_LOSS, unexplained_share
 from moyai.mooring.catenary import solve_catenary
 from moyai.mooring.shoji import solve_shoji
 from moyai.report.document import Abscissa, Figure, Panel, Series
@@ -124,7 +124,7 @@ def _other_state(result: Result, in_time: Result, mode: str, words: str) -> list
 
 def unkept(result: Result) -> Array:
     """Return the periods [s] at which the loss of the far field in time is not the work of the damping."""
-    share = unexplained_share(values(result, "time", "dissipation"), values(result, "time", "damping_work"))
+    share = unexplained_share(values(result, "time", "dissipation"), values(result, "time", "damping_work"), SHOWN_LOSS)
     return np.asarray(values(result, "time", "period")[share > ENERGY_TOLERANCE])
 
 

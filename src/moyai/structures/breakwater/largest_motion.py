@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Headline
-from moyai.floating.energy import ENERGY_TOLERANCE, unexplained_share
+from moyai.floating.energy import ENERGY_TOLERANCE, SHOWN_LOSS, unexplained_share
 from moyai.structures.breakwater.lines.headlines import AT_REST, FIRST_ORDER, IN_MOTION
 from moyai.structures.breakwater.responses import SNAP_RATIO
 
@@ -33,7 +33,8 @@ def beyond_range(data: xr.Dataset, statics: xr.Dataset | None) -> NDArray[np.boo
     """
     out = np.zeros(data.sizes["period"], dtype=bool)
     if "damping_work" in data and "dissipation" in data:
-        out |= unexplained_share(data["dissipation"].values, data["damping_work"].values) > ENERGY_TOLERANCE
+        share = unexplained_share(data["dissipation"].values, data["damping_work"].values, SHOWN_LOSS)
+        out |= share > ENERGY_TOLERANCE
     if "line_tension_maximum" in data and data.sizes.get("line", 0):
         still = np.ones(data["line_tension_maximum"].shape, dtype=bool)
         if "lines_in_motion" in data:

@@ -11,7 +11,7 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.core.validity import IdentityCheck
 from moyai.floating.damping import QuadraticDamping
-from moyai.floating.energy import ENERGY_TOLERANCE, HARMONICS, drag_force, harmonic_work, unexplained_share
+from moyai.floating.energy import ENERGY_TOLERANCE, HARMONICS, SHOWN_LOSS, drag_force, harmonic_work, unexplained_share
 from moyai.floating.far_field import energy_velocity
 from moyai.floating.forcing import Forcing
 from moyai.structures.breakwater.frequency.model import FrequencyModel
@@ -50,8 +50,8 @@ class EnergyOfPeriod:
 
     @property
     def missing(self) -> float:
-        """Loss that damping does not explain, over the loss."""
-        return float(unexplained_share(self.loss, self.damping))
+        """Loss that damping does not explain, over the loss, or a quarter of the incident energy where that is more."""
+        return float(unexplained_share(self.loss, self.damping, SHOWN_LOSS))
 
     @property
     def unexplained(self) -> float:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -52,6 +53,8 @@ MOST_SETTLING_PERIODS = 300.0
 SETTLED = math.log(1e3)  # transients die to a thousandth
 LEAST_LOSS = 0.005  # of the incident energy
 STEADY_LIMIT = 0.01  # change of the first harmonic from one window to the next
+REPEATING_LIMIT = 0.05  # of the same; beyond it the motion has no first harmonic to speak of
+PERIODS_OF_NO_REPEAT = 100  # whose largest values count where the motion never repeats
 
 
 def regular_sea(
@@ -108,18 +111,21 @@ def regular_sea(
         progress(f"time domain, {unit.name}, {sea.name}", index, len(periods))
         one = frequency.sel(period=period)
         try:
-            used, run, found, laws = _one_period(model, memory, sea, float(period), one, settings, progress, current)
+            used, run, found, laws, kept = _repeating(
+                model, memory, sea, float(period), one, settings, progress, current
+            )
         except KeyboardInterrupt:
             status = "interrupted"
             break
         runs.append(run)
         notices.extend(found)
-        summary = _summary(used, run, sea, float(period), settings)
+        change = _change(run.simulation, float(period), settings)
+        summary = _summary(used, run, sea, float(period), kept, repeats=change <= REPEATING_LIMIT)
         loss = float(summary["dissipation"])
-        energy = energy_of_period(used, run, sea, float(period), settings.analysed_periods, loss, *laws)
+        energy = energy_of_period(used, run, sea, float(period), kept.analysed_periods, loss, *laws)
         energies.append((float(period), energy))
         summaries.append(summary | energy.variables())
-        notices.extend(_steadiness(run.simulation, float(period), settings, f"{unit.name}, {sea.name}"))
+        notices.extend(_steadiness(change, f"{unit.name}, {sea.name}, T = {period:g} s", settings, kept))
         if run.simulation.status != "converged":
             status = "interrupted" if run.simulation.status == "interrupted" else "not_converged"
             if status == "interrupted":
@@ -164,6 +170,32 @@ def regular_sea(
     return TimeResult(labelled(data), tuple(runs), tuple(notices), status, checks)
 
 
+_Laws = tuple[Array, QuadraticDamping | None, Forcing]
+
+
+def _repeating(
+    model: FrequencyModel,
+    memory: UnitMemory,
+    sea: RegularSea,
+    period: float,
+    frequency: xr.Dataset,
+    settings: TimeSettings,
+    progress: Progress,
+    current: Current | None,
+) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...], _Laws, TimeSettings]:
+    """Run one period until its motion repeats, or long enough for the largest values of one that never does.
+
+    The settings in the last place hold the periods to analyse.
+    """
+    first = _one_period(model, memory, sea, period, frequency, settings, progress, current)
+    if settings.duration is not None or _change(first[1].simulation, period, settings) <= REPEATING_LIMIT:
+        return (*first, settings)
+    longer = replace(settings, analysed_periods=max(PERIODS_OF_NO_REPEAT, settings.analysed_periods))
+    again = _one_period(model, memory, sea, period, frequency, longer, progress, current)
+    repeats = _change(again[1].simulation, period, settings) <= REPEATING_LIMIT
+    return (*again, settings if repeats else longer)
+
+
 def _one_period(
     model: FrequencyModel,
     memory: UnitMemory,
@@ -173,7 +205,7 @@ def _one_period(
     settings: TimeSettings,
     progress: Progress,
     current: Current | None,
-) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...], tuple[Array, QuadraticDamping | None, Forcing]]:
+) -> tuple[FrequencyModel, TimeRun, tuple[Notice, ...], _Laws]:
     """Run one period; lines are set in motion where their peaks pass the range of lines at rest, and reported so.
 
     The last item holds what forces acted on the unit: linear and quadratic damping, and the forcing.
@@ -220,7 +252,7 @@ def _one_period(
         waves = MovingWater(forcing, np.array([omega]), np.array([0.5 * sea.height + 0j]), measures, ramp)
     run = run_with_lines(name, attributes, model, cummins, waves, expected, settings, around, duration, progress)
     reported: tuple[Notice, ...] = ()
-    if _need_motion(model, run, begin, settings):
+    if _need_motion(model, run, period, settings):
         moving = with_lines_in_motion(model)
         try:
             run = run_with_lines(
@@ -241,9 +273,9 @@ def _one_period(
     return model, run, notices, (damping, quadratic, waves)
 
 
-def _need_motion(model: FrequencyModel, run: TimeRun, begin: float, settings: TimeSettings) -> bool:
+def _need_motion(model: FrequencyModel, run: TimeRun, period: float, settings: TimeSettings) -> bool:
     """Whether a line that may be set in motion passes the range of lines at rest in the analysed window."""
-    tension = run.simulation.tension[run.simulation.time >= begin]
+    tension = run.simulation.tension[_analysed(run.simulation, period, settings)]
     able = movable(model.unit) if run.simulation.status == "converged" else np.zeros(0, dtype=bool)
     if settings.lines.mode != "auto" or not able.any() or not len(tension):
         return False
@@ -271,10 +303,18 @@ def _harmonics(run: Simulation, period: float, settings: TimeSettings) -> Harmon
     return fit_last_periods(run.time, run.position, 2.0 * math.pi / period, periods=settings.analysed_periods)
 
 
+def _analysed(run: Simulation, period: float, settings: TimeSettings) -> NDArray[np.bool_]:
+    """Which rows the analysed periods at the end hold."""
+    return run.time > run.time[-1] - settings.analysed_periods * period
+
+
 def _summary(
-    model: FrequencyModel, whole: TimeRun, sea: RegularSea, period: float, settings: TimeSettings
+    model: FrequencyModel, whole: TimeRun, sea: RegularSea, period: float, settings: TimeSettings, *, repeats: bool
 ) -> dict[str, Array]:
-    """Return first harmonics, extremes, and R and T with these motions in the operators of the frequency domain."""
+    """Return first harmonics, extremes, and R and T with these motions in the operators of the frequency domain.
+
+    A motion that never repeats has no R and T.
+    """
     run, blank = whole.simulation, np.full(3, np.nan)
     kinds = run.tension.shape[1]
     out = {
@@ -289,7 +329,7 @@ def _summary(
     if run.status != "converged" or run.time[-1] < settings.analysed_periods * period:
         return out
     found = _harmonics(run, period, settings)
-    window = run.time > run.time[-1] - settings.analysed_periods * period
+    window = _analysed(run, period, settings)
     vertical, horizontal, grounded = anchor_loads(model.unit, run.position[window], run.tension[window])
     out |= {
         "motion_amplitude": np.abs(found.first),
@@ -311,7 +351,7 @@ def _summary(
         out["maximum_anchor_vertical_tension"] = np.where(still, vertical, out["maximum_uplift"])
         out["maximum_anchor_horizontal_tension"] = np.where(still, horizontal, level)
     hydro = model.hydro.at(np.array([2.0 * math.pi / period]), sea.heading)
-    if hydro.has_far_field and sea.height > 0.0:
+    if hydro.has_far_field and sea.height > 0.0 and repeats:
         far = far_field(hydro, found.first[None, None, :] / (0.5 * sea.height))
         out |= {
             "reflection_coefficient": np.abs(far.reflection[0, 0]),
@@ -321,30 +361,36 @@ def _summary(
     return out
 
 
-def _steadiness(run: Simulation, period: float, settings: TimeSettings, where: str) -> tuple[Notice, ...]:
-    """Compare the last window with the one before it."""
+def _change(run: Simulation, period: float, settings: TimeSettings) -> float:
+    """Return by what share the first harmonic changes between the last two windows; 0 where there are no two."""
     window = settings.analysed_periods * period
     if run.status != "converged" or run.time[-1] < 2.0 * window:
-        return ()
+        return 0.0
     last = _harmonics(run, period, settings)
     earlier = run.time <= run.time[-1] - window
     before = fit_last_periods(
         run.time[earlier], run.position[earlier], 2.0 * math.pi / period, periods=settings.analysed_periods
     )
     size = np.maximum(np.abs(last.first), 1e-3 * np.max(np.abs(last.first)) + 1e-12)
-    change = float(np.max(np.abs(np.abs(last.first) - np.abs(before.first)) / size))
+    return float(np.max(np.abs(np.abs(last.first) - np.abs(before.first)) / size))
+
+
+def _steadiness(change: float, where: str, settings: TimeSettings, kept: TimeSettings) -> tuple[Notice, ...]:
+    """Report a motion that has not settled, or never repeats."""
     if change <= STEADY_LIMIT:
         return ()
-    return (
-        Notice(
-            "not-steady",
-            f"{where}, T = {period:g} s: the motion still changes by {100 * change:.1f} % between the last two windows "
-            f"of {settings.analysed_periods} periods",
-            value=change,
-            limit=STEADY_LIMIT,
-            remedy="give a longer duration; strongly nonlinear lines may never settle to one period",
-        ),
-    )
+    windows = f"between the last two windows of {settings.analysed_periods} periods"
+    message = f"{where}: the motion still changes by {100.0 * change:.1f} % {windows}"
+    limit = STEADY_LIMIT
+    if change > REPEATING_LIMIT:
+        limit = REPEATING_LIMIT
+        message = (
+            f"{where}: the motion does not repeat (its first harmonic changes by {100.0 * change:.0f} % {windows}); "
+            "reflection and transmission there are not known, largest values are those of "
+            f"{kept.analysed_periods} periods"
+        )
+    remedy = "give a longer duration; strongly nonlinear lines may never settle to one period"
+    return (Notice("not-steady", message, value=change, limit=limit, remedy=remedy),)
 
 
 def _created_energy(data: xr.Dataset, where: str) -> tuple[Notice, ...]:
