@@ -36,6 +36,7 @@ _PLAIN: dict[str, tuple[str, Sense, str, str]] = {
     "greatest_net_tension": ("net_tension", "at most", "N/m", "tension of the net"),
     "greatest_tension": ("line_tension", "at most", "N", "tension of the lines"),
     "greatest_force": ("peak_force", "at most", "N", "force on the member"),
+    "greatest_bending_moment": ("bending_moment", "at most", "N m", "bending moment of the member"),
 }
 
 

@@ -19,6 +19,7 @@ _FORCE_WORDS = (("none", 0.0), *NOT_JUDGED)
 FactorOfSafety = Annotated[float | None, QuantityOf(quantities.NUMBER, least=1.0, words=NOT_JUDGED)]
 GreatestForce = Annotated[float | None, QuantityOf(quantities.FORCE, least=0.0, words=_FORCE_WORDS)]
 GreatestTension = Annotated[float | None, QuantityOf(quantities.FORCE, above=0.0, words=NOT_JUDGED)]
+GreatestMoment = Annotated[float | None, QuantityOf(quantities.MOMENT, above=0.0, words=NOT_JUDGED)]
 GreatestNetTension = Annotated[float | None, QuantityOf(quantities.FORCE_PER_LENGTH, above=0.0, words=NOT_JUDGED)]
 GreatestLength = Annotated[float | None, QuantityOf(quantities.LENGTH, above=0.0, words=NOT_JUDGED)]
 LeastLength = Annotated[float | None, QuantityOf(quantities.LENGTH, words=NOT_JUDGED)]

@@ -273,7 +273,7 @@ def _range_notices(what: str, entry: DragEntry, flow: Conditions) -> list[Notice
         Notice(
             "drag-reynolds",
             f"{what} was found at Re {'above' if limit == entry.reynolds_low else 'below'} {limit:.0e}, here "
-            f"Re = {flow.reynolds:.2g}",
+            f"Re = {flow.reynolds:.3g}",
             value=flow.reynolds,
             limit=limit,
             remedy="give measured coefficients",

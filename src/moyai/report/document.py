@@ -81,6 +81,8 @@ class Series:
         ``solid``, ``dash``, ``dot`` or ``dashdot``.
     faint : bool
         Draw it thin, as a companion of something else.
+    belongs_to : str
+        Label of the series that the legend names in its stead: its fit, its intervals.
     """
 
     label: str
@@ -91,6 +93,7 @@ class Series:
     style: Style = "line"
     dash: Literal["solid", "dash", "dot", "dashdot"] = "solid"
     faint: bool = False
+    belongs_to: str = ""
 
 
 @dataclass(frozen=True)

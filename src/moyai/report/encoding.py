@@ -123,6 +123,7 @@ def figure_specification(figure: Figure) -> dict[str, Any]:
             "style": item.style,
             "dash": item.dash,
             "faint": item.faint,
+            "belongs_to": item.belongs_to,
         }
         for item in figure.series
     ]

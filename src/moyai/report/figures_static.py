@@ -105,7 +105,8 @@ def draw_figure(figure: Figure, *, image_format: str = "svg", width: float = 17.
 
 def _draw_series(axis: Any, figure: Figure, item: Series) -> None:
     tone = TONES[item.tone % len(TONES)]
-    label = subscripted(item.label) if item.label != figure.panels[item.panel].label else "_"
+    named = item.label != figure.panels[item.panel].label and not item.belongs_to
+    label = subscripted(item.label) if named else "_"
     if item.style == "bar":
         bars = [entry for entry in figure.series if entry.style == "bar" and entry.panel == item.panel]
         breadth = 0.7 / len(bars)

@@ -36,7 +36,7 @@ class Figure {
     return this.spec.series.filter((s) => bars || this.abscissa.key in s.x).map((s) => {
       const color = theme.tones[s.tone % theme.tones.length];
       const axis = s.panel ? "y" + (s.panel + 1) : "y";
-      const trace = { name: MOYAI.escape(s.label), yaxis: axis, y: this.values(s.y), legendgroup: s.label, showlegend: !seen.has(s.label) && s.label !== this.spec.panels[s.panel].label };
+      const trace = { name: MOYAI.escape(s.label), yaxis: axis, y: this.values(s.y), legendgroup: s.belongs_to || s.label, showlegend: !s.belongs_to && !seen.has(s.label) && s.label !== this.spec.panels[s.panel].label };
       seen.add(s.label);
       trace.hovertemplate = "%{y:.4~g}" + (this.spec.panels[s.panel].unit ? " " + MOYAI.escape(MOYAI.pretty(this.spec.panels[s.panel].unit)) : "");
       if (s.style === "bar") {

@@ -12,6 +12,7 @@ from moyai.morison.members import StraightMember
 from moyai.structures.member.checks import orbit_ratio
 from moyai.structures.member.march import CAUSES, WaveForces
 from moyai.structures.member.model import MemberProblem
+from moyai.structures.member.supports import stations
 from moyai.structures.member.variables import labelled
 from moyai.structures.member.waves import Wave
 
@@ -21,7 +22,16 @@ if TYPE_CHECKING:
 COMPONENTS = ["x", "y", "z"]
 AXES = ["first", "second"]
 #: Numbers of an irregular sea that are means over its realisations
-MEANS = ("maximum_force", "maximum_total_force", "maximum_moment", "maximum_end_force", "maximum_strip_force")
+MEANS = (
+    "maximum_force",
+    "maximum_total_force",
+    "maximum_moment",
+    "maximum_end_force",
+    "maximum_bending_moment",
+    "maximum_bending_moment_along",
+    "maximum_strip_force",
+)
+_OF_REALISATION = ("maximum_total_force", "maximum_end_force", "maximum_bending_moment")
 
 
 def member_dataset(problem: MemberProblem, member: StraightMember) -> xr.Dataset:
@@ -81,6 +91,7 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
 
     force = [_tail(wave, found.force.sum(axis=0)) for wave, found in runs]
     moment = [_tail(wave, found.moment) for wave, found in runs]
+    held = np.array([np.linalg.norm(_tail(wave, found.held.sum(axis=0)), axis=2).max(axis=0) for wave, found in runs])
     speeds = np.stack([governing("velocity_first"), governing("velocity_second")], axis=1)
     period = 2.0 * math.pi / governing("frequency")
     data = {
@@ -102,7 +113,9 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
         "force_deviation": (("wave", "component"), np.array([item.std(axis=0) for item in force])),
         "maximum_total_force": ("wave", np.array([np.linalg.norm(item, axis=1).max() for item in force])),
         "maximum_moment": (("wave", "component"), np.array([np.abs(item).max(axis=0) for item in moment])),
-        "maximum_end_force": (("wave", "end"), np.array([_ends(member, f, m) for f, m in zip(force, moment)])),
+        "maximum_end_force": (("wave", "end"), held[:, :2]),
+        "maximum_bending_moment": ("wave", held[:, 2:].max(axis=1)),
+        "maximum_bending_moment_along": (("wave", "station"), held[:, 2:]),
         "maximum_strip_force": (("wave", "strip", "axis"), strips("force")),
         "strip_keulegan_carpenter": (("wave", "strip"), strips("keulegan_carpenter")),
         "wet_share": (("wave", "strip"), strips("wet")),
@@ -115,6 +128,7 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
                 "wave_height": ("wave", np.array([wave.height for wave in waves])),
                 "period": ("wave", np.array([wave.period for wave in waves])),
                 "strip": _along(member, problem),
+                "station": stations(problem.settings.strips, member.length),
                 "axis": AXES,
                 "component": COMPONENTS,
                 "end": ["start", "end"],
@@ -135,7 +149,9 @@ def gathered(members: list[xr.Dataset], seeds: list[int]) -> tuple[xr.Dataset, i
     kept = int(np.argmin(np.abs(largest - largest.mean())))
     means = {name: np.mean([item[name].values for item in members], axis=0) for name in MEANS}
     out = members[kept].assign({name: members[kept][name].copy(data=values) for name, values in means.items()})
-    out["maximum_total_force_of_realisation"] = ("realisation", largest)
+    for name in _OF_REALISATION:
+        each = np.array([np.max(item[name].values) for item in members])
+        out[f"{name}_of_realisation"] = ("realisation", each)
     out["seed_of_realisation"] = ("realisation", np.array(seeds, dtype=np.int64))
     return labelled(out), kept
 
@@ -156,19 +172,18 @@ def _tail(wave: Wave, values: np.ndarray) -> np.ndarray:
     return values[-wave.time.size : -1] if wave.regular else values
 
 
-def _ends(member: StraightMember, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
-    """Return the largest resultants at both ends of a simply supported member [eq:member-ends]."""
-    along = (np.asarray(member.end) - np.asarray(member.start)) / member.length
-    couple = np.cross(moment, along) / member.length
-    # half of the force each, and a couple at the ends that balances the moment
-    return np.array([np.linalg.norm(0.5 * force + sign * couple, axis=1).max() for sign in (-1.0, 1.0)])
-
-
 def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
     """Return the time series of one wave."""
     import xarray as xr
 
-    parts = {f"{name}_force": (("time", "component"), found.force[index]) for index, name in enumerate(CAUSES)}
+    # at the end that bears most, and where the moment is largest
+    size = np.linalg.norm(_tail(wave, found.held.sum(axis=0)), axis=2).max(axis=0)
+    end, station = int(np.argmax(size[:2])), 2 + int(np.argmax(size[2:]))
+    parts = {}
+    for index, name in enumerate(CAUSES):
+        parts[f"{name}_force"] = (("time", "component"), found.force[index])
+        parts[f"{name}_end_force"] = (("time", "axis"), found.held[index, :, end])
+        parts[f"{name}_bending_moment"] = (("time", "axis"), found.held[index, :, station])
     return labelled(
         xr.Dataset(
             {
@@ -177,7 +192,7 @@ def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
                 **parts,
                 "circulation": ("time", found.circulation),
             },
-            coords={"time": found.time, "component": COMPONENTS},
+            coords={"time": found.time, "component": COMPONENTS, "axis": AXES},
             attrs={"wave_height": wave.height, "period": wave.period, "wave": wave.name},
         )
     )

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
 from moyai.series.intervals import reach_of_mean
 from moyai.structures.member.model import MemberProblem
+from moyai.structures.member.supports import held_at
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,21 +29,24 @@ if TYPE_CHECKING:
 #: Share of the largest force above which a cause counts as one that decides.
 DECIDES = 0.1
 _CAUSES = ("inertia", "drag", "lift")
+_Kind = Literal["force", "end_force", "bending_moment"]
 
 
 @dataclass(frozen=True, eq=False)
 class _Largest:
-    """The wave with the largest force of all: its place in the result, causes over time (causes, times, 3) [N].
+    """The wave with the largest force or moment of all: its place in the result, causes over time (causes, times, k).
 
-    ``value`` is the mean over the realisations of an irregular sea, the causes are those of the record nearest to it.
+    ``value`` is the mean over the realisations of an irregular sea, the causes are those of the record nearest to it;
+    ``scatter`` is the value of each realisation, one in a regular wave.
     """
 
     where: str
-    force: Array
+    causes: Array
     row: int
     value: float
     sea: xr.Dataset
     wave: int
+    scatter: Array
 
 
 def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -54,7 +58,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     groups : mapping of str to xarray.Dataset
         What was run, by its place in the result.
     """
-    found = _largest(groups)
+    found = _largest(groups, "force")
     if found is None:
         return ()
     shares = _shares(found)
@@ -75,13 +79,29 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
             detail="; ".join([*(_range_text(item, number, reynolds) for item in ranges), f"Re = {reynolds:.2g}"]),
         )
     )  # fmt: skip
-    ends = found.sea["maximum_end_force"].values[found.wave]
-    items.append(
-        Headline(
-            "end_force", "largest force at an end", float(np.max(ends)), "N", found.where, model,
-            detail="of a member that rests simply on both ends" + _ends_text(found),
-        )
-    )  # fmt: skip
+    ends, bending = _largest(groups, "end_force"), _largest(groups, "bending_moment")
+    held = held_at(problem.support)
+    # a fixed end bears the whole force, which stands above
+    if ends is not None and problem.support == "both_ends":
+        items.append(
+            Headline(
+                "end_force", "largest force at an end", ends.value, "N", ends.where, model,
+                _band(problem, ends, ranges), detail=held + _ends_text(ends),
+            )
+        )  # fmt: skip
+    if bending is not None:
+        along = bending.sea["maximum_bending_moment_along"].values[bending.wave]
+        place = float(bending.sea["station"].values[int(np.argmax(along))])
+        where = f"{place:.3g} m from its start"
+        if problem.support != "both_ends" and int(np.argmax(along)) in (0, along.size - 1):
+            where = "at the fixed end"
+        items.append(
+            Headline(
+                "bending_moment", "largest bending moment", bending.value, "N m", bending.where, model,
+                _band(problem, bending, ranges),
+                detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
+            )
+        )  # fmt: skip
     return tuple(items)
 
 
@@ -92,7 +112,7 @@ def _number_label(found: _Largest) -> str:
 
 def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Notice, ...]:
     """Warn where a cause that decides the largest force has coefficients outside their measured range of KC."""
-    found = _largest(groups)
+    found = _largest(groups, "force")
     if found is None:
         return ()
     shares = dict(zip(_CAUSES, _shares(found), strict=True))
@@ -134,13 +154,14 @@ def _runs(groups: Mapping[str, xr.Dataset]) -> Iterator[tuple[str, str, int, xr.
                 yield level, name, wave, sea, series
 
 
-def _largest(groups: Mapping[str, xr.Dataset]) -> _Largest | None:
+def _largest(groups: Mapping[str, xr.Dataset], kind: _Kind) -> _Largest | None:
+    name = "maximum_total_force" if kind == "force" else f"maximum_{kind}"
     best: _Largest | None = None
-    for level, name, wave, sea, series in _runs(groups):
-        value = float(sea["maximum_total_force"].values[wave])
+    for level, sea_name, wave, sea, series in _runs(groups):
+        value = float(np.max(sea[name].values[wave]))
         if best is not None and not value > best.value:
             continue
-        causes = np.stack([series[key].values for key in ("inertia_force", "drag_force", "magnus_force")])
+        causes = np.stack([series[f"{cause}_{kind}"].values for cause in ("inertia", "drag", "magnus")])
         size = np.linalg.norm(causes.sum(axis=0), axis=1)
         if sea.attrs["kind"] == "regular":
             # the last row of a wave that takes time to settle: the first from the end that reaches the value
@@ -148,14 +169,16 @@ def _largest(groups: Mapping[str, xr.Dataset]) -> _Largest | None:
         else:
             row = int(np.argmax(size))
         label = str(sea["wave"].values[wave])
-        where = ", ".join(part for part in (name, "" if label == "sea" else label, level) if part)
-        best = _Largest(where, causes, row, value, sea, wave)
+        where = ", ".join(part for part in (sea_name, "" if label == "sea" else label, level) if part)
+        each = f"{name}_of_realisation"
+        scatter = np.asarray(sea[each].values, dtype=float) if each in sea else np.array([value])
+        best = _Largest(where, causes, row, value, sea, wave, scatter)
     return best
 
 
 def _shares(found: _Largest) -> tuple[float, float, float]:
     """Return what inertia, drag and lift add along the largest force at its instant, over it: they add up to one."""
-    parts = found.force[:, found.row]
+    parts = found.causes[:, found.row]
     total = parts.sum(axis=0)
     square = float(total @ total)
     if square == 0.0:
@@ -168,18 +191,11 @@ def _causes_text(shares: tuple[float, float, float]) -> str:
     return f"{_CAUSES[int(np.argmax(shares))]} decides: {words}"
 
 
-def _scatter(found: _Largest) -> Array:
-    """Return the largest force of each realisation [N]; one value in a regular wave."""
-    if "maximum_total_force_of_realisation" not in found.sea:
-        return np.array([found.value])
-    return np.asarray(found.sea["maximum_total_force_of_realisation"].values, dtype=float)
-
-
 def _chance_text(found: _Largest) -> str:
     """Say what the number is worth as one of the largest values of a random sea."""
     if found.sea.attrs.get("kind") == "regular":
         return ""
-    scatter = _scatter(found)
+    scatter = found.scatter
     if scatter.size < 2:
         return "; one realisation, the scatter of others is not known"
     deviation = spoken(float(scatter.std(ddof=1)), "N", 2)
@@ -187,7 +203,7 @@ def _chance_text(found: _Largest) -> str:
 
 
 def _ends_text(found: _Largest) -> str:
-    count = _scatter(found).size
+    count = found.scatter.size
     return f"; mean of {count} realisations" if count > 1 else ""
 
 
@@ -202,15 +218,15 @@ def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, 
     order = (1, 0, 2)
     factors = [ends[k] if k < len(ends) else (1.0,) for k in order]
     peaks = [
-        float(np.linalg.norm(np.tensordot(np.array(chosen), found.force, axes=(0, 0)), axis=1).max())
+        float(np.linalg.norm(np.tensordot(np.array(chosen), found.causes, axes=(0, 0)), axis=1).max())
         for chosen in product(*factors)
     ]
     words = [f"C_D -{100 * ranges[0].below:.0f} to +{100 * ranges[0].above:.0f} %"]
     words.append(f"C_M -{100 * ranges[1].below:.0f} to +{100 * ranges[1].above:.0f} %")
     if len(ranges) > 2:
         words.append(f"circulation ±{100 * ranges[2].above:.0f} %")
-    own = float(np.linalg.norm(found.force.sum(axis=0), axis=1)[found.row])
-    scatter = _scatter(found)
+    own = float(np.linalg.norm(found.causes.sum(axis=0), axis=1)[found.row])
+    scatter = found.scatter
     if scatter.size < 2 or own == 0.0:
         return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
     low, high = min([own, *peaks]) / own, max([own, *peaks]) / own

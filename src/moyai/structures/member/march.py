@@ -15,6 +15,7 @@ from moyai.morison.forces import strip_forces
 from moyai.morison.members import StraightMember, Strips
 from moyai.morison.orbits import mean_frequency, orbit_amplitudes
 from moyai.structures.member.model import MemberProblem
+from moyai.structures.member.supports import influence
 from moyai.structures.member.waves import Wave
 
 CAUSES = ("inertia", "drag", "magnus")
@@ -34,6 +35,8 @@ class WaveForces:
         Whole member by cause, along x, y, z [N].
     moment : ndarray, shape (times, 3)
         Of all forces about the middle of the member [N m].
+    held : ndarray, shape (causes, times, 2 + stations, 2)
+        Forces at start and end [N] and bending moments at the stations [N m], by cause, along the axes of the section.
     circulation : ndarray, shape (times,)
         At the governing strip [m2/s].
     strip : dict of str to ndarray, shape (strips, ...)
@@ -51,6 +54,7 @@ class WaveForces:
     elevation: Array
     force: Array
     moment: Array
+    held: Array
     circulation: Array
     strip: dict[str, Array]
     governing: int
@@ -87,6 +91,8 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
     time = _shown_time(problem, wave)
     force = np.zeros((len(CAUSES), time.size, 3))
     moment = np.zeros((time.size, 3))
+    rows = influence(problem.support, count, member.length) * strips.length
+    held = np.zeros((len(CAUSES), time.size, len(rows), 2))
     found: list[dict[str, Array]] = []
     circulations: list[Array] = []
     elevations: list[Array] = []
@@ -101,6 +107,7 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
         for cause in range(len(CAUSES)):
             force[cause] += np.einsum("tsa,ax->tx", per_length[cause], axes) * strips.length
         whole = np.einsum("ctsa,ax->tsx", per_length, axes) * strips.length
+        held += np.einsum("ks,ctsa->ctka", rows[:, first : first + len(part.centres)], per_length)
         moment += np.sum(np.cross(part.centres - middle, whole), axis=1)
         found.append(numbers)
         circulations.append(gammas)
@@ -113,6 +120,7 @@ def march(problem: MemberProblem, member: StraightMember, wave: Wave) -> WaveFor
         elevation=np.concatenate(elevations, axis=1)[:, centre],
         force=force,
         moment=moment,
+        held=held,
         circulation=np.concatenate(circulations, axis=1)[:, governing],
         strip=strip,
         governing=governing,

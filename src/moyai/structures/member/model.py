@@ -18,6 +18,7 @@ from moyai.morison.members import StraightMember
 from moyai.sea.environment import Environment
 from moyai.sea.kinematics import Stretching
 from moyai.sea.states import IrregularSea
+from moyai.structures.member.supports import Support
 
 Analysis = Literal["sweep", "forces", "surface"]
 WaveTheory = Literal["linear", "stokes", "stream_function"]
@@ -133,6 +134,8 @@ class MemberProblem:
     roughness : float
         Height of the roughness k [m].
     motion : Motion or None
+    support : {"both_ends", "start", "end"}
+        Where it is held: simply at both ends, or fixed at one.
     """
 
     title: str
@@ -145,6 +148,7 @@ class MemberProblem:
     form: DragForm = "component"
     roughness: float = 0.0
     motion: Motion | None = None
+    support: Support = "both_ends"
     settings: Settings = field(default_factory=Settings)
     case_text: str = ""
     case_hash: str = ""

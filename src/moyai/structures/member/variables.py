@@ -45,7 +45,18 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "maximum_moment": ("N m", "largest moment about the middle of the member, by direction"),
     "maximum_total_force_of_realisation": ("N", "largest resultant force on the member in each realisation of the sea"),
     "seed_of_realisation": ("1", "seed of each realisation of the sea"),
-    "maximum_end_force": ("N", "largest resultant at each end of the simply supported member"),
+    "maximum_end_force": ("N", "largest resultant at each end of the member, as it is held"),
+    "maximum_bending_moment": ("N m", "largest bending moment in the member, as it is held"),
+    "maximum_bending_moment_along": ("N m", "largest bending moment at each station along the member"),
+    "maximum_end_force_of_realisation": ("N", "largest resultant at an end in each realisation of the sea"),
+    "maximum_bending_moment_of_realisation": ("N m", "largest bending moment in each realisation of the sea"),
+    "station": ("m", "where bending moments are taken, distance from the start of the member"),
+    "inertia_end_force": ("N", "inertia force at the end that bears most, along the axes of the section"),
+    "drag_end_force": ("N", "drag force at the end that bears most, along the axes of the section"),
+    "magnus_end_force": ("N", "Magnus force at the end that bears most, along the axes of the section"),
+    "inertia_bending_moment": ("N m", "bending moment of inertia forces where it is largest, by axis of the load"),
+    "drag_bending_moment": ("N m", "bending moment of drag forces where it is largest, by axis of the load"),
+    "magnus_bending_moment": ("N m", "bending moment of Magnus forces where it is largest, by axis of the load"),
     "surface_elevation": ("m", "surface above the middle of the member"),
     "force": ("N", "force on the member"),
     "inertia_force": ("N", "inertia force on the member"),
@@ -80,7 +91,13 @@ LABELS: dict[str, str] = {
 
 # Names that a group holds whenever its analysis was run
 ALWAYS: dict[str, tuple[str, ...]] = {
-    "/[^/]+/waves/[^/]+": ("maximum_force", "maximum_total_force", "maximum_end_force", "keulegan_carpenter"),
+    "/[^/]+/waves/[^/]+": (
+        "maximum_force",
+        "maximum_total_force",
+        "maximum_end_force",
+        "maximum_bending_moment",
+        "keulegan_carpenter",
+    ),
     "/[^/]+/time/[^/]+/[^/]+": ("force", "inertia_force", "drag_force"),
 }
 

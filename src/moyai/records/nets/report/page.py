@@ -143,13 +143,21 @@ def _drag_figure(towing: Group, waves: Group, nets: Group) -> list[Block]:
         series.append(Series(f"net {name}", {"re": x[sort]}, y[sort], 0, tone, style="points"))
         bars_x = np.column_stack([x, x, np.full(x.size, np.nan)]).ravel()
         bars_y = np.column_stack([y - spread, y + spread, np.full(x.size, np.nan)]).ravel()
-        series.append(Series(f"net {name}, interval", {"re": bars_x}, bars_y, 0, tone, faint=True))
+        label = f"net {name}"
+        series.append(Series(f"{label}, interval", {"re": bars_x}, bars_y, 0, tone, faint=True, belongs_to=label))
         factor, exponent = nets.real("factor", "net"), nets.real("exponent", "net")
         k = order.index(name)
         if factor is not None and exponent is not None and math.isfinite(float(factor[k])):
             grid = np.geomspace(x.min(), x.max(), 40)
             series.append(
-                Series(f"net {name}, fit", {"re": grid}, float(factor[k]) * grid ** -float(exponent[k]), 0, tone)
+                Series(
+                    f"{label}, fit",
+                    {"re": grid},
+                    float(factor[k]) * grid ** -float(exponent[k]),
+                    0,
+                    tone,
+                    belongs_to=label,
+                )
             )
     grid = np.geomspace(_PAPER[2], _PAPER[3], 60)
     series.append(
@@ -162,7 +170,8 @@ def _drag_figure(towing: Group, waves: Group, nets: Group) -> list[Block]:
             (Abscissa("re", "Re = U d / ν", "", log=True),),
             (Panel("C_D on the area of the twines", "", from_zero=True),),
             tuple(series),
-            "Points with intervals, the power law of each net, and the law of Matsubara and others over its range.",
+            "Points with intervals, the power law of each net as a line, and the law of Matsubara and others over its "
+            "range.",
             height=420,
         )
     ]
@@ -181,13 +190,13 @@ def _wave_figures(waves: Group) -> list[Block]:
             value, half = waves.real(key, "run"), waves.real(f"{key}_half_width", "run")
             if value is None or half is None:
                 continue
-            label = f"net {name}, {kind.replace('_', ' ')}" + ("" if panel == 0 else ", C_M")
+            label = f"net {name}, {kind.replace('_', ' ')}"
             x = {"kc": count[own], "re": number[own]}
             series.append(Series(label, x, value[own], panel, tone, style="points"))
             gap = np.full(int(own.sum()), np.nan)
             bars = {axis: np.column_stack([v, v, gap]).ravel() for axis, v in x.items()}
             ends = np.column_stack([value[own] - half[own], value[own] + half[own], gap]).ravel()
-            series.append(Series(f"{label}, interval", bars, ends, panel, tone, faint=True))
+            series.append(Series(f"{label}, interval", bars, ends, panel, tone, faint=True, belongs_to=label))
     return [
         Figure(
             "drag-kc",

@@ -61,6 +61,7 @@ def build_problem(model: schema.MemberCase, folder: Path, *, case_text: str = ""
         form=unit.drag_form,
         roughness=unit.drag.roughness if isinstance(unit.drag, schema.DragTable) else 0.0,
         motion=_motion(unit.motion),
+        support=unit.support,
         settings=Settings(
             analyses=model.analyses,
             strips=model.settings.strips,

@@ -42,6 +42,7 @@ def check(model: schema.MemberCase, findings: Findings, folder: Path) -> None:
         findings.raised(error, ("structure",))
         return
     _check_place(problem, findings)
+    _check_support(model, problem, findings)
     _check_section(problem, findings)
     if findings.sound("structure"):
         _check_waves(model, problem, findings)
@@ -101,6 +102,24 @@ def _check_place(problem: MemberProblem, findings: Findings) -> None:
         except InputError as error:
             findings.raised(error, ("structure", "start"))
             return
+
+
+def _check_support(model: schema.MemberCase, problem: MemberProblem, findings: Findings) -> None:
+    """Ask how a member is held that stands on the bed and reaches above the surface."""
+    if "support" in model.structure.model_fields_set:
+        return
+    lower, upper = sorted((("start", problem.member.start[2]), ("end", problem.member.end[2])), key=lambda one: one[1])
+    name, level = min(problem.environment.water_levels, key=lambda one: one[1])
+    depth = problem.environment.water_at(level).depth
+    if not math.isfinite(depth) or lower[1] > level - depth + problem.member.placed_section.breadth:
+        return
+    if upper[1] > level:
+        findings.warn(
+            ("structure",),
+            f"the member stands on the bed and reaches above still water ({name}); it is taken as resting simply on "
+            "both ends",
+            remedy=f"give support: {lower[0]} for a pile fixed in the bed, support: both_ends where its head is held",
+        )
 
 
 def _check_section(problem: MemberProblem, findings: Findings) -> None:

@@ -10,6 +10,7 @@ from pydantic import Discriminator, Field, Tag
 from moyai.case.criteria import given_criteria
 from moyai.case.schema_criteria import (
     OFF,
+    GreatestMoment,
     GreatestTension,
     NoCriteria,
     word_or_block,
@@ -22,6 +23,9 @@ class MemberCriteria(Block):
     """What a member has to keep."""
 
     greatest_force: GreatestTension = Field(default=None, description="Largest force on the member" + OFF + ".")
+    greatest_bending_moment: GreatestMoment = Field(
+        default=None, description="Largest bending moment of waves and current in the member" + OFF + "."
+    )
 
 
 MemberKeeps = Annotated[

@@ -241,6 +241,11 @@ class MemberStructure(Block):
     )
     kinematic_viscosity: Viscosity = Field(description="Of the water, 1.14e-6 m2/s at 15 degrees Celsius.")
     circulation: Circulation = Field(description="What is done about the circulation at small KC.")
+    support: Literal["both_ends", "start", "end"] = Field(
+        default="both_ends",
+        description="Where it is held: resting simply on both ends, or fixed at its start or its end and free at the "
+        "other (a pile). Default: both_ends.",
+    )
     motion: MemberMotion | None = Field(default=None, description="Motion of the member; drag is relative to it.")
 
 

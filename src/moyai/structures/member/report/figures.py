@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -183,16 +185,16 @@ def along_member(level: Group, sea: Group) -> Figure | None:
     if place is None or force is None or number is None or place.size < 2:
         return None
     factor, unit = common_scale("N/m", force)
-    waves = sea.labels("wave")
-    chosen = list(range(len(waves))) if len(waves) <= 4 else [0, len(waves) // 2, len(waves) - 1]
+    loaded = [axis for axis in range(2) if force[:, :, axis].max() > 1e-9 * force.max()] or [0]
+    last = len(loaded) + 1
     series = []
-    for tone, wave in enumerate(chosen):
-        for panel in range(2):
-            series.append(Series(waves[wave], {"s": place}, force[wave, :, panel] * factor, panel, tone))
-        series.append(Series(waves[wave], {"s": place}, number[wave], 2, tone))
+    for tone, (wave, name) in enumerate(_few(sea.labels("wave"))):
+        for panel, axis in enumerate(loaded):
+            series.append(Series(name, {"s": place}, force[wave, :, axis] * factor, panel, tone))
+        series.append(Series(name, {"s": place}, number[wave], last - 1, tone))
         if wet is not None and wet.min() < 1.0:
-            series.append(Series(waves[wave], {"s": place}, wet[wave], 3, tone))
-    panels = [Panel(f"largest force, {axis} axis", unit, from_zero=True) for axis in AXES] + [
+            series.append(Series(name, {"s": place}, wet[wave], last, tone))
+    panels = [Panel(f"largest force, {AXES[axis]} axis", unit, from_zero=True) for axis in loaded] + [
         Panel("KC", from_zero=True)
     ]
     if wet is not None and wet.min() < 1.0:
@@ -206,6 +208,33 @@ def along_member(level: Group, sea: Group) -> Figure | None:
         "Largest force per length over time, exposure to the surface included.",
         height=140 + 150 * len(panels),
     )
+
+
+def bending_along(level: Group, sea: Group) -> Figure | None:
+    """Return the largest bending moment along the member."""
+    place = sea.real("station", "station")
+    moment = sea.real("maximum_bending_moment_along", "wave", "station")
+    if place is None or moment is None or place.size < 3:
+        return None
+    factor, unit = common_scale("N m", moment)
+    return Figure(
+        slug(level.name, sea.name, "bending"),
+        f"Bending moment along the member: {sea.name}",
+        (Abscissa("s", "distance from the start of the member", "m"),),
+        (Panel("largest bending moment", unit, from_zero=True),),
+        tuple(
+            Series(name, {"s": place}, moment[wave] * factor, 0, tone)
+            for tone, (wave, name) in enumerate(_few(sea.labels("wave")))
+        ),
+        "Largest over time at each place, of waves and current alone; as the member is held.",
+        height=290,
+    )
+
+
+def _few(waves: Sequence[str]) -> list[tuple[int, str]]:
+    """Return at most four waves, or the first, the middle one and the last of more."""
+    chosen = range(len(waves)) if len(waves) <= 4 else (0, len(waves) // 2, len(waves) - 1)
+    return [(index, waves[index]) for index in chosen]
 
 
 def _columns(sea: Group, entries: tuple[tuple[str, str, str, dict[str, str]], ...]) -> list[Column]:
@@ -265,12 +294,13 @@ def force_table(level: Group, sea: Group) -> Table | None:
         ("largest force", "maximum_total_force", "N", {}),
         *((f"mean F_{name}", "mean_force", "N", {"component": name}) for name in COMPONENTS),
         *((f"largest at the {end}", "maximum_end_force", "N", {"end": end}) for end in ("start", "end")),
+        ("largest bending moment", "maximum_bending_moment", "N m", {}),
     )
     return Table(
         slug(level.name, sea.name, "forces"),
         f"Forces on the member: {sea.name}",
         tuple(_columns(sea, entries)),
-        note="Whole member; the loads at its ends are those of a simply supported one." + said,
+        note="Whole member; loads at its ends and bending moment as it is held, of waves and current alone." + said,
         emphasised=(int(values.argmax()),) if values.size > 1 else (),
     )
 

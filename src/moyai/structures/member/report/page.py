@@ -99,6 +99,7 @@ def _seas(level: Group) -> list[Block | None]:
             figures.force_table(level, sea),
             figures.coefficient_table(level, sea),
             figures.along_member(level, sea),
+            figures.bending_along(level, sea),
         ]
     return blocks
 
