@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from moyai.core.arrays import Array
+from moyai.core.options import checks_words
 
 Support = Literal["both_ends", "start", "end"]
 """Resting simply on both ends, or fixed at one and free at the other."""
@@ -27,6 +28,7 @@ def stations(strips: int, length: float) -> Array:
     return np.round(np.linspace(0.0, strips, count)) * (length / strips)
 
 
+@checks_words
 def influence(support: Support, strips: int, length: float) -> Array:
     """Return what a unit force on each strip gives, (2 + stations, strips).
 
@@ -53,6 +55,7 @@ def influence(support: Support, strips: int, length: float) -> Array:
     return np.concatenate([ends, moment])
 
 
+@checks_words
 def held_at(support: Support) -> str:
     """Return the words for it."""
     return {
