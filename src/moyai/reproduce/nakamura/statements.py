@@ -255,14 +255,14 @@ def _roll_closer(runs: Runs) -> Finding:
 
 
 def _damping_needed(runs: Runs) -> Finding:
-    ratio = abscissae(runs.undamped_time, "time")["ratio"]
-    near = _near(ratio)
-    plain = values(runs.undamped_time, "time", "motion_ratio", "roll")[near]
-    damped = values(runs.damped_time, "time", "motion_ratio", "roll")[near]
+    # the largest motion, since without damping the motion may never repeat and has no first harmonic
+    near = _near(abscissae(runs.undamped_time, "time")["ratio"])
+    plain = values(runs.undamped_time, "time", "maximum_motion", "roll")[near]
+    damped = values(runs.damped_time, "time", "maximum_motion", "roll")[near]
     change = float(np.abs(plain / damped - 1.0).max())
     words = (
-        f"damping changes roll in time by up to {100 * change:.0f} % near resonance, in frequency by a factor "
-        f"{peak(runs.undamped)[0] / peak(runs.damped)[0]:.0f}"
+        f"damping changes the largest roll in time by up to {100 * change:.0f} % near resonance, in frequency the "
+        f"amplitude by a factor {peak(runs.undamped)[0] / peak(runs.damped)[0]:.0f}"
     )
     return judged(change > 0.2, words)
 
