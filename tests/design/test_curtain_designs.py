@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import moyai
@@ -161,6 +162,46 @@ def test_a_load_with_an_impact_carries_the_band_of_its_steady_part(designs) -> N
     assert shift > 0.0
     assert band.high == pytest.approx(float(upper["governing_load"]) + shift, rel=1e-9)
     assert "steady part" in band.of
+
+
+def drifted(drag: float, skirt: float, sag: float, current: float) -> float:
+    """Return the speed at which a skirt let go in the middle has drifted a sag far, by its equation of motion."""
+    mass = 2.0 * SEA * skirt**2 / math.pi
+
+    def rate(_: float, state: np.ndarray) -> tuple[float, float]:
+        slip = current - state[1]
+        return state[1], 0.5 * SEA * drag * skirt * slip * abs(slip) / mass
+
+    def taut(_: float, state: np.ndarray) -> float:
+        return state[0] - sag
+
+    taut.terminal = True  # type: ignore[attr-defined]
+    found = solve_ivp(rate, (0.0, 1e3), (0.0, 0.0), events=taut, rtol=1e-11, atol=1e-12)
+    return float(found.y_events[0][0][1])
+
+
+def test_an_impact_carries_the_band_of_its_models_and_of_the_drift(tmp_path: Path) -> None:
+    more = str(BASE["more"]) + "  impact: {start: slack_phase}\n"
+    given, result = ran(tmp_path, **DESIGNS["held toe"], analyses="statics, impact, limits", more=more)
+    loads, found = result.tree["/SWL/loads"].to_dataset(), result.tree["/SWL/impact"].to_dataset()
+    sag = float(found["taut_sag"])
+    speeds = [drifted(1.5 * factor, given["skirt"], sag, given["speed"]) for factor in (0.8, 1.0, 1.3)]
+    assert float(found["start_speed"]) == pytest.approx(speeds[1], rel=1e-6)
+    counting = found["impact_tension"].values[found["counts"].values == 1.0]
+    low = speeds[0] / speeds[1] * counting.min() / counting.max()
+    upper = loads.sel(component="upper cable")
+    struck = float(upper["impact_load"])
+    assert float(upper["impact_low"]) == pytest.approx(low * struck, rel=1e-6)
+    assert float(upper["impact_high"]) == pytest.approx(speeds[2] / speeds[1] * struck, rel=1e-6)
+    statics = result.tree["/SWL/statics"].to_dataset()
+    band = headline(result, "cable_tension").band
+    high = float(upper["impact_high"]) + float(statics["steady_upper_tension_high"])
+    assert band.high == pytest.approx(high, rel=1e-9)
+    assert float(upper["governing_high"]) == pytest.approx(high, rel=1e-9)
+    # the largest current has the same cause of its band: both ends of the impact
+    limits = result.tree["/SWL/limits"]
+    assert float(limits["speed_limit_low"]) < float(limits["speed_limit"]) < float(limits["speed_limit_high"])
+    assert "impact" in headline(result, "limit_current").band.of
 
 
 @pytest.mark.parametrize("name", EVERY)

@@ -326,6 +326,8 @@ def loads(factor: float) -> xr.Dataset:
             "steady_load": v("component", steady, "N"),
             "wave_load": v("component", wave, "N"),
             "impact_load": v("component", snap_load, "N"),
+            "impact_low": v("component", 0.6 * snap_load, "N"),
+            "impact_high": v("component", 1.1 * snap_load, "N"),
             "governing_load": v("component", steady + more, "N"),
             "load_bound": ("component", [""] * len(steady)),
             "capacity": v("component", capacity, "N"),

@@ -249,7 +249,7 @@ def _band(groups: Groups, load: _Load) -> Band | None:
 
 
 def _impact_band(groups: Groups, load: _Load) -> Band | None:
-    """Return what the band of the steady part makes of a load with an impact, which itself is one value."""
+    """Return what the bands of the steady part and of the impact make of their sum."""
     steady = _steady_band(groups, load)
     if steady is None:
         return None
@@ -257,8 +257,12 @@ def _impact_band(groups: Groups, load: _Load) -> Band | None:
     current = _at_rest(groups[f"/{load.level}/statics"], _STEADY_NAMES[load.component])
     # a pretension above the load of the current stays where it is
     least = part if part > current * (1.0 + 1e-9) else 0.0
-    low, high = (value - part + max(end, least) for end in (steady.low, steady.high))
-    return Band(min(low, value), max(high, value), f"steady part, {steady.of}; the impact is one value")
+    low, high = (
+        load.number(end) + max(at_rest, least)
+        for end, at_rest in (("impact_low", steady.low), ("impact_high", steady.high))
+    )
+    of = f"impact: the models that count, start speed over the range of the drag; steady part: {steady.of}"
+    return Band(min(low, value), max(high, value), of)
 
 
 def _moving_band(groups: Groups, load: _Load, value: float) -> Band | None:
@@ -544,9 +548,9 @@ def _number(table: xr.Dataset, name: str) -> float:
 
 
 def _limit_band(table: xr.Dataset) -> Band | None:
-    """Return the band of the largest current over the drag coefficient."""
+    """Return the band of the largest current over the drag coefficient or over the impact."""
     low, high = _number(table, "speed_limit_low"), _number(table, "speed_limit_high")
-    return Band(low, high, "range of the drag coefficient") if low < high else None
+    return Band(low, high, str(table.attrs.get("speed_limit_band_of", ""))) if low < high else None
 
 
 def _kilo(value: float, unit: str = "N") -> str:

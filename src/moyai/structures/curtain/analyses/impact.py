@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,9 @@ class ImpactAnswer:
         Of both cables together [N].
     half_angle : float
         Of the just-taut arc of the skirt [rad]; NaN where no chord is known.
+    uncertainty : tuple of float
+        Ends of the band of the tension over ``design_tension`` [-]: the lowest of the models that count with the start
+        speed of low drag, and the design model with that of high drag [eq:impact-band].
     """
 
     impact: Impact
@@ -50,6 +53,7 @@ class ImpactAnswer:
     design_model: str
     design_tension: float
     half_angle: float
+    uncertainty: tuple[float, float]
 
     @property
     def shares(self) -> tuple[float, float]:
@@ -127,6 +131,22 @@ def start_speed(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, st
     return abs(phase.speed), f"drift from release, {100.0 * phase.share:.3g} % of the current"
 
 
+def start_speed_range(unit: LevelCurtain, settings: ImpactSettings) -> tuple[float, float]:
+    """Return the start speed at the low and at the high end of the drag coefficient over that as given [-].
+
+    Only the drift from a release depends on the drag.
+    """
+    if settings.start_speed is not None or settings.start == "current":
+        return 1.0, 1.0
+    given = start_speed(unit, settings)[0]
+    law = unit.hanging.drag
+    low, high = (
+        start_speed(replace(unit, hanging=replace(unit.hanging, drag=law.scaled(factor))), settings)[0] / given
+        for factor in law.range
+    )
+    return low, high
+
+
 def bulging_skirt(unit: LevelCurtain, settings: ImpactSettings) -> BulgingSkirt | None:
     """Return the arc of the skirt for models B and AB, or None where the data do not give one.
 
@@ -170,8 +190,11 @@ def solve_impact(unit: LevelCurtain, settings: ImpactSettings, speed: float | No
     comparison = compare_models(impact, skirt)
     fit = [item for item in comparison.models if counts(item.model) and math.isfinite(item.tension)]
     design = max(fit, key=lambda item: item.tension)
+    slow, fast = start_speed_range(unit, settings) if speed is None else (1.0, 1.0)
+    least = min(item.tension for item in fit) / design.tension
     angle = math.nan if skirt is None else float(arc_half_angle(skirt.chord / skirt.length))
-    return ImpactAnswer(impact, comparison, edge_impact(impact), design.model, design.tension, angle)
+    band = (slow * least, fast)
+    return ImpactAnswer(impact, comparison, edge_impact(impact), design.model, design.tension, angle, band)
 
 
 def counts(model: str) -> bool:

@@ -161,7 +161,7 @@ def _limits_group(
     alone = np.array([row.value for row, _ in found.rows])
     # a site with this current has every weaker one as well, twice a tide
     source = [int(np.argmin(alone[: n + 1])) for n in range(alone.size)]
-    low, high = _drag_band(unit, counted, most)
+    low, high, band_of = _speed_band(unit, counted, most)
     data: dict[str, Any] = {
         "limit_height": ("speed", alone[source]),
         "limit_governing": ("speed", [found.rows[n][0].governing for n in source]),
@@ -196,6 +196,7 @@ def _limits_group(
                 "speed_limit_governing": most.governing,
                 "speed_limit_bound": found.most_bound,
                 "speed_limit_text": speed_text(most),
+                "speed_limit_band_of": band_of,
                 "limit_not_monotone": _not_monotone(found, alone, alone[source]),
                 "limit_jump": _jump(unit, counted, found),
                 "least_effective_depth": unit.requirements.least_depth,
@@ -230,15 +231,23 @@ def _design_height(
     }
 
 
-def _drag_band(unit: LevelCurtain, counted: CountedLimits, most: Limit) -> tuple[float, float]:
-    """Return the largest current at the upper and lower end of the drag coefficient; NaN where an impact sets it.
+def _speed_band(unit: LevelCurtain, counted: CountedLimits, most: Limit) -> tuple[float, float, str]:
+    """Return the largest current at both ends of what its load varies with, and what that is; NaN where there is none.
 
-    The load goes with C_D U^2 alone, so that a factor on one is the root of a factor on the other.
+    A load at rest goes with C_D U^2 alone, so that a factor on one is the root of a factor on the other; with an impact
+    the limit is sought again with the ends of its band.
     """
-    if not most.reached or (counted.loads.impact is not None and most.governing not in ("effective depth", "floats")):
-        return math.nan, math.nan
-    low, high = drag_factors(unit.hanging.drag)
-    return most.value / math.sqrt(high), most.value / math.sqrt(low)
+    if not most.reached:
+        return math.nan, math.nan, ""
+    impact = counted.loads.impact
+    if impact is None or most.governing in ("effective depth", "floats"):
+        low, high = drag_factors(unit.hanging.drag)
+        return most.value / math.sqrt(high), most.value / math.sqrt(low), "range of the drag coefficient"
+    ends = []
+    for factor in reversed(impact.uncertainty):
+        loads = replace(counted.loads, impact=replace(impact, factor=factor * impact.factor))
+        ends.append(replace(counted, loads=loads).speed()[0].value)
+    return min(ends[0], most.value), max(ends[1], most.value), "range of the impact alone"
 
 
 def speed_text(limit: Limit) -> str:

@@ -96,14 +96,15 @@ def loads_dataset(
         wave, hit = factor * getattr(best.loads, field), factor * getattr(struck, field)
         if component == "skirt" and proportions is not None and math.isnan(proportions.half_angle):
             hit = math.nan
-        rows.append(_row(unit, component, steady, wave, hit, best.source, name))
+        ends = (1.0, 1.0) if answer is None else answer.uncertainty
+        rows.append(_row(unit, component, steady, wave, (hit, ends[0] * hit, ends[1] * hit), best.source, name))
     return _table(unit, rows, moved, roles or hierarchy(unit, settings)), tuple(notices)
 
 
 def dynamic_loads_dataset(unit: LevelCurtain, moved: DynamicLoads) -> xr.Dataset:
     """Return the group ``loads`` where runs of the whole span are all there is."""
     none = math.nan
-    rows = [_row(unit, component, (none,) * 3, none, none, "", "") for component in COMPONENTS]
+    rows = [_row(unit, component, (none,) * 3, none, (none,) * 3, "", "") for component in COMPONENTS]
     return _table(unit, rows, moved, ())
 
 
@@ -139,6 +140,8 @@ def _decided(
     governing, steady, high = (float(row[key]) for key in ("governing_load", "steady_load", "steady_high"))
     # the upper end of the steady load is added to what waves add; with a moving span it counts where it alone is more
     above = governing - steady + high
+    if row["governing"] == "steady and impact":
+        above += float(row["impact_high"]) - float(row["impact_load"])
     if row["governing"] == "dynamic":
         above = max(one for one in (governing, high, factor * span.judged) if math.isfinite(one))
     row |= {"governing_high": above}
@@ -287,12 +290,13 @@ def _row(
     component: str,
     band: tuple[float, float, float],
     wave: float,
-    hit: float,
+    impact: tuple[float, float, float],
     source: str,
     struck: str,
 ) -> dict[str, float | str]:
     strength = _strength(unit, component)
     steady, low, high = band
+    hit, hit_low, hit_high = impact
     judged = math.isfinite(strength.capacity)
     there = not (component in ("anchor line", "anchor") and unit.curtain.anchors is None) and not (
         component == "lower cable" and unit.curtain.lower_stiffness == 0.0
@@ -304,6 +308,8 @@ def _row(
         "steady_high": high if there else math.nan,
         "wave_load": wave if there else math.nan,
         "impact_load": hit if there else math.nan,
+        "impact_low": hit_low if there else math.nan,
+        "impact_high": hit_high if there else math.nan,
         "capacity": strength.capacity if judged and there else math.nan,
         "safety_factor": strength.safety_factor if judged and there else math.nan,
         "load_unit": _UNITS.get(component, "N"),

@@ -34,6 +34,7 @@ def impact_load(unit: LevelCurtain, answer: ImpactAnswer, settings: Settings) ->
         ratio,
         answer.half_angle,
         unit.hanging.anchor_slope,
+        answer.uncertainty,
     )
 
 

@@ -130,6 +130,8 @@ class ImpactLoad:
         Of the skirt's arc [rad]; NaN: the skirt's share is not known and left out.
     anchor_slope : float
         Of the anchor line [rad].
+    uncertainty : tuple of float
+        Ends of the band of the tension over its value [-] [eq:impact-band].
     """
 
     impact: Impact
@@ -138,6 +140,7 @@ class ImpactLoad:
     start_ratio: float
     half_angle: float
     anchor_slope: float
+    uncertainty: tuple[float, float] = (1.0, 1.0)
 
     def at(self, speed: float) -> AddedLoads:
         """Return the loads when the water moves with a speed [m/s] along the normal."""
