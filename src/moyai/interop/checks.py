@@ -50,6 +50,37 @@ def check_coefficients(dataset: xr.Dataset, *, tolerance: float = 0.05) -> tuple
     )
 
 
+def import_notices(dataset: xr.Dataset) -> tuple[Notice, ...]:
+    """Return what the identities and the long waves say against coefficients that were read from files.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From :func:`moyai.interop.read.read_coefficients`.
+
+    Returns
+    -------
+    tuple of Notice
+        A warning for each identity that fails (irregular frequencies, coarse mesh, wrong file), an error for a force
+        with another time factor or direction.
+    """
+    failed = [check for check in check_coefficients(dataset) if not check.passed]
+    return (
+        *(
+            Notice(
+                "coefficients-identity",
+                f"coefficients from files: {check.name} is off by {100.0 * check.value:.2g} % ({check.meaning})",
+                check.value,
+                check.tolerance,
+                "warning",
+                "leave out the irregular frequencies, refine the mesh, or check that the files belong together",
+            )
+            for check in failed
+        ),
+        *check_time_convention(dataset),
+    )
+
+
 def _relative(violation: np.ndarray, damping: np.ndarray) -> float:
     """Return the largest violation relative to the band maximum of the diagonal terms."""
     peak = np.max(np.abs(np.einsum("nii->ni", damping)), axis=0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from moyai.core.errors import InputError
-from moyai.interop.checks import check_coefficients, check_time_convention
+from moyai.interop.checks import check_coefficients, check_time_convention, import_notices
 from moyai.interop.coefficients import DOFS, assemble
 from moyai.interop.planar import move_reference_point, neglected_coupling, to_planar
 
@@ -204,6 +204,20 @@ def test_checks_see_a_conjugated_force_and_a_negative_damping():
     wrong["added_mass"].values[:, 0, 4] += wrong["added_mass"].values[:, 0, 0]
     assert not check_coefficients(wrong)[0].passed
     assert neglected_coupling(dataset, "beam") > 0.01
+
+
+def test_an_import_reports_what_fails_and_nothing_else():
+    dataset = random_dataset(np.random.default_rng(5), (0.0, 0.0, 0.0), np.array([0.0]))
+    dataset["excitation_force"].values[0, 0, :3] = [-3.0j, 0.0, 10.0 - 0.1j]
+    assert import_notices(dataset) == ()
+    wrong = dataset.copy(deep=True)
+    wrong["added_mass"].values[:, 0, 4] += 0.3 * wrong["added_mass"].values[:, 0, 0]
+    wrong["excitation_force"] = wrong["excitation_force"].conj()
+    found = import_notices(wrong)
+    assert [(one.code, one.severity) for one in found] == [
+        ("coefficients-identity", "warning"), ("time-convention", "error"),
+    ]  # fmt: skip
+    assert "symmetry of the added mass" in found[0].message
 
 
 @pytest.mark.parametrize("degrees", [-120.0, -60.0, -30.0, 0.0, 30.0, 60.0, 120.0, 180.0])

@@ -54,7 +54,8 @@ class BreakwaterKind(StructureKind):
         from moyai.structures.breakwater.run import run
 
         store = None if keep is None else DatasetStore(keep)
-        return run(problem, progress, store=store, coefficients=planar_coefficients(problem))
+        coefficients, notices = planar_coefficients(problem)
+        return run(problem, progress, store=store, coefficients=coefficients, notices=notices)
 
     def vocabulary(self) -> Vocabulary:
         from moyai.structures.breakwater.variables import VOCABULARY

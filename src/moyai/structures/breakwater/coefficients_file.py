@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from moyai.core.validity import Notice
 from moyai.structures.breakwater.model import BreakwaterProblem
 
 
-def planar_coefficients(problem: BreakwaterProblem) -> Callable[[Any], Any] | None:
-    """Return what reads the coefficients of a unit at a level, or None when the case names no file.
+def planar_coefficients(problem: BreakwaterProblem) -> tuple[Callable[[Any], Any] | None, tuple[Notice, ...]]:
+    """Return what gives the coefficients of a unit at a level, None without a file, and what speaks against them.
 
     Raises
     ------
@@ -18,7 +19,8 @@ def planar_coefficients(problem: BreakwaterProblem) -> Callable[[Any], Any] | No
     """
     given = problem.breakwater.coefficients_file
     if given is None:
-        return None
+        return None, ()
+    from moyai.interop.checks import import_notices
     from moyai.interop.planar import to_planar
     from moyai.interop.read import read_coefficients
 
@@ -31,4 +33,4 @@ def planar_coefficients(problem: BreakwaterProblem) -> Callable[[Any], Any] | No
             dataset, length=problem.breakwater.length, centre_of_gravity=unit.centre, sea=sea, origin=origin
         )
 
-    return of_unit
+    return of_unit, import_notices(dataset)

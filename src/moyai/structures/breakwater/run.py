@@ -12,6 +12,7 @@ from moyai.core.collected import STOPPED, Collected
 from moyai.core.progress import Progress, silent
 from moyai.core.results import Result
 from moyai.core.store import DatasetStore
+from moyai.core.validity import Notice
 from moyai.structures.breakwater.assembly import FloatingUnit, assemble
 from moyai.structures.breakwater.checks import check_problem, check_unit, drift_check
 from moyai.structures.breakwater.frequency import irregular as frequency_irregular
@@ -50,6 +51,7 @@ def run(
     progress: Progress = silent,
     *,
     coefficients: CoefficientsOf | None = None,
+    notices: tuple[Notice, ...] = (),
     store: DatasetStore | None = None,
 ) -> Result:
     """Run all analyses of a breakwater case.
@@ -61,6 +63,8 @@ def run(
         Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
     coefficients : callable or None
         Planar coefficients per metre of the unit from a 3-D program in place of the section.
+    notices : tuple of Notice
+        What speaks against them.
     store : DatasetStore or None
         Where coefficients that took long are kept and looked for.
 
@@ -75,7 +79,7 @@ def run(
         When the case is impossible: the body sinks, reaches the bed, a line cannot reach.
     """
     collected = Collected()
-    collected.notices.extend(check_problem(problem))
+    collected.notices.extend((*check_problem(problem), *notices))
     steps = _steps(problem, collected, _Sources(coefficients, store), progress)
     try:
         for _ in steps:

@@ -124,6 +124,8 @@ def with_coefficients(
     InputError
         For a body whose coefficients are not there, or lack something.
     """
+    from moyai.interop.checks import import_notices
+
     notices: list[Notice] = []
     checks: list[IdentityCheck] = []
     bodies: list[BodyPlan] = []
@@ -142,6 +144,7 @@ def with_coefficients(
         notices += [replace(item, message=f"body '{plan.name}': {item.message}") for item in loads.notices]
         checks += [replace(item, name=f"body '{plan.name}': {item.name}") for item in loads.checks]
         notices += _other_water(problem, plan.name, dataset)
+        notices += [replace(item, message=f"body '{plan.name}': {item.message}") for item in import_notices(dataset)]
     return replace(problem, bodies=tuple(bodies)), notices, checks
 
 
