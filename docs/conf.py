@@ -20,7 +20,14 @@ copyright = "The moyai authors, Apache-2.0"
 version = release = importlib.metadata.version("moyai")
 
 sys.path.insert(0, str(Path(__file__).parent))
-extensions = ["reproduced_papers", "myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax"]
+extensions = [
+    "gallery",
+    "reproduced_papers",
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.mathjax",
+]
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
 myst_heading_anchors = 3
 math_number_all = True
