@@ -92,7 +92,7 @@ class Translator:
         self.faults: list[Fault] = []
         self.renamed: dict[KeyPath, str] = {}
         self.dropped: list[KeyPath] = []
-        self.mendable = True
+        self.repairable = True
 
     def translate(self, error: ValidationError | None) -> list[Fault]:
         """Return all faults, in the order of the file."""
@@ -128,7 +128,7 @@ class Translator:
                 continue
             where = (*path, key) if key else path
             self.faults.append(self.document.fault(where, message, remedy=remedy, of_key=True))
-            self.mendable = False
+            self.repairable = False
 
     def _unknown_key(self, path: KeyPath) -> None:
         key = str(path[-1])
@@ -156,20 +156,20 @@ class Translator:
         )
 
     def _note_repair(self, kind: str, path: KeyPath) -> None:
-        """Remember a wrong value of an optional key as one that can be left out; others end the mending."""
+        """Remember a wrong value of an optional key as one that can be left out; others end the repair."""
         block = value_at(self.document.data, path[:-1])
         model = self.notes.models.get(id(block))
         name = path[-1] if path else None
         field = next((f for key, f in model.model_fields.items() if name in (key, f.alias)), None) if model else None
         grouped = model is not None and any(name in group for group in (*model.exactly_one, *model.at_least_one))
         if kind == "missing" or field is None or field.is_required() or grouped:
-            self.mendable = False
+            self.repairable = False
         else:
             self.dropped.append(path)
 
-    def mended(self) -> Any:
+    def repaired(self) -> Any:
         """Return a copy of the data with misspelt keys renamed and wrong optional ones left out, or ``None``."""
-        if not self.mendable:
+        if not self.repairable:
             return None
         data = copy.deepcopy(self.document.data)
         for path, name in self.renamed.items():

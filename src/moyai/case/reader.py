@@ -176,11 +176,11 @@ def case_of(document: Document, path: Path) -> Case:
 
     empty = _empty_values(document.data, (), document)
     root = _choose_root(document, empty)
-    model, faults, mended = _validate(document, root)
+    model, faults, repaired = _validate(document, root)
     faults = [*empty, *(fault for fault in faults if fault.path not in _without_value(document.data, ()))]
-    if empty or (model is None and mended is None):
+    if empty or (model is None and repaired is None):
         raise CaseError(_in_order(faults))
-    found = check(model if model is not None else mended, document, path.parent)
+    found = check(model if model is not None else repaired, document, path.parent)
     faults.extend(found.faults)
     if faults or model is None:
         raise CaseError(_in_order(faults))
@@ -318,7 +318,7 @@ def _validate(document: Document, root: type[Block]) -> tuple[Any, list[Fault], 
     faults = translator.translate(error)
     if not faults:
         return model, [], None
-    data = translator.mended()
+    data = translator.repaired()
     if data is None:
         return None, faults, None
     try:

@@ -1,4 +1,4 @@
-"""Foundation of the house: errors, validity notices, identity checks, quantities, results, progress."""
+"""Foundation of the package: errors, validity notices, identity checks, quantities, results, progress."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Files of other programs: coefficients of three-dimensional bodies, in the names and signs of this house."""
+"""Files of other programs: coefficients of three-dimensional bodies, in the names and signs of this package."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Capytaine's NetCDF files: the names and signs of this house are Capytaine's own."""
+"""Capytaine's NetCDF files: the names and signs of this package are Capytaine's own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a three-dimensional body to the planar section of this house, and from one reference point to another.
+"""From a three-dimensional body to the planar section of this package, and from one reference point to another.
 
 A planar section lies in x-z with the degrees of freedom sway (x), heave (z) and roll, the positive rotation about +y.
 For a body whose waves travel along its x axis these are surge, heave and pitch. For a body in beam seas, waves along

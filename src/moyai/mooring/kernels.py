@@ -13,7 +13,7 @@ import numpy as np
 from moyai.core.arrays import Array, IntArray
 from moyai.core.compiled import njit
 
-# Regime codes, given back by every solver of this room.
+# Regime codes, given back by every solver of this package.
 GROUNDED = 0  # part of the line on the bed, H > 0
 SUSPENDED = 1  # clear of the bed
 STRETCHED = 2  # clear of the bed, unstretched length shorter than the chord

@@ -70,7 +70,7 @@ def travelling_surface(
     coarse = times[0] + np.arange(length) * (closed.size * step / length)
     out = np.empty((wanted.size, places.size))
     for number, place in enumerate(places):
-        # numpy's transform runs with exp(+i omega t); the convention of the house is its conjugate
+        # numpy's transform runs with exp(+i omega t); the convention of the package is its conjugate
         along = np.exp(-1j * k * place)
         there = (along + np.conj(reflected) * np.conj(along)) if place < 0.0 else np.conj(transmitted) * along
         carried = np.fft.irfft(spectrum * there, n=length) * (length / closed.size)

@@ -1,4 +1,4 @@
-"""Reader of the data files of this room: CSV with its sources as comments on top, numbers as numbers."""
+"""Reader of the data files of this package: CSV with its sources as comments on top, numbers as numbers."""
 
 from __future__ import annotations
 

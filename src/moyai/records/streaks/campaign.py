@@ -343,7 +343,7 @@ def _against_orbits(item: _Measured, campaign: Campaign) -> list[Notice]:
         ]
     return [
         Notice(
-            "circulation-not-told-from-zero",
+            "circulation-not-distinct-from-zero",
             f"run '{item.run.name}': the interval of the circulation holds zero",
             value=value,
             limit=0.0,

@@ -1,4 +1,4 @@
-"""Checks of a breakwater beyond those of the rooms below: what the case asks against what the theory covers."""
+"""Checks of a breakwater beyond those of the packages below: what the case asks against what the theory covers."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ from moyai.tables.lines import LineProperties, line_type
 
 @contextmanager
 def _under(path: str) -> Iterator[None]:
-    """Put the path of the case file before the one of another room's error."""
+    """Put the path of the case file before the one of another package's error."""
     try:
         yield
     except InputError as error:
@@ -48,7 +48,7 @@ def _under(path: str) -> Iterator[None]:
         ) from None
 
 
-#: What other rooms call a key of the case file.
+#: What other packages call a key of the case file.
 _KEYS = {"line_type": "catalogue"}
 
 

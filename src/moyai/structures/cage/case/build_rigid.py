@@ -81,7 +81,7 @@ def build_problem(
 
 
 def _at(path: str, error: InputError, known: Any = None) -> InputError:
-    """Return an error of another room with the path of the case file before its key."""
+    """Return an error of another package with the path of the case file before its key."""
     fault = error.fault
     key = fault.path.split(".")[-1]
     inner = f".{key}" if known is not None and key in type(known).model_fields else ""

@@ -60,7 +60,7 @@ def check(model: NetworkCase, findings: Findings, folder: Path) -> None:
 
 
 def _raised(error: InputError, findings: Findings) -> None:
-    """Record an error of the room that builds networks, at the point or line that it names."""
+    """Record an error of the package that builds networks, at the point or line that it names."""
     fault = error.fault
     known: Any = findings.document.values
     for kind in ("points", "lines", "nets", "bodies"):
