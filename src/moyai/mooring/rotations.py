@@ -1,7 +1,7 @@
 """Exact finite rotations of a rigid body.
 
-Order stated once for the package: ``R = Rz(yaw) @ Ry(pitch) @ Rx(roll)``, roll first about x, then pitch about y, then yaw
-about z, all axes fixed to the site. ``R`` takes body coordinates to site coordinates. ``[eq:mooring-rotation]``
+Order stated once for the package: ``R = Rz(yaw) @ Ry(pitch) @ Rx(roll)``, roll first about x, then pitch about y, then
+yaw about z, all axes fixed to the site. ``R`` takes body coordinates to site coordinates. ``[eq:mooring-rotation]``
 """
 
 from __future__ import annotations
