@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from moyai.core.errors import InputError
 from moyai.sea.current import power_law, table, uniform
@@ -50,6 +51,26 @@ def test_free_toe_joins_the_closed_forms() -> None:
             arc = solve_section(stiff, current, 0.4, DEEP, DRAG, law="uniform_normal")
             circular = section_laws(length, toe, ratio * toe / length)[1]
             assert arc.effective_depth == pytest.approx(circular.effective_depth, rel=1e-9, abs=1e-9 * length)
+
+
+def test_an_oblique_plate_in_separated_flow_has_its_closed_form() -> None:
+    """Weightless sheet: d(alpha)/ds = -q c/W integrated; always a shape, less deep than by the normal velocity."""
+    rng = np.random.default_rng(21)
+    for ratio in 10.0 ** rng.uniform(-1, 1.5, 25):
+        length, toe = rng.uniform(0.3, 30), 10.0 ** rng.uniform(1, 4)
+        skirt = Skirt(length, 0.0, toe, math.inf)
+        current = uniform(speed_for(ratio, skirt), 0.4)
+        found = solve_section(skirt, current, 0.4, DEEP, DRAG, law="free_streamline")
+
+        def miss(angle: float, ratio: float = ratio) -> float:
+            turned = 4.0 * math.log(1.0 / math.tan(0.5 * angle)) + math.pi * (0.5 * math.pi - angle)
+            return turned / (4.0 + math.pi) - ratio
+
+        angle = brentq(miss, 1e-25, 0.5 * math.pi, xtol=1e-30, rtol=1e-14)
+        depth = length / ratio * (4.0 * (0.5 * math.pi - angle) + math.pi * math.cos(angle)) / (4.0 + math.pi)
+        assert found.effective_depth == pytest.approx(depth, rel=1e-7)
+        assert found.top_load == pytest.approx(toe * math.cos(angle), rel=1e-7)
+        assert found.effective_depth < solve_section(skirt, current, 0.4, DEEP, DRAG).effective_depth
 
 
 def test_held_toe_is_the_arc_of_equation_two() -> None:

@@ -62,8 +62,13 @@ def headlines(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
 
 
 def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[Headline]:
-    """Return the largest transmission: of irregular seas where there are any, by the consistent frequency domain."""
+    """Return the largest transmission: of irregular seas where there are any, by the consistent frequency domain.
+
+    Behind it stands, not shown, that of every sea for criteria at a named one.
+    """
     rows: list[tuple[bool, float, str, xr.Dataset, int | None, float]] = []
+    named: dict[str, Headline] = {}
+    label = "Wave transmission K_T of a long structure"
     for level in levels:
         for sea in seas_of(groups, level):
             data = groups.get(f"/{level}/frequency/{sea}")
@@ -79,6 +84,13 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
             other = math.nan
             if time is not None and "transmission_coefficient" in time and not regular:
                 other = float(time["transmission_coefficient"])
+            kept = named.get(sea)
+            if kept is None or values[row] > kept.value:
+                model, at = (FIRST_ORDER, row) if regular else (FREQUENCY, None)
+                named[sea] = Headline(
+                    "transmission", label, float(values[row]), "1", place(level, sea, period), model,
+                    band=_damping_band(data, at), sea=sea, shown=False,
+                )  # fmt: skip
             rows.append(
                 (not regular, float(values[row]), place(level, sea, period), data, row if regular else None, other)
             )
@@ -95,8 +107,9 @@ def _transmission(groups: Mapping[str, xr.Dataset], levels: list[str]) -> list[H
     if "overtopping_share" in data and (over := float(data["overtopping_share"])) > MUCH_OVERTOPPING:
         detail += f"; without the water that up to {100.0 * over:.0f} % of the waves bring over the deck"
     return [
-        Headline("transmission", "Wave transmission K_T of a long structure", value, "1", where,
-                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail)
+        Headline("transmission", label, value, "1", where,
+                 FREQUENCY if irregular else FIRST_ORDER, band=_damping_band(data, at), detail=detail),
+        *named.values(),
     ]  # fmt: skip
 
 

@@ -468,6 +468,16 @@ def _span_holds(loads: Sequence[_Load], level: str) -> bool:
     return any(one.model == SPAN for one in mine) and all(one.holds for one in mine)
 
 
+def _deep_enough(groups: Groups, level: str) -> bool:
+    """Return whether the skirt keeps the depth that is asked for, at the lower end of its band."""
+    limits, statics = groups.get(f"/{level}/limits"), groups.get(f"/{level}/statics")
+    if limits is None or statics is None:
+        return True
+    band = _statics_band(statics, "effective_depth")
+    depth = _at_rest(statics, "effective_depth") if band is None else band.low
+    return not depth < float(limits.attrs.get("least_effective_depth", 0.0))
+
+
 def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> Iterator[Headline]:
     """Return up to which current without waves, and up to which wave height in its own current, a curtain holds.
 
@@ -495,7 +505,8 @@ def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> It
         # the words for no limit at all, or for one of 0
         said = str(table.attrs.get("speed_limit_text" if key == "speed_limit" else "design_limit_note", ""))
         bound = str(table.attrs.get(f"{key}_bound", ""))
-        proven = _in_the_case(groups, level, key) if _span_holds(loads, level) else math.nan
+        held = _span_holds(loads, level) and _deep_enough(groups, level)
+        proven = _in_the_case(groups, level, key) if held else math.nan
         if bound == "at least" and proven > limit:
             more = f"an upright plate, a bound, allows {limit:.3g} {unit}; " if limit > 0.0 else ""
             detail = f"the whole span holds in the state of the case; {more}the span is run in that state alone"

@@ -129,7 +129,7 @@ class Curtain:
         EA of the cables [N]; the lower one 0 where there is none.
     drag : DragLaw
         Coefficient with range and blockage.
-    law : {"normal_velocity", "uniform_normal"}
+    law : {"normal_velocity", "uniform_normal", "free_streamline"}
         Load law of the section.
     passing_fraction : float
         Share of the held flow that goes under the toe [-].

@@ -77,6 +77,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         Headline(
             "keulegan_carpenter", _number_label(found), number, "1", found.where,
             detail="; ".join([*(_range_text(item, number, reynolds) for item in ranges), f"Re = {reynolds:.2g}"]),
+            condition=True,
         )
     )  # fmt: skip
     ends, bending = _largest(groups, "end_force"), _largest(groups, "bending_moment")

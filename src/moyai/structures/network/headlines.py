@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.headline import Band, Headline
+from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
 from moyai.structures.network.model import NetworkProblem
@@ -208,8 +209,8 @@ def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[str]:
     )
     if found is not None:
         said.append(
-            f"largest of other seeds about {found.mean:.3g} ± {found.deviation:.2g} N, from {found.blocks} blocks of "
-            "this record"
+            f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
+            f"{spoken(found.deviation, 'N', 2, like=found.mean)}, from {found.blocks} blocks of this record"
         )
     return said
 
@@ -254,18 +255,32 @@ def _anchor(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
 
 
 def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
-    """Return the largest offset and lean of the bodies."""
+    """Return the largest offset of bodies, buoys and weights, and the largest lean of bodies."""
     items = []
-    for name, label, unit in (("offset", "largest offset of a body", "m"), ("highest_lean", "largest lean", "rad")):
+    floating = [
+        (float(summary["excursion"].sel(run=run, point=point)), f"{point}, {run}")
+        for level, summary in _levels(groups, "dynamic")
+        if "excursion" in summary and (network := groups.get(f"/{level}/network")) is not None
+        for run in summary["run"].values
+        for point, kind in zip(network["point"].values, network["point_kind"].values)
+        if kind not in ("fixed", "driven")
+    ]
+    for name, label, unit in (
+        ("offset", "largest offset of a body or buoy", "m"),
+        ("highest_lean", "largest lean", "rad"),
+    ):
         found = [
             (float(group[name].sel(run=run, solid=solid)), f"{solid}, {run}")
             for _, group in _levels(groups, "dynamic") if name in group
             for run in group["run"].values for solid in group["solid"].values
         ]  # fmt: skip
+        found += floating if name == "offset" else []
         known = [pair for pair in found if math.isfinite(pair[0])]
         if known:
             value, where = max(known)
-            items.append(Headline("offset" if name == "offset" else "lean", label, value, unit, where, DYNAMIC))
+            detail = "from its place at rest, heave included" if (value, where) in floating else ""
+            key = "offset" if name == "offset" else "lean"
+            items.append(Headline(key, label, value, unit, where, DYNAMIC, detail=detail))
     return items
 
 

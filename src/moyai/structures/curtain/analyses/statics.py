@@ -361,7 +361,12 @@ def _section_miss(unit: LevelCurtain, current: CurrentProfile) -> float:
     )
     step = np.hypot(np.diff(x), np.diff(z))
     down = -np.diff(z) / step
-    load = pressure * step if unit.curtain.law == "uniform_normal" else pressure * step * down * np.abs(down)
+    share = {
+        "normal_velocity": down * np.abs(down),
+        "uniform_normal": np.ones_like(down),
+        "free_streamline": (4.0 + math.pi) * down / (4.0 + math.pi * np.abs(down)),
+    }[unit.curtain.law]
+    load = pressure * step * share
     # normal to the sheet, downstream
     return abs(float(np.sum(load * down)) / section.load - 1.0)
 

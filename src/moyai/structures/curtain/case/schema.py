@@ -249,9 +249,10 @@ class CurtainStructure(Block):
     joints: Joints | None = Field(default=None, description="Connections of the curtain units.")
     anchors: Anchors | None = Field(default=None, description="Anchor lines; absent: fixed supports.")
     drag: Drag = Field(description="Drag coefficient.")
-    load_law: Literal["normal_velocity", "uniform_normal"] = Field(
+    load_law: Literal["normal_velocity", "uniform_normal", "free_streamline"] = Field(
         default="normal_velocity",
-        description="Load of the section: velocity normal to the sheet (cos^2), or the full pressure everywhere.",
+        description="Load of the section: velocity normal to the sheet (cos^2), the full pressure everywhere, or "
+        "that of an oblique plate in separated flow, between the two.",
     )
     passing_fraction: Share = Field(
         default=1.0, description="Share of the held flow that goes under the toe; 1 from bank to bank. Default: 1."

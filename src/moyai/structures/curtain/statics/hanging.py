@@ -66,7 +66,7 @@ class HangingCurtain:
         Angle of the anchor lines from the horizontal at the float [rad]; straight taut lines are assumed.
     drag : DragLaw
         Coefficient with range and blockage.
-    law : {"normal_velocity", "uniform_normal"}
+    law : {"normal_velocity", "uniform_normal", "free_streamline"}
         Load law of the section.
     friction : float
         Coefficient of the load along the sheet, both faces together [-].

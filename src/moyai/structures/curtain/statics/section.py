@@ -22,7 +22,9 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.water import Water
 from moyai.structures.curtain.statics.drag import DragLaw, sample_pressure
 
-LoadLaw = Literal["normal_velocity", "uniform_normal"]
+LoadLaw = Literal["normal_velocity", "uniform_normal", "free_streamline"]
+LAW_CODES: dict[LoadLaw, float] = {"normal_velocity": 0.0, "uniform_normal": 1.0, "free_streamline": 2.0}
+"""Of the laws in the kernel."""
 
 _SAMPLES = 4001
 
@@ -42,14 +44,16 @@ def _pressure_at(z: float, low: float, step: float, pressure: Array) -> float:
 @njit(cache=True, error_model="numpy")
 def _slopes(state: Array, out: Array, low: float, step: float, pressure: Array, data: Array) -> None:
     """Derivatives of x, z, F_x, F_z along the unstretched skirt, upwards [eq:curtain-section]."""
-    scale, weight, flexibility, uniform, friction = data[0], data[1], data[2], data[3], data[4]
+    scale, weight, flexibility, law, friction = data[0], data[1], data[2], data[3], data[4]
     tension = math.sqrt(state[2] ** 2 + state[3] ** 2)
     tx, tz = state[2] / tension, state[3] / tension
     stretch = 1.0 + tension * flexibility
     head = _pressure_at(state[1], low, step, pressure) * stretch
     load = scale * head
-    if uniform == 0.0:
+    if law == 0.0:
         load *= tz * abs(tz)
+    elif law == 2.0:
+        load *= (4.0 + math.pi) * tz / (4.0 + math.pi * abs(tz))
     drag = friction * head * tx * abs(tx)
     out[0] = stretch * tx
     out[1] = stretch * tz
@@ -287,7 +291,7 @@ class _Problem:
         friction: float,
     ) -> None:
         self.skirt, self.top, self.friction = skirt, -top_depth, friction
-        self.uniform = 1.0 if law == "uniform_normal" else 0.0
+        self.law = LAW_CODES[law]
         most = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length
         low = max(-water.depth, self.top - skirt.length * (1.0 + 2.0 * most / skirt.stiffness))
         self.pressure = _sample(current, heading, low, self.top, water.density)
@@ -300,7 +304,7 @@ class _Problem:
     def solve(self, drag: float, hold: float) -> tuple[Array, float]:
         """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
         skirt, pressure = self.skirt, self.pressure
-        data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.uniform, self.friction])
+        data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.law, self.friction])
         nodes = self.nodes(drag)
         path = np.empty((nodes.size, 4))
         most = math.hypot(
@@ -378,8 +382,10 @@ def solve_section(
         Depth and density.
     drag : DragLaw
         Coefficient on the undisturbed speed, with the blockage of the deflected skirt.
-    law : {"normal_velocity", "uniform_normal"}
-        Load normal to the sheet from the velocity normal to it (cos^2), or the full pressure everywhere.
+    law : {"normal_velocity", "uniform_normal", "free_streamline"}
+        Load normal to the sheet: from the velocity normal to it (cos^2), full everywhere, or that of an oblique
+        plate in separated flow [eq:curtain-free-streamline], in closed form without the weight of the sheet
+        [eq:curtain-free-streamline-shape].
     toe : {"free", "held"}
         Whether the toe swings, or a lower cable as long as the upper one keeps it under the top.
     top_depth : float

@@ -256,8 +256,9 @@ def _changes(curtain: HangingCurtain, toe_range: tuple[float, float], passing_fr
                 lambda item: replace(item, drag=partial_gap_drag(item.drag, passing_fraction)),
             )
         )
-    other: LoadLaw = "uniform_normal" if curtain.law == "normal_velocity" else "normal_velocity"
-    words = "pressure normal to the sheet everywhere" if other == "uniform_normal" else "load of the normal velocity"
+    # full pressure on a sheet that lies along the flow is out of range: separated flow stands for the upper end
+    other: LoadLaw = "free_streamline" if curtain.law == "normal_velocity" else "normal_velocity"
+    words = "oblique plate in separated flow" if other == "free_streamline" else "load of the normal velocity"
     found.append(_Change(f"other load law: {words}", "law", lambda item: replace(item, law=other)))
     found.append(
         _Change("friction along a fouled sheet", "friction", lambda item: replace(item, friction=SKIN_FRICTION))
