@@ -454,6 +454,8 @@ class Document:
         For the foot of the page.
     badges : tuple of Badge
         At the head of the page; of the status alone where empty.
+    units : {"SI", "tf"}
+        System of units that it was composed in, and is shown in.
     """
 
     title: str
@@ -463,6 +465,7 @@ class Document:
     sections: tuple[Section, ...]
     provenance: Mapping[str, Any] = field(default_factory=dict)
     badges: tuple[Badge, ...] = ()
+    units: str = "SI"
 
     def tables(self) -> tuple[Table, ...]:
         """Return every table of the report, once."""

@@ -16,6 +16,7 @@ from moyai.report.document import (
     Document,
     KeyFigures,
     NoticeBlock,
+    Paragraph,
     Section,
     Table,
     Tone,
@@ -37,6 +38,11 @@ DESIGN: dict[Outcome, tuple[str, Tone]] = {
     "not judged": ("Not judged", "neutral"),
 }
 """Words and colour of the verdict on the design."""
+UNITS_NOTES = {
+    "tf": "Units: forces in tf or kgf (1 tf = 9806.65 N), moments, stiffness and pressures accordingly. "
+    "Texts of notices, remarks and verdicts are in SI, as are the case and results.nc."
+}
+"""What a page says of units that are not SI."""
 _LIKE_UNITS = ("N", "Pa")
 """Units whose columns in one table are shown alike."""
 _RANK: dict[Outcome, int] = {"does not hold": 0, "not judged": 1, "holds": 2}
@@ -57,6 +63,11 @@ def badges(result: Result) -> tuple[Badge, ...]:
     return tuple(found)
 
 
+def units_of(result: Result) -> str:
+    """Return the system of units that a result is shown in: that of its case or of the command, else SI."""
+    return str(result.provenance.get("display_units", "SI"))
+
+
 def with_first_page(document: Document, result: Result) -> Document:
     """Return a document with both badges, and its first section in order: numbers, criteria, notices, the rest.
 
@@ -72,6 +83,8 @@ def with_first_page(document: Document, result: Result) -> Document:
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
     table = criteria_table(result)
     blocks: list[Block] = [*numbers, *([] if table is None else [table]), *notices, *rest]
+    if said := UNITS_NOTES.get(units_of(result)):
+        blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)
     sections = tuple(replace(section, blocks=tuple(map(in_like_units, section.blocks))) for section in ordered)
     return replace(document, badges=badges(result), sections=sections)

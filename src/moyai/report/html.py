@@ -32,7 +32,15 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
 from moyai.report.first_page import COMPUTATION
-from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
+from moyai.report.formatting import (
+    DASH,
+    column_decimals,
+    format_fixed,
+    format_number,
+    in_its_units,
+    pretty_unit,
+    trimmed,
+)
 from moyai.report.notices import grouped
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
@@ -56,6 +64,7 @@ def packed_plotly() -> str:
     return base64.b64encode(gzip.compress(get_plotlyjs().encode("utf-8"), 9, mtime=0)).decode("ascii")
 
 
+@in_its_units
 def render_html(document: Document) -> str:
     """Return the report as one HTML page.
 

@@ -22,7 +22,7 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
-from moyai.report.formatting import pretty_unit
+from moyai.report.formatting import in_its_units, pretty_unit
 from moyai.report.html import (
     asset,
     badges_of,
@@ -46,6 +46,7 @@ MONO_FONTS = ("DejaVu Sans Mono", "Consolas", "Menlo")
 LONG_TEXT = 24  # a column with longer texts than this may break its lines
 
 
+@in_its_units
 def render_pdf(document: Document) -> bytes:
     """Return the report as PDF.
 
