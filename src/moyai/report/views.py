@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from plotly.graph_objects import Figure as PlotlyFigure
 
-_B = TypeVar("_B", Table, Figure)
+_B = TypeVar("_B", bound=Table | Figure)
 _V = TypeVar("_V")
 _COLOURS = {"good": "#1a7f37", "caution": "#9a6700", "bad": "#b00020", "neutral": "#666666"}
 _LISTED = 40  # names in a message
@@ -35,8 +35,9 @@ class Views(Mapping[str, _V], Generic[_B, _V]):
     """
 
     def __init__(self, what: str, blocks: Sequence[_B], view: Callable[[_B], _V]) -> None:
-        self._what, self._view = what, view
-        self._blocks = dict(zip(unique_slugs(block.key for block in blocks), blocks, strict=True))
+        self._what = what
+        self._view = view
+        self._blocks: dict[str, _B] = dict(zip(unique_slugs(block.key for block in blocks), blocks, strict=True))
 
     def __getitem__(self, name: str) -> _V:
         wanted = name.replace("_", "-").lower()
