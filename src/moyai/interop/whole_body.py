@@ -30,7 +30,8 @@ def from_planar(
 ) -> xr.Dataset:
     """Return the coefficients of a whole unit from those of its section: per metre times the length.
 
-    Equation [eq:planar-frame] undone. What happens at the ends of the unit is not in them, and motions that the section does not have are absent.
+    Equation [eq:planar-frame] undone. What happens at the ends of the unit is not in them, and motions that the section
+    does not have are absent.
 
     Parameters
     ----------
@@ -110,11 +111,12 @@ def coefficients_of_result(result: Result, *, water_level: str | None = None, se
     level = levels[0] if water_level is None else water_level
     if level not in levels:
         raise InputError(f"no water level '{level}' in the result", path="water_level", allowed=", ".join(levels))
-    statics = result.tree[f"{level}/statics"].to_dataset(inherit=False)
+    group = result.tree.children[level].children
+    statics = group["statics"].to_dataset(inherit=False)
     order = list(PLANAR_DOFS)
     stiffness = statics["hydrostatic_stiffness"].sel(influenced_dof=order, radiating_dof=order)
     return from_planar(
-        result.tree[f"{level}/hydrodynamics"].to_dataset(inherit=False),
+        group["hydrodynamics"].to_dataset(inherit=False),
         length=float(statics["unit_length"]),
         centre_of_gravity=(float(statics["centre_of_gravity_x"]), float(statics["centre_of_gravity_z"])),
         sea=sea,

@@ -87,7 +87,8 @@ def _matrix(dataset: xr.Dataset, name: str) -> np.ndarray:
     values = dataset[name].transpose(..., "influenced_dof", "radiating_dof").values
     out = np.zeros((*values.shape[:-2], 6, 6))
     modes = _modes(dataset)
-    out[(..., *np.ix_(modes, modes))] = values
+    rows, columns = np.ix_(modes, modes)
+    out[..., rows, columns] = values
     return out
 
 
