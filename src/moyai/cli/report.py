@@ -34,6 +34,9 @@ def report(
         str | None,
         typer.Option("--dxf", metavar="m|mm", help="Write the drawings to scale as DXF too, in metres or millimetres."),
     ] = None,
+    vtk: Annotated[
+        bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
+    ] = False,
     units: Units = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
@@ -55,7 +58,9 @@ def report(
         with progress_bars(quiet) as progress:
             progress("report", 0, 1)
             document = compose_document(result)
-            files = write_report(result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, document=document)
+            files = write_report(
+                result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, document=document
+            )
         if as_json:
             figures = figure_records(key_figures(result, document))
             print_json({"key_figures": figures, "files": list(map(str, files)), "faults": []})

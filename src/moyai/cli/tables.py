@@ -113,8 +113,8 @@ def print_summary(
         said = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
         console.print(said, markup=False, soft_wrap=True)
     console.print(f"{seconds:.1f} s", markup=False)
-    shown = [path for path in files if path.suffix != ".csv"]
-    tables = len(files) - len(shown)
+    shown = [path for path in files if path.suffix not in (".csv", ".vtp")]
+    tables = sum(path.suffix == ".csv" and path.parent == files[-1].parent for path in files)
     for path in shown:
         console.print(f"  {path}", markup=False, soft_wrap=True)
     if tables:

@@ -356,7 +356,7 @@ class Animation:
     """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`.
 
     ``still`` is an SVG of its governing moment with colours, for paper; ``shapes`` a structure in space that
-    stands still, for drawing programs.
+    stands still, for drawing programs; ``scene_3d`` the :class:`moyai.report.scene_3d.Scene3D` of one in space.
     """
 
     key: str
@@ -365,6 +365,7 @@ class Animation:
     caption: str = ""
     still: str = ""
     shapes: tuple[Shape, ...] = ()
+    scene_3d: Any = None
 
 
 @dataclass(frozen=True)

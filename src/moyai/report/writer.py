@@ -65,6 +65,7 @@ def write_report(
     docx: bool = False,
     template: Path | None = None,
     dxf: str | None = None,
+    vtk: bool = False,
     name: str = "report",
     units: str | None = None,
     document: Document | None = None,
@@ -87,6 +88,8 @@ def write_report(
         Word document whose styles, heads and feet are taken.
     dxf : {"m", "mm"}, optional
         Write every drawing to scale as ``<name>_drawings/<key>.dxf`` in this unit; needs the extra ``moyai[dxf]``.
+    vtk : bool
+        Write every structure in space over time as ``<name>_vtk/<key>.pvd`` with a file a moment.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
     units : {"SI", "tf"}, optional
@@ -116,6 +119,13 @@ def write_report(
         from moyai.report.dxf import document_dxf
 
         drawings = list(document_dxf(document, dxf))
+    moments: list[tuple[str, bytes]] = []
+    if vtk:
+        from moyai.report.vtk import document_vtk
+
+        moments = list(document_vtk(document))
+        if not moments:
+            raise InputError("the report shows no structure in space", path="--vtk", remedy="leave out --vtk")
     written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
     if pdf:
         from moyai.report.pdf import render_pdf
@@ -126,6 +136,7 @@ def write_report(
 
         written.append(write_whole(folder / f"{name}.docx", render_docx(document, template)))
     written += [write_whole(folder / f"{name}_drawings" / f"{slug(key)}.dxf", data) for key, data in drawings]
+    written += [write_whole(folder / f"{name}_vtk" / key, data) for key, data in moments]
     written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
     tables = document.tables()
     with displayed_in(document.units):
