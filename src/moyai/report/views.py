@@ -13,7 +13,7 @@ from moyai.core.results import Result
 from moyai.core.results import read_result as read_stored
 from moyai.report.document import Document, Figure, KeyFigures, Table
 from moyai.report.encoding import column_unit, scaled_cell, unique_slugs
-from moyai.report.first_page import badges, criteria_table
+from moyai.report.first_page import UNITS_NOTES, badges, criteria_table, units_of
 from moyai.report.formatting import axis_label, displayed_in, pretty_unit, require_system
 from moyai.report.html import column_texts, words
 
@@ -188,6 +188,8 @@ def summary_html(result: ReportedResult) -> str:
         units = [pretty_unit(column_unit(column).name) for column in criteria.columns]
         heads = [f"{c.label} [{u}]" if u else c.label for c, u in zip(criteria.columns, units, strict=True)]
         parts.append(_grid(heads, list(zip(*map(column_texts, criteria.columns), strict=True))))
+    if note := UNITS_NOTES.get(units_of(result)):
+        parts.append(f"<div>{escape(note)}</div>")
     return f'<div class="moyai-result">{"".join(parts)}</div>'
 
 
