@@ -234,7 +234,7 @@ def run(
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
         from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
-        from moyai.report.formatting import require_system
+        from moyai.report.systems import require_system
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
@@ -313,7 +313,7 @@ def _report(
         document = compose_document(result)
         if others:
             from moyai.report.differences import with_others
-            from moyai.report.formatting import displayed_in
+            from moyai.report.systems import displayed_in
 
             with displayed_in(document.units):
                 document = with_others(document, result, others)

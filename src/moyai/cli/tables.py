@@ -89,8 +89,9 @@ def print_summary(
     console: Console, result: Result, files: Sequence[Path], seconds: float, document: Document | None = None
 ) -> None:
     """Print what a run gave: numbers, criteria, what limits them (each kind once), both badges, files."""
-    from moyai.report.first_page import UNITS_NOTES, badges, units_of
+    from moyai.report.first_page import badges, units_of
     from moyai.report.notices import first_page_notices, grouped
+    from moyai.report.systems import UNITS_NOTES
 
     figures = key_figures(result, document)
     if figures:
@@ -124,7 +125,7 @@ def print_summary(
 def print_judgements(console: Console, result: Result) -> None:
     """Print the criteria of a result with their outcome, the failing ones first."""
     from moyai.report.first_page import criteria_table, units_of, without_limit
-    from moyai.report.formatting import displayed_in
+    from moyai.report.systems import displayed_in
 
     with displayed_in(units_of(result)):
         found = criteria_table(result)

@@ -23,6 +23,7 @@ from moyai.report.document import (
     in_one_unit,
 )
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent
+from moyai.report.systems import UNITS_NOTES
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
     "converged": ("Converged", "good"),
@@ -38,11 +39,6 @@ DESIGN: dict[Outcome, tuple[str, Tone]] = {
     "not judged": ("Not judged", "neutral"),
 }
 """Words and colour of the verdict on the design."""
-UNITS_NOTES = {
-    "tf": "Units: forces in tf or kgf (1 tf = 9806.65 N), moments, stiffness and pressures accordingly. "
-    "Texts of notices, remarks and verdicts are in SI, as are the case and results.nc."
-}
-"""What a page says of units that are not SI."""
 _LIKE_UNITS = ("N", "Pa")
 """Units whose columns in one table are shown alike."""
 _RANK: dict[Outcome, int] = {"does not hold": 0, "not judged": 1, "holds": 2}

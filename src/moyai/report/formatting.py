@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
 from dataclasses import dataclass
-from functools import wraps
-from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from moyai.core.errors import InputError
-from moyai.core.units import parse_unit
+from moyai.report.systems import in_tonnes_force
 
 DASH = "–"  # an unknown number; a true minus is used for negative ones
 MINUS = "\N{MINUS SIGN}"
@@ -39,11 +33,6 @@ _DISPLAY: dict[str, tuple[tuple[float, str, float], ...]] = {
     "N m s": ((0.0, "N m s", 1.0), (1e4, "kN m s", 1e-3)),
 }
 _NO_UNIT = {"", "1", "-"}
-SYSTEMS = ("SI", "tf")
-"""Systems of units that reports are shown in: SI, or with forces in tonnes-force and kilograms-force."""
-_system: ContextVar[str] = ContextVar("system", default="SI")
-_LEAST_TONNE = 0.1  # forces whose largest is smaller are shown in kgf [tf]
-_R = TypeVar("_R")
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
@@ -66,39 +55,6 @@ class DisplayUnit:
     def pretty(self) -> str:
         """The unit with raised exponents and middle dots, for reading."""
         return pretty_unit(self.name)
-
-
-def require_system(name: str) -> None:
-    """Refuse a name that is none of :data:`SYSTEMS`.
-
-    Raises
-    ------
-    InputError
-    """
-    if name not in SYSTEMS:
-        raise InputError(f"'{name}' is no system of units", path="units", allowed=" or ".join(SYSTEMS))
-
-
-@contextmanager
-def displayed_in(system: str) -> Iterator[str]:
-    """Show what is composed and written inside in one of :data:`SYSTEMS`; see :func:`require_system`."""
-    require_system(system)
-    mark = _system.set(system)
-    try:
-        yield system
-    finally:
-        _system.reset(mark)
-
-
-def in_its_units(render: Callable[..., _R]) -> Callable[..., _R]:
-    """Return a function of a document that shows it in the units it was composed in."""
-
-    @wraps(render)
-    def rendered(document: Any, *arguments: Any, **options: Any) -> _R:
-        with displayed_in(document.units):
-            return render(document, *arguments, **options)
-
-    return rendered
 
 
 def pretty_unit(name: str) -> str:
@@ -140,8 +96,8 @@ def display_unit(unit: str, values: ArrayLike | None = None) -> DisplayUnit:
     if unit in _NO_UNIT:
         return DisplayUnit("")
     largest = largest_magnitude(values) if values is not None else 0.0
-    if _system.get() == "tf" and _FORCE.search(unit):
-        return _in_tonnes_force(unit, largest)
+    if (heavy := in_tonnes_force(unit, largest)) is not None:
+        return DisplayUnit(*heavy)
     if unit not in _DISPLAY:
         return DisplayUnit(unit)
     chosen = _DISPLAY[unit][0]
@@ -149,21 +105,6 @@ def display_unit(unit: str, values: ArrayLike | None = None) -> DisplayUnit:
         if largest >= step[0]:
             chosen = step
     return DisplayUnit(chosen[1], chosen[2])
-
-
-# a force or a pressure among the factors of a unit, with its prefix
-_FORCE = re.compile(r"\b[kMG]?(N|Pa)\b")
-
-
-def _in_tonnes_force(unit: str, largest: float) -> DisplayUnit:
-    """Return ``tf m`` for ``N m``, ``tf/m2`` for ``Pa``; ``kgf m`` where the largest value is small."""
-    forces = ("kgf", "tf")
-    names = [_FORCE.sub(lambda match, word=force: word if match[1] == "N" else f"{word}/m2", unit) for force in forces]  # type: ignore[misc]
-    try:
-        small, large = (DisplayUnit(name, float(parse_unit(unit).factor / parse_unit(name).factor)) for name in names)
-    except InputError:
-        return DisplayUnit(unit)  # a unit of the user's own file
-    return large if largest * large.factor >= _LEAST_TONNE else small
 
 
 def largest_magnitude(values: ArrayLike) -> float:

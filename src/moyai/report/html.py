@@ -32,16 +32,9 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit, figure_specification, page_json, slug, table_csv
 from moyai.report.first_page import COMPUTATION
-from moyai.report.formatting import (
-    DASH,
-    column_decimals,
-    format_fixed,
-    format_number,
-    in_its_units,
-    pretty_unit,
-    trimmed,
-)
+from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 from moyai.report.notices import grouped
+from moyai.report.systems import in_its_units
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0

@@ -22,7 +22,7 @@ from moyai.report.document import (
 )
 from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
-from moyai.report.formatting import in_its_units, pretty_unit
+from moyai.report.formatting import pretty_unit
 from moyai.report.html import (
     asset,
     badges_of,
@@ -31,6 +31,7 @@ from moyai.report.html import (
     is_text_column,
     notice_items,
 )
+from moyai.report.systems import in_its_units
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
 JAPANESE_FONTS = (

@@ -13,9 +13,10 @@ from moyai.core.results import Result
 from moyai.core.results import read_result as read_stored
 from moyai.report.document import Document, Figure, KeyFigures, Table
 from moyai.report.encoding import column_unit, scaled_cell, unique_slugs
-from moyai.report.first_page import UNITS_NOTES, badges, criteria_table, units_of
-from moyai.report.formatting import axis_label, displayed_in, pretty_unit, require_system
+from moyai.report.first_page import badges, criteria_table, units_of
+from moyai.report.formatting import axis_label, pretty_unit
 from moyai.report.html import column_texts, words
+from moyai.report.systems import UNITS_NOTES, displayed_in, require_system
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -15,9 +15,9 @@ from moyai.core.arrays import Array
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Block, Cell, Choice, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
 from moyai.report.encoding import column_unit, figure_columns, scaled_cell
-from moyai.report.first_page import UNITS_NOTES
-from moyai.report.formatting import axis_label, in_its_units
+from moyai.report.formatting import axis_label
 from moyai.report.html import badges_of, foot_text, notice_items
+from moyai.report.systems import UNITS_NOTES, in_its_units
 
 if TYPE_CHECKING:
     from xlsxwriter.format import Format

@@ -15,7 +15,7 @@ from moyai.core.vocabulary import MEASURED_GROUP
 from moyai.report.document import Document
 from moyai.report.encoding import slug, table_csv, unique_slugs
 from moyai.report.first_page import units_of, with_first_page
-from moyai.report.formatting import displayed_in
+from moyai.report.systems import displayed_in
 
 
 def compose_document(result: Result, units: str | None = None) -> Document:

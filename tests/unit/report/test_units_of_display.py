@@ -17,7 +17,8 @@ import moyai
 from moyai.cli.main import app
 from moyai.core.errors import InputError
 from moyai.report.encoding import column_unit
-from moyai.report.formatting import display_unit, displayed_in, format_quantity
+from moyai.report.formatting import display_unit, format_quantity
+from moyai.report.systems import displayed_in
 from moyai.report.workbook import render_workbook
 from moyai.report.writer import compose_document, write_report
 

@@ -12,8 +12,8 @@ from moyai.core.results import Result
 from moyai.core.units import parse_unit
 from moyai.report.document import Document, Figure, KeyFigures, Table
 from moyai.report.encoding import column_unit
-from moyai.report.formatting import displayed_in
 from moyai.report.html import column_texts
+from moyai.report.systems import displayed_in
 from moyai.report.writer import compose_document
 
 GRAVITY = 9.80665
