@@ -81,6 +81,7 @@ def from_planar(
     )
 
 
+@checks_words
 def coefficients_of_result(result: Result, *, water_level: str | None = None, sea: Sea = "beam") -> xr.Dataset:
     """Return the coefficients that a result holds, of the whole unit.
 

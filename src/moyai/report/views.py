@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from moyai.core.results import Result
 from moyai.core.results import read_result as read_stored
-from moyai.report.document import Document, Figure, KeyFigures, Table
+from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Table
 from moyai.report.encoding import column_unit, scaled_cell, unique_slugs
 from moyai.report.first_page import badges, criteria_table, units_of
 from moyai.report.formatting import axis_label, pretty_unit
+from moyai.report.headlines import headline_figures
 from moyai.report.html import column_texts, words
 from moyai.report.systems import UNITS_NOTES, displayed_in, require_system
 
@@ -166,23 +167,9 @@ def summary_html(result: ReportedResult) -> str:
     for badge in badges(result):
         word = f'<strong style="color:{_COLOURS[badge.tone]}">{escape(badge.word)}</strong>'
         parts.append(f"<div>{escape(badge.label)}: {word} {words(badge.message)}</div>")
-    numbers: list[tuple[str, ...]] = []
-    criteria = None
-    try:
-        document = result.document
-    except Exception:
-        # an interrupted result may hold too little for a report; its badges stand all the same
-        if result.status != "interrupted":
-            raise
-    else:
-        numbers = [
-            (item.label[:1].upper() + item.label[1:], item.text, item.detail)
-            for block in document.blocks()
-            if isinstance(block, KeyFigures)
-            for item in block.items
-        ]
-        with displayed_in(document.units):
-            criteria = criteria_table(result)
+    with displayed_in(units_of(result)):
+        numbers = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in _key_figures(result)]
+        criteria = criteria_table(result)
     if numbers:
         parts.append(_grid(("Governing number", "Value", "Where, model and band"), numbers))
     if criteria is not None:
@@ -192,6 +179,20 @@ def summary_html(result: ReportedResult) -> str:
     if note := UNITS_NOTES.get(units_of(result)):
         parts.append(f"<div>{escape(note)}</div>")
     return f'<div class="moyai-result">{"".join(parts)}</div>'
+
+
+def _key_figures(result: ReportedResult) -> list[KeyFigure]:
+    """Return the governing numbers: those of the result, else those that its report finds."""
+    if (known := headline_figures(result)) is not None:
+        return list(known.items)
+    try:
+        blocks = result.document.blocks()
+    except Exception:
+        # an interrupted result may hold too little for a report; its badges stand all the same
+        if result.status != "interrupted":
+            raise
+        return []
+    return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
 
 
 def _grid(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
