@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from moyai.case.reader import load_case as load_case
     from moyai.case.templates import template as template
     from moyai.cli.runner import run as run
-    from moyai.core.results import read_result as read_result
+    from moyai.report.views import read_result as read_result
     from moyai.report.writer import write_report as write_report
 else:
     __getattr__, __dir__, __all__ = exports(
@@ -36,7 +36,7 @@ else:
             "case.reader": "load_case",
             "case.templates": "template",
             "cli.runner": "run",
-            "core.results": "read_result",
+            "report.views": "read_result",
             "report.writer": "write_report",
         },
     )

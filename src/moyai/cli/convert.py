@@ -1,4 +1,7 @@
-"""``moyai convert``: decks of MoorDyn to case files of networks, and back. And what lets ``moyai run`` take a deck."""
+"""``moyai convert``: decks of MoorDyn to case files of networks, and back; coefficients of a result to other programs.
+
+And what lets ``moyai run`` take a deck.
+"""
 
 from __future__ import annotations
 
@@ -64,18 +67,43 @@ Duration = Annotated[float | None, typer.Option("--duration", help="Length of th
 
 
 def convert(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Deck of MoorDyn, or case file of a network.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="Deck of MoorDyn, case file of a network, or results.nc with --to.")
+    ],
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="File to write; the name of FILE with another ending.")
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="File to write; the name of FILE with another ending. With --to the folder."
+        ),
     ] = None,
+    to: Annotated[
+        str | None,
+        typer.Option(
+            "--to",
+            metavar="wamit|nemoh|bemio",
+            help="Write the coefficients of the floating body of a result as files of this program.",
+        ),
+    ] = None,
+    sea: Annotated[
+        str,
+        typer.Option(
+            metavar="beam|head",
+            help="With --to: the section as sway, heave, roll in waves at 90 degrees, or surge, heave, pitch at 0.",
+        ),
+    ] = "beam",
     motion: Motion = None,
     duration: Duration = None,
-    water_level: Annotated[str | None, typer.Option(help="Water level of the deck; the first when absent.")] = None,
+    water_level: Annotated[
+        str | None, typer.Option(help="Water level of the deck or the coefficients; the first when absent.")
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
 ) -> None:
-    """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck."""
+    """Turn a deck of MoorDyn into a case file of a network, or a case file into a deck; write coefficients."""
     with guard(as_json):
+        if to is not None:
+            _write_coefficients(file, to, output, water_level, sea, force=force, as_json=as_json)
+            return
         from moyai.interop.moordyn_case import is_deck
         from moyai.interop.moordyn_deck import write_deck
         from moyai.structures.network.case.line_deck import deck_of_case
@@ -104,3 +132,23 @@ def convert(
             for note in notes:
                 tell(note)
             tell(f"wrote {target}; {following}")
+
+
+def _write_coefficients(
+    file: Path, program: str, folder: Path | None, water_level: str | None, sea: str, *, force: bool, as_json: bool
+) -> None:
+    """Write the coefficients of a result as files of another program and say which."""
+    from moyai.core.results import read_result
+    from moyai.interop.whole_body import coefficients_of_result
+    from moyai.interop.write import write_coefficients
+
+    found = coefficients_of_result(read_result(file), water_level=water_level, sea=sea)  # type: ignore[arg-type]
+    files = write_coefficients(program, found, file.parent / program if folder is None else folder, replace=force)
+    facts = {name: float(found[name]) for name in ("rho", "g", "water_depth")}
+    point = [float(value) for value in found["reference_point"].values]
+    if as_json:
+        print_json({"files": list(map(str, files)), **facts, "reference_point": point, "faults": []})
+        return
+    for path in files:
+        tell(f"wrote {path}")
+    tell(f"whole unit, density {facts['rho']:g} kg/m3, moments about x, y, z = {', '.join(f'{x:g}' for x in point)} m")

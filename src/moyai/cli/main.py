@@ -39,6 +39,7 @@ from moyai.cli.convert import Duration, Motion, case_of_deck, convert
 from moyai.cli.fit import fit
 from moyai.cli.measuring import measure
 from moyai.cli.query import query
+from moyai.cli.report import Units
 from moyai.cli.report import report as report_command
 from moyai.cli.reproduce import reproduce
 from moyai.cli.scale import scale
@@ -210,6 +211,7 @@ def run(
     require_hold: Annotated[
         bool, typer.Option("--require-hold", help="Leave with exit code 3 unless the design holds.")
     ] = False,
+    units: Units = None,
     quiet: Quiet = False,
     motion: Motion = None,
     duration: Duration = None,
@@ -232,6 +234,7 @@ def run(
         from moyai.cli.runner import prepare_output
         from moyai.cli.runner import run as run_case
         from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
+        from moyai.report.systems import require_system
 
         started = time.perf_counter()
         folder = output if output is not None else Path("out") / file.stem
@@ -239,6 +242,8 @@ def run(
         with _compiling(_kind_in(file), quiet):
             case = load_case(file)
             others = _others(beside, report)
+            if units is not None:
+                require_system(units)
             folder = prepare_output(folder)
             if not as_json and not quiet:
                 count = len(case.warnings)
@@ -248,6 +253,8 @@ def run(
             with alone_in(folder), staged_outputs(folder) as staged:
                 with progress_bars(quiet) as progress:
                     result = run_case(case, progress, keep=folder / "coefficients")
+                if units is not None:
+                    result = result.shown_in(units)
                 files = [result.write(staged / "results.nc")]
                 if report:
                     document, pages = _report(result, staged, others, pdf=pdf, quiet=quiet)
@@ -306,8 +313,10 @@ def _report(
         document = compose_document(result)
         if others:
             from moyai.report.differences import with_others
+            from moyai.report.systems import displayed_in
 
-            document = with_others(document, result, others)
+            with displayed_in(document.units):
+                document = with_others(document, result, others)
         return document, write_report(result, folder, pdf=pdf, document=document)
 
 

@@ -11,6 +11,13 @@ import typer
 from moyai.cli.console import OK, guard, print_json, progress_bars, rich_console
 from moyai.core.errors import InputError
 
+Units = Annotated[
+    str | None,
+    typer.Option(
+        "--units", metavar="SI|tf", help="Units shown: SI, or forces in tf and kgf; those of the case when absent."
+    ),
+]
+
 
 def report(
     results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.nc of any command.", show_default=False)],
@@ -27,6 +34,10 @@ def report(
         str | None,
         typer.Option("--dxf", metavar="m|mm", help="Write the drawings to scale as DXF too, in metres or millimetres."),
     ] = None,
+    vtk: Annotated[
+        bool, typer.Option("--vtk", help="Write structures in space over time as VTK too (ParaView).")
+    ] = False,
+    units: Units = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON on standard output, faults included.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars and no summary.")] = False,
 ) -> None:
@@ -36,16 +47,20 @@ def report(
             raise InputError("a template is for Word", path="--template", remedy="add --docx")
         from moyai.cli.runner import prepare_output
         from moyai.cli.tables import figure_records, key_figures, print_summary
-        from moyai.core.results import read_result
+        from moyai.report.views import read_result
         from moyai.report.writer import compose_document, write_report
 
         started = time.perf_counter()
         result = read_result(results)
+        if units is not None:
+            result = result.shown_in(units)
         folder = prepare_output(output if output is not None else results.parent)
         with progress_bars(quiet) as progress:
             progress("report", 0, 1)
             document = compose_document(result)
-            files = write_report(result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, document=document)
+            files = write_report(
+                result, folder, pdf=pdf, docx=docx, template=template, dxf=dxf, vtk=vtk, document=document
+            )
         if as_json:
             figures = figure_records(key_figures(result, document))
             print_json({"key_figures": figures, "files": list(map(str, files)), "faults": []})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,10 +14,10 @@ from moyai.core.validity import Notice
 
 if TYPE_CHECKING:
     from moyai.case.reader import Case
-    from moyai.core.results import Result
+    from moyai.report.views import ReportedResult
 
 
-def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) -> Result:
+def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) -> ReportedResult:
     """Run all analyses that a case names.
 
     Parameters
@@ -30,7 +31,8 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
 
     Returns
     -------
-    Result
+    ReportedResult
+        With its tables and figures at hand.
 
     Raises
     ------
@@ -39,6 +41,7 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
     """
     from moyai.case.builder import build
     from moyai.core.kinds import structure_kind
+    from moyai.report.views import with_views
 
     result = structure_kind(case.kind).run(build(case), progress, keep)
     if getattr(case.model, "measured", None):
@@ -51,7 +54,10 @@ def run(case: Case, progress: Progress = silent, *, keep: Path | None = None) ->
         for fault in case.warnings
         if _wording(fault.message).split("; ", 1)[-1] not in said
     ]
-    return result.with_notices(*warnings) if warnings else result
+    result = result.with_notices(*warnings) if warnings else result
+    if (display := getattr(case.model, "display", None)) is not None and display.units != "SI":
+        result = replace(result, provenance={**result.provenance, "display_units": display.units})
+    return with_views(result)
 
 
 def _wording(message: str) -> str:

@@ -89,8 +89,9 @@ def print_summary(
     console: Console, result: Result, files: Sequence[Path], seconds: float, document: Document | None = None
 ) -> None:
     """Print what a run gave: numbers, criteria, what limits them (each kind once), both badges, files."""
-    from moyai.report.first_page import badges
+    from moyai.report.first_page import badges, units_of
     from moyai.report.notices import first_page_notices, grouped
+    from moyai.report.systems import UNITS_NOTES
 
     figures = key_figures(result, document)
     if figures:
@@ -107,12 +108,14 @@ def print_summary(
         console.print(f"failed check: {check.name}: {check.value:.2e} > {check.tolerance:.2e}", markup=False)
     if result.checks:
         console.print(f"{len(result.checks) - len(failed)} of {len(result.checks)} identity checks passed")
+    if units := UNITS_NOTES.get(units_of(result)):
+        console.print(units, markup=False, soft_wrap=True)
     for badge in badges(result):
         said = f"{badge.label}: {badge.word.lower()}" + (f": {badge.message}" if badge.message else "")
         console.print(said, markup=False, soft_wrap=True)
     console.print(f"{seconds:.1f} s", markup=False)
-    shown = [path for path in files if path.suffix != ".csv"]
-    tables = len(files) - len(shown)
+    shown = [path for path in files if path.suffix not in (".csv", ".vtp")]
+    tables = sum(path.suffix == ".csv" and path.parent == files[-1].parent for path in files)
     for path in shown:
         console.print(f"  {path}", markup=False, soft_wrap=True)
     if tables:
@@ -121,9 +124,11 @@ def print_summary(
 
 def print_judgements(console: Console, result: Result) -> None:
     """Print the criteria of a result with their outcome, the failing ones first."""
-    from moyai.report.first_page import criteria_table, without_limit
+    from moyai.report.first_page import criteria_table, units_of, without_limit
+    from moyai.report.systems import displayed_in
 
-    found = criteria_table(result)
+    with displayed_in(units_of(result)):
+        found = criteria_table(result)
     if found is None:
         return
     table = _table(

@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from moyai.interop.nemoh import read_nemoh as read_nemoh
     from moyai.interop.read import read_coefficients as read_coefficients
     from moyai.interop.wamit import read_wamit as read_wamit
+    from moyai.interop.whole_body import coefficients_of_result as coefficients_of_result
+    from moyai.interop.whole_body import from_planar as from_planar
+    from moyai.interop.write import write_coefficients as write_coefficients
 else:
     __getattr__, __dir__, __all__ = exports(
         __name__,
@@ -21,5 +24,7 @@ else:
             "nemoh": "read_nemoh",
             "read": "read_coefficients",
             "wamit": "read_wamit",
+            "whole_body": "coefficients_of_result from_planar",
+            "write": "write_coefficients",
         },
     )

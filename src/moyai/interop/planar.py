@@ -25,7 +25,7 @@ from moyai.sea.dispersion import wave_number
 PLANAR_DOFS = ("sway", "heave", "roll")
 
 # Planar degree of freedom -> (3-D degree of freedom, sign); the heading is the 3-D direction of planar +x
-_FRAMES: dict[str, tuple[tuple[tuple[str, float], ...], float]] = {
+FRAMES: dict[str, tuple[tuple[tuple[str, float], ...], float]] = {
     "beam": ((("Sway", 1.0), ("Heave", 1.0), ("Roll", -1.0)), 0.5 * math.pi),
     "head": ((("Surge", 1.0), ("Heave", 1.0), ("Pitch", 1.0)), 0.0),
 }
@@ -109,7 +109,7 @@ def to_planar(
     """
     if not (math.isfinite(length) and length > 0.0):
         raise InputError(f"length {length}", path="length", allowed="positive")
-    frame, along = _FRAMES[sea]
+    frame, along = FRAMES[sea]
     names = [name for name, _ in frame]
     missing = [name for name in names if name not in dataset["radiating_dof"].values]
     if missing:
@@ -154,7 +154,7 @@ def neglected_coupling(dataset: xr.Dataset, sea: Literal["beam", "head"]) -> flo
 
     Near zero for a body symmetric about the plane across its crest; else the planar model is wrong by that much.
     """
-    frame, _ = _FRAMES[sea]
+    frame, _ = FRAMES[sea]
     inside = [name for name, _ in frame]
     outside = [str(name) for name in dataset["radiating_dof"].values if name not in inside]
     if not outside:

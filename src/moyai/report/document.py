@@ -356,7 +356,7 @@ class Animation:
     """A scene for the canvas player; ``scene`` is JSON-ready and made by :mod:`moyai.report.animation`.
 
     ``still`` is an SVG of its governing moment with colours, for paper; ``shapes`` a structure in space that
-    stands still, for drawing programs.
+    stands still, for drawing programs; ``scene_3d`` the :class:`moyai.report.scene_3d.Scene3D` of one in space.
     """
 
     key: str
@@ -365,6 +365,7 @@ class Animation:
     caption: str = ""
     still: str = ""
     shapes: tuple[Shape, ...] = ()
+    scene_3d: Any = None
 
 
 @dataclass(frozen=True)
@@ -454,6 +455,8 @@ class Document:
         For the foot of the page.
     badges : tuple of Badge
         At the head of the page; of the status alone where empty.
+    units : {"SI", "tf"}
+        System of units that it was composed in, and is shown in.
     """
 
     title: str
@@ -463,6 +466,7 @@ class Document:
     sections: tuple[Section, ...]
     provenance: Mapping[str, Any] = field(default_factory=dict)
     badges: tuple[Badge, ...] = ()
+    units: str = "SI"
 
     def tables(self) -> tuple[Table, ...]:
         """Return every table of the report, once."""

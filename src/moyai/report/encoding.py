@@ -8,7 +8,7 @@ import io
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -36,6 +36,18 @@ def slug(*parts: str) -> str:
     """
     joined = "-".join(re.sub(r"[^\w.]+", "-", part, flags=re.UNICODE).strip("-.").lower() for part in parts)
     return joined or "item"
+
+
+def unique_slugs(keys: Iterable[str]) -> list[str]:
+    """Return a safe name for every key, a repeated one with its number: the names of the CSV files of tables."""
+    names: list[str] = []
+    for key in keys:
+        base, count = slug(key), 2
+        name = base
+        while name in names:
+            name, count = f"{base}-{count}", count + 1
+        names.append(name)
+    return names
 
 
 def encode_array(values: ArrayLike) -> list[float | None] | dict[str, str]:
@@ -237,6 +249,13 @@ def _csv_cell(value: Cell, factor: float) -> str:
     if isinstance(value, bool | np.bool_):
         return "yes" if value else "no"
     return plain_number(float(value) * factor)
+
+
+def scaled_cell(value: Cell, factor: float) -> Cell:
+    """Return a cell in the unit shown: numbers times a factor, without a tail of rounding; texts and truth as is."""
+    if factor == 1.0 or value is None or isinstance(value, str | bool | np.bool_):
+        return value
+    return float(f"{float(value) * factor:.15g}")
 
 
 def table_csv(table: Table) -> str:

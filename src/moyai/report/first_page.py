@@ -16,12 +16,14 @@ from moyai.report.document import (
     Document,
     KeyFigures,
     NoticeBlock,
+    Paragraph,
     Section,
     Table,
     Tone,
     in_one_unit,
 )
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent
+from moyai.report.systems import UNITS_NOTES
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
     "converged": ("Converged", "good"),
@@ -57,6 +59,11 @@ def badges(result: Result) -> tuple[Badge, ...]:
     return tuple(found)
 
 
+def units_of(result: Result) -> str:
+    """Return the system of units that a result is shown in: that of its case or of the command, else SI."""
+    return str(result.provenance.get("display_units", "SI"))
+
+
 def with_first_page(document: Document, result: Result) -> Document:
     """Return a document with both badges, and its first section in order: numbers, criteria, notices, the rest.
 
@@ -72,6 +79,8 @@ def with_first_page(document: Document, result: Result) -> Document:
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
     table = criteria_table(result)
     blocks: list[Block] = [*numbers, *([] if table is None else [table]), *notices, *rest]
+    if said := UNITS_NOTES.get(units_of(result)):
+        blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)
     sections = tuple(replace(section, blocks=tuple(map(in_like_units, section.blocks))) for section in ordered)
     return replace(document, badges=badges(result), sections=sections)

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from moyai.report.systems import in_tonnes_force
+
 DASH = "–"  # an unknown number; a true minus is used for negative ones
 MINUS = "\N{MINUS SIGN}"
 
@@ -93,9 +95,11 @@ def display_unit(unit: str, values: ArrayLike | None = None) -> DisplayUnit:
     unit = unit.strip()
     if unit in _NO_UNIT:
         return DisplayUnit("")
+    largest = largest_magnitude(values) if values is not None else 0.0
+    if (heavy := in_tonnes_force(unit, largest)) is not None:
+        return DisplayUnit(*heavy)
     if unit not in _DISPLAY:
         return DisplayUnit(unit)
-    largest = largest_magnitude(values) if values is not None else 0.0
     chosen = _DISPLAY[unit][0]
     for step in _DISPLAY[unit]:
         if largest >= step[0]:

@@ -34,6 +34,7 @@ from moyai.report.encoding import column_unit, figure_specification, page_json, 
 from moyai.report.first_page import COMPUTATION
 from moyai.report.formatting import DASH, column_decimals, format_fixed, format_number, pretty_unit, trimmed
 from moyai.report.notices import grouped
+from moyai.report.systems import in_its_units
 
 STATUS_WORDS = {status: word for status, (word, _) in COMPUTATION.items()}
 LEAST_LETTER = 9.0
@@ -56,6 +57,7 @@ def packed_plotly() -> str:
     return base64.b64encode(gzip.compress(get_plotlyjs().encode("utf-8"), 9, mtime=0)).decode("ascii")
 
 
+@in_its_units
 def render_html(document: Document) -> str:
     """Return the report as one HTML page.
 

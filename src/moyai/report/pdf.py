@@ -31,6 +31,7 @@ from moyai.report.html import (
     is_text_column,
     notice_items,
 )
+from moyai.report.systems import in_its_units
 
 TEXT_FONTS = ("Noto Sans", "Segoe UI", "Helvetica Neue", "Arial", "Liberation Sans", "Noto Sans CJK JP", "DejaVu Sans")
 JAPANESE_FONTS = (
@@ -46,6 +47,7 @@ MONO_FONTS = ("DejaVu Sans Mono", "Consolas", "Menlo")
 LONG_TEXT = 24  # a column with longer texts than this may break its lines
 
 
+@in_its_units
 def render_pdf(document: Document) -> bytes:
     """Return the report as PDF.
 

@@ -443,7 +443,8 @@ def animation_3d(key: str, title: str, scene: Scene3D, caption: str = "") -> Ani
     """
     from moyai.report.still_3d import still_3d
 
-    return Animation(key, title, scene_3d(scene), caption, still_3d(scene), shapes_3d(scene) if scene.is_still else ())
+    shapes = shapes_3d(scene) if scene.is_still else ()
+    return Animation(key, title, scene_3d(scene), caption, still_3d(scene), shapes, scene)
 
 
 def shapes_3d(scene: Scene3D) -> tuple[Stroke, ...]:

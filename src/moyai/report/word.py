@@ -29,11 +29,13 @@ from moyai.report.encoding import column_unit
 from moyai.report.figures_static import draw_figure
 from moyai.report.formatting import pretty_unit
 from moyai.report.html import badges_of, column_texts, foot_text, is_text_column, notice_items
+from moyai.report.systems import in_its_units
 
 WIDTH = 16.0  # of images and tables [cm], on a page that is no wider than A4
 _DOTS = 160  # per inch
 
 
+@in_its_units
 def render_docx(document: Document, template: Path | None = None) -> bytes:
     """Return the report as DOCX.
 

@@ -14,9 +14,10 @@ import numpy as np
 from moyai.core.arrays import Array
 from moyai.report.decimate import envelope_indices
 from moyai.report.document import Block, Cell, Choice, Document, Figure, KeyFigures, Listing, NoticeBlock, Table
-from moyai.report.encoding import column_unit, figure_columns
+from moyai.report.encoding import column_unit, figure_columns, scaled_cell
 from moyai.report.formatting import axis_label
 from moyai.report.html import badges_of, foot_text, notice_items
+from moyai.report.systems import UNITS_NOTES, in_its_units
 
 if TYPE_CHECKING:
     from xlsxwriter.format import Format
@@ -29,6 +30,7 @@ LONGEST = 2000
 _WIDEST = 60
 
 
+@in_its_units
 def render_workbook(document: Document) -> bytes:
     """Return the report as XLSX.
 
@@ -144,6 +146,7 @@ class _Book:
         sheet.set_column(2, 2, 90)
         sheet.write_string(0, 0, document.title, self._title)
         sheet.write_string(1, 0, document.subtitle)
+        sheet.write_string(2, 0, UNITS_NOTES.get(document.units, ""), self._quiet)
         row = 3
         for badge in badges_of(document):
             sheet.write_string(row, 0, badge.label or "Status", self._top)
@@ -206,12 +209,9 @@ def _thinned(figure: Figure) -> tuple[Figure, str]:
 
 
 def _scaled(value: Cell, factor: float) -> Cell:
-    if value is None or isinstance(value, str):
-        return value
     if isinstance(value, bool | np.bool_):
         return "yes" if value else "no"
-    # a factor of 1e-3 leaves a tail of rounding that a spreadsheet shows
-    return float(f"{float(value) * factor:.15g}")
+    return scaled_cell(value, factor)
 
 
 def _write(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
 
 from moyai.core.errors import InputError
@@ -12,31 +13,41 @@ from moyai.core.kinds import kind_of_result
 from moyai.core.results import Result
 from moyai.core.vocabulary import MEASURED_GROUP
 from moyai.report.document import Document
-from moyai.report.encoding import slug, table_csv
+from moyai.report.encoding import slug, table_csv, unique_slugs
+from moyai.report.first_page import units_of, with_first_page
+from moyai.report.systems import displayed_in
 
 
-def compose_document(result: Result) -> Document:
+def compose_document(result: Result, units: str | None = None) -> Document:
     """Turn a result into a document.
 
     Parameters
     ----------
     result : Result
+    units : {"SI", "tf"}, optional
+        System of units of the document; that of the case when left out, else SI.
 
     Returns
     -------
     Document
-    """
-    document = _composed(result)
-    if MEASURED_GROUP.strip("/") in result.tree.children:
-        from moyai.report.overlay import with_measured_points
 
-        document = with_measured_points(document, result)
+    Raises
+    ------
+    InputError
+        For units of another name.
+    """
+    if units is not None:
+        result = replace(result, provenance={**result.provenance, "display_units": units})
+    with displayed_in(units_of(result)) as units:
+        document = replace(_composed(result), units=units)
+        if MEASURED_GROUP.strip("/") in result.tree.children:
+            from moyai.report.overlay import with_measured_points
+
+            document = with_measured_points(document, result)
     return document
 
 
 def _composed(result: Result) -> Document:
-    from moyai.report.first_page import with_first_page
-
     kind = kind_of_result(str(result.tree.attrs.get("structure", "")))
     if kind is not None:
         return with_first_page(kind.compose(result), result)
@@ -54,7 +65,9 @@ def write_report(
     docx: bool = False,
     template: Path | None = None,
     dxf: str | None = None,
+    vtk: bool = False,
     name: str = "report",
+    units: str | None = None,
     document: Document | None = None,
 ) -> list[Path]:
     """Write the report of a result.
@@ -75,8 +88,12 @@ def write_report(
         Word document whose styles, heads and feet are taken.
     dxf : {"m", "mm"}, optional
         Write every drawing to scale as ``<name>_drawings/<key>.dxf`` in this unit; needs the extra ``moyai[dxf]``.
+    vtk : bool
+        Write every structure in space over time as ``<name>_vtk/<key>.pvd`` with a file a moment.
     name : str
         Name of the files without ending; the tables go to ``<name>_tables``.
+    units : {"SI", "tf"}, optional
+        System of units that is shown; that of the case when left out, else SI.
     document : Document, optional
         The result composed before; composed here when left out.
 
@@ -96,12 +113,19 @@ def write_report(
     from moyai.report.workbook import render_workbook
 
     folder = Path(directory)
-    document = document or compose_document(result)
+    document = document or compose_document(result, units)
     drawings: list[tuple[str, bytes]] = []
     if dxf is not None:
         from moyai.report.dxf import document_dxf
 
         drawings = list(document_dxf(document, dxf))
+    moments: list[tuple[str, bytes]] = []
+    if vtk:
+        from moyai.report.vtk import document_vtk
+
+        moments = list(document_vtk(document))
+        if not moments:
+            raise InputError("the report shows no structure in space", path="--vtk", remedy="leave out --vtk")
     written = [write_whole(folder / f"{name}.html", render_html(document).encode("utf-8"))]
     if pdf:
         from moyai.report.pdf import render_pdf
@@ -112,16 +136,12 @@ def write_report(
 
         written.append(write_whole(folder / f"{name}.docx", render_docx(document, template)))
     written += [write_whole(folder / f"{name}_drawings" / f"{slug(key)}.dxf", data) for key, data in drawings]
+    written += [write_whole(folder / f"{name}_vtk" / key, data) for key, data in moments]
     written.append(write_whole(folder / f"{name}.xlsx", render_workbook(document)))
-    used: set[str] = set()
-    for table in document.tables():
-        base, count = slug(table.key), 2
-        file_name = base
-        while file_name in used:
-            file_name, count = f"{base}-{count}", count + 1
-        used.add(file_name)
-        # the byte order mark makes spreadsheets read the file as UTF-8
-        written.append(
-            write_whole(folder / f"{name}_tables" / f"{file_name}.csv", table_csv(table).encode("utf-8-sig"))
-        )
+    tables = document.tables()
+    with displayed_in(document.units):
+        for key, table in zip(unique_slugs(table.key for table in tables), tables, strict=True):
+            # the byte order mark makes spreadsheets read the file as UTF-8
+            data = table_csv(table).encode("utf-8-sig")
+            written.append(write_whole(folder / f"{name}_tables" / f"{key}.csv", data))
     return written

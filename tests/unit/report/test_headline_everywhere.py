@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from tonnes_force import assert_same_numbers, left_in_si
 from typer.testing import CliRunner
 
 from moyai.case.templates import template
@@ -209,6 +210,14 @@ def test_the_number_shown_is_the_value_in_its_unit(travelled: tuple[Journey, Jou
 def test_what_governs_stands_first(travelled: tuple[Journey, Journal]) -> None:
     journey, journal = travelled
     assert journal.result.headlines[0].name == journey.name
+
+
+def test_a_report_in_tonnes_force_holds_the_same_numbers(travelled: tuple[Journey, Journal]) -> None:
+    """Tables, governing numbers and axes; texts of remarks stay in SI."""
+    _, journal = travelled
+    assert assert_same_numbers(journal.result) > 0
+    assert left_in_si(compose_document(journal.result))
+    assert left_in_si(compose_document(journal.result, "tf")) == []
 
 
 def text_of(result: Result, headline: Headline) -> str:

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
 from moyai.case.schema_measured import MEASURED, MeasuredSets
@@ -368,3 +369,4 @@ class BreakwaterCase(Block):
     criteria: BreakwaterKeeps = Field(default_factory=BreakwaterCriteria, description=CRITERIA)
     settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
     measured: Measured | None = Field(default=None, description=MEASURED)
+    display: Display = Field(default_factory=Display, description=DISPLAY)

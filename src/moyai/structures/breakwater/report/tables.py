@@ -269,9 +269,12 @@ def stiffness_matrices(level: Level) -> Table | None:
         matrix = group.real(name, "influenced_dof", "radiating_dof")
         if matrix is None:
             continue
-        unit = "kg, kg m, kg m2" if name == "inertia_matrix" else "N/m, N/rad, N m/rad"
+        units = ("kg", "kg m", "kg m2") if name == "inertia_matrix" else ("N/m", "N/rad", "N m/rad")
+        # the smallest unit of each, so that all terms of a row have one factor
+        shown = [display_unit(unit, 0.0) for unit in units]
+        unit = ", ".join(item.name for item in shown)
         for number, mode in enumerate(modes):
-            rows.append((words, mode, [float(v) for v in matrix[number]], unit))
+            rows.append((words, mode, [float(v) * shown[0].factor for v in matrix[number]], unit))
     if not rows:
         return None
     columns = [
@@ -281,7 +284,7 @@ def stiffness_matrices(level: Level) -> Table | None:
             Column(f"by {mode}", [row[2][number] for row in rows], digits=4, uniform=False)
             for number, mode in enumerate(modes)
         ),
-        Column("Units (SI)", [row[3] for row in rows]),
+        Column("Units", [row[3] for row in rows]),
     ]
     return Table(key(level, "matrices"), "Inertia and stiffness at rest, whole unit", tuple(columns), collapsed=True)
 

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -174,3 +175,4 @@ class CageCase(Block):
     criteria: CageKeeps = Field(default_factory=CageCriteria, description=CRITERIA)
     settings: CageSettings = Field(default_factory=CageSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
+    display: Display = Field(default_factory=Display, description=DISPLAY)

@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
 from moyai.case.schema_measured import MEASURED, MeasuredSets
 from moyai.case.schema_types import (
@@ -561,3 +562,4 @@ class CurtainCase(Block):
     criteria: CurtainKeeps = Field(default_factory=CurtainCriteria, description=CRITERIA)
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
+    display: Display = Field(default_factory=Display, description=DISPLAY)

@@ -93,10 +93,12 @@ def _flooded_rows(group: Group) -> list[tuple[str, Cell, str]]:
         return []
     if net <= 0.0:
         return [("with flooded floats", f"floats, {format_quantity(-net, 'N/m')} of buoyancy left", "")]
+    buoyancy = group.value("holding_buoyancy")
+    shown = display_unit("N/m", buoyancy)
     return [
         ("with flooded floats", f"sinks, {format_quantity(net, 'N/m')} of weight under water", ""),
         ("air that brings it up again", group.value("air_to_surface"), pretty_unit("m3/m")),
-        ("buoyancy that holds it up", group.value("holding_buoyancy"), "N/m"),
+        ("buoyancy that holds it up", buoyancy * shown.factor, pretty_unit(shown.name)),
     ]
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -328,3 +329,4 @@ class MemberCase(Block):
     criteria: MemberKeeps = Field(default_factory=MemberCriteria, description=CRITERIA)
     settings: MemberSettings = Field(default_factory=MemberSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
+    display: Display = Field(default_factory=Display, description=DISPLAY)

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
     BretschneiderMitsuyasu,
     Current,
@@ -216,3 +217,4 @@ class NetworkCase(Block):
     criteria: NetworkKeeps = Field(default_factory=NetworkCriteria, description=CRITERIA)
     settings: NetworkSettings = Field(default_factory=NetworkSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
+    display: Display = Field(default_factory=Display, description=DISPLAY)

@@ -1,0 +1,57 @@
+"""Coefficients written for other programs: the files of WAMIT, NEMOH and BEMIO, with all digits of the numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import xarray as xr
+
+from moyai.core.errors import InputError
+from moyai.core.files import write_whole
+from moyai.interop.write_bemio import bemio_files
+from moyai.interop.write_nemoh import nemoh_files
+from moyai.interop.write_wamit import wamit_files
+
+_WRITERS: dict[str, Callable[[xr.Dataset], dict[str, bytes]]] = {
+    "bemio": bemio_files,
+    "nemoh": nemoh_files,
+    "wamit": wamit_files,
+}
+PROGRAMS = tuple(_WRITERS)
+"""Programs whose files can be written."""
+
+
+def write_coefficients(program: str, dataset: xr.Dataset, folder: str | Path, *, replace: bool = False) -> list[Path]:
+    """Write coefficients as files of another program.
+
+    Parameters
+    ----------
+    program : {"bemio", "nemoh", "wamit"}
+    dataset : xarray.Dataset
+        See :mod:`moyai.interop.coefficients`.
+    folder : path
+        Made if it does not exist.
+    replace : bool
+        Whether files that exist are replaced.
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    InputError
+        Unknown program, a file that exists, or what the format needs and the coefficients lack.
+    """
+    if program not in _WRITERS:
+        raise InputError(f"unknown program {program!r}", path="--to", allowed=", ".join(_WRITERS))
+    files = {Path(folder) / name: content for name, content in _WRITERS[program](dataset).items()}
+    _require_absent([] if replace else files)
+    return [write_whole(path, content) for path, content in files.items()]
+
+
+def _require_absent(paths: Iterable[Path]) -> None:
+    for path in paths:
+        if path.exists():
+            raise InputError(f"{path} exists", path="output", remedy="choose another folder, or add --force")

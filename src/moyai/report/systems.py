@@ -1,0 +1,86 @@
+"""Systems of units that reports are shown in: SI, or forces in tonnes-force and kilograms-force."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import wraps
+from typing import Any, TypeVar
+
+from moyai.core.errors import InputError
+from moyai.core.units import parse_unit
+
+SYSTEMS = ("SI", "tf")
+UNITS_NOTES = {
+    "tf": "Units: forces in tf or kgf (1 tf = 9806.65 N), moments, stiffness and pressures accordingly. "
+    "Texts of notices, remarks and verdicts are in SI, as are the case and results.nc."
+}
+"""What a page says of units that are not SI."""
+_system: ContextVar[str] = ContextVar("system", default="SI")
+_LEAST_TONNE = 0.1  # forces whose largest is smaller are shown in kgf [tf]
+# a force or a pressure among the factors of a unit, with its prefix
+_FORCE = re.compile(r"\b[kMG]?(N|Pa)\b")
+_R = TypeVar("_R")
+
+
+def require_system(name: str) -> None:
+    """Refuse a name that is none of :data:`SYSTEMS`.
+
+    Raises
+    ------
+    InputError
+    """
+    if name not in SYSTEMS:
+        raise InputError(f"'{name}' is no system of units", path="units", allowed=" or ".join(SYSTEMS))
+
+
+@contextmanager
+def displayed_in(system: str) -> Iterator[str]:
+    """Show what is composed and written inside in one of :data:`SYSTEMS`; see :func:`require_system`."""
+    require_system(system)
+    mark = _system.set(system)
+    try:
+        yield system
+    finally:
+        _system.reset(mark)
+
+
+def in_its_units(render: Callable[..., _R]) -> Callable[..., _R]:
+    """Return a function of a document that shows it in the units it was composed in."""
+
+    @wraps(render)
+    def rendered(document: Any, *arguments: Any, **options: Any) -> _R:
+        with displayed_in(document.units):
+            return render(document, *arguments, **options)
+
+    return rendered
+
+
+def in_tonnes_force(unit: str, largest: float) -> tuple[str, float] | None:
+    """Return a unit with its forces in tf, ``tf m`` for ``N m`` and ``tf/m2`` for ``Pa``, where that is shown.
+
+    Parameters
+    ----------
+    unit : str
+        Unit of the stored values.
+    largest : float
+        Their largest magnitude; kgf where it is small.
+
+    Returns
+    -------
+    (str, float) or None
+        Unit shown and what a stored value is multiplied by; None in SI, and for what is no force.
+    """
+    if _system.get() != "tf" or not _FORCE.search(unit):
+        return None
+    found = []
+    for force in ("kgf", "tf"):
+        name = _FORCE.sub(lambda match, word=force: word if match[1] == "N" else f"{word}/m2", unit)  # type: ignore[misc]
+        try:
+            found.append((name, float(parse_unit(unit).factor / parse_unit(name).factor)))
+        except InputError:
+            return None  # a unit of the user's own file
+    small, large = found
+    return large if largest * large[1] >= _LEAST_TONNE else small

@@ -1,0 +1,202 @@
+"""What a result shows in Python: its first page in a notebook, its tables as pandas frames, its figures by plotly."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from html import escape
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from moyai.core.results import Result
+from moyai.core.results import read_result as read_stored
+from moyai.report.document import Document, Figure, KeyFigure, KeyFigures, Table
+from moyai.report.encoding import column_unit, scaled_cell, unique_slugs
+from moyai.report.first_page import badges, criteria_table, units_of
+from moyai.report.formatting import axis_label, pretty_unit
+from moyai.report.headlines import headline_figures
+from moyai.report.html import column_texts, words
+from moyai.report.systems import UNITS_NOTES, displayed_in, require_system
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from plotly.graph_objects import Figure as PlotlyFigure
+
+_B = TypeVar("_B", bound=Table | Figure)
+_V = TypeVar("_V")
+_COLOURS = {"good": "#1a7f37", "caution": "#9a6700", "bad": "#b00020", "neutral": "#666666"}
+_LISTED = 40  # names in a message
+
+
+class Views(Mapping[str, _V], Generic[_B, _V]):
+    """Blocks of a report by name, each turned into what Python works with when it is asked for.
+
+    Names are those of the files of a report (``hwl-lines-at-rest``). ``_`` may stand for ``-``, and the end of a name
+    is enough where it is the end of one only.
+    """
+
+    def __init__(self, what: str, blocks: Sequence[_B], view: Callable[[_B], _V]) -> None:
+        self._what = what
+        self._view = view
+        self._blocks: dict[str, _B] = dict(zip(unique_slugs(block.key for block in blocks), blocks, strict=True))
+
+    def __getitem__(self, name: str) -> _V:
+        wanted = name.replace("_", "-").lower()
+        plain = {key: key.replace("_", "-") for key in self._blocks}
+        found = [key for key, text in plain.items() if text == wanted]
+        found = found or [key for key, text in plain.items() if text.endswith(f"-{wanted}")]
+        if len(found) == 1:
+            return self._view(self._blocks[found[0]])
+        known = found or list(self._blocks)
+        listed = ", ".join(known[:_LISTED]) + (f" and {len(known) - _LISTED} more" if len(known) > _LISTED else "")
+        reason = f"{len(found)} {self._what}s end in" if found else f"no {self._what} is called"
+        raise KeyError(f"{reason} {name!r}; there are: {listed or 'none'}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._blocks)
+
+    def __len__(self) -> int:
+        return len(self._blocks)
+
+    def __repr__(self) -> str:
+        return f"{self._what}s: {', '.join(self._blocks)}"
+
+
+class ReportedResult(Result):
+    """A result whose report is at hand: ``tables``, ``figures``, and the first page in a notebook."""
+
+    @cached_property
+    def document(self) -> Document:
+        """The report of the result, composed at the first use."""
+        from moyai.report.writer import compose_document
+
+        return compose_document(self)
+
+    @property
+    def tables(self) -> Views[Table, pd.DataFrame]:
+        """Tables of the report as pandas frames, in the units of their heads."""
+
+        def frame(table: Table) -> pd.DataFrame:
+            with displayed_in(self.document.units):
+                return table_frame(table)
+
+        return Views("table", self.document.tables(), frame)
+
+    @property
+    def figures(self) -> Views[Figure, PlotlyFigure]:
+        """Figures of the report as figures of plotly."""
+        from moyai.report.plotly_figure import plotly_figure
+
+        return Views("figure", [item for item in self.document.blocks() if isinstance(item, Figure)], plotly_figure)
+
+    def shown_in(self, units: str) -> ReportedResult:
+        """Return the result with its report, tables and figures in ``SI`` or ``tf``; its data stay in SI.
+
+        Raises
+        ------
+        InputError
+            For units of another name.
+        """
+        require_system(units)
+        return replace(self, provenance={**self.provenance, "display_units": units})
+
+    def _repr_html_(self) -> str:
+        return summary_html(self)
+
+
+def with_views(result: Result) -> ReportedResult:
+    """Return a result whose tables and figures are at hand.
+
+    Parameters
+    ----------
+    result : Result
+    """
+    if isinstance(result, ReportedResult):
+        return result
+    return ReportedResult(**{name: getattr(result, name) for name in Result.__dataclass_fields__})
+
+
+def read_result(path: str | os.PathLike[str]) -> ReportedResult:
+    """Read a result written by :meth:`moyai.core.results.Result.write`, with its tables and figures at hand.
+
+    Parameters
+    ----------
+    path : path
+        ``results.nc`` of any command.
+
+    Raises
+    ------
+    InputError
+        When the file is absent or was not written by moyai.
+    """
+    return with_views(read_stored(path))
+
+
+def table_frame(table: Table) -> pd.DataFrame:
+    """Return a table of a report as a pandas frame; its columns are called as in the CSV, ``tension [kN]``.
+
+    Parameters
+    ----------
+    table : Table
+
+    Returns
+    -------
+    pandas.DataFrame
+        Numbers in the unit of their head, NaN for what is not known.
+    """
+    import pandas as pd
+
+    heads, columns = [], []
+    for column in table.columns:
+        unit = column_unit(column)
+        heads.append(axis_label(column.label, unit.name))
+        columns.append(pd.Series([scaled_cell(value, unit.factor) for value in column.values]))
+    frame = pd.concat(columns, axis=1) if columns else pd.DataFrame()
+    return frame.set_axis(heads, axis=1)
+
+
+def summary_html(result: ReportedResult) -> str:
+    """Return the first page of a result as a piece of HTML: badges, governing numbers, criteria; nothing is loaded.
+
+    Parameters
+    ----------
+    result : ReportedResult
+    """
+    parts = [f"<strong>{escape(str(result.provenance.get('title', '')))}</strong>"]
+    for badge in badges(result):
+        word = f'<strong style="color:{_COLOURS[badge.tone]}">{escape(badge.word)}</strong>'
+        parts.append(f"<div>{escape(badge.label)}: {word} {words(badge.message)}</div>")
+    with displayed_in(units_of(result)):
+        numbers = [(item.label[:1].upper() + item.label[1:], item.text, item.detail) for item in _key_figures(result)]
+        criteria = criteria_table(result)
+    if numbers:
+        parts.append(_grid(("Governing number", "Value", "Where, model and band"), numbers))
+    if criteria is not None:
+        units = [pretty_unit(column_unit(column).name) for column in criteria.columns]
+        heads = [f"{c.label} [{u}]" if u else c.label for c, u in zip(criteria.columns, units, strict=True)]
+        parts.append(_grid(heads, list(zip(*map(column_texts, criteria.columns), strict=True))))
+    if note := UNITS_NOTES.get(units_of(result)):
+        parts.append(f"<div>{escape(note)}</div>")
+    return f'<div class="moyai-result">{"".join(parts)}</div>'
+
+
+def _key_figures(result: ReportedResult) -> list[KeyFigure]:
+    """Return the governing numbers: those of the result, else those that its report finds."""
+    if (known := headline_figures(result)) is not None:
+        return list(known.items)
+    try:
+        blocks = result.document.blocks()
+    except Exception:
+        # an interrupted result may hold too little for a report; its badges stand all the same
+        if result.status != "interrupted":
+            raise
+        return []
+    return [item for block in blocks if isinstance(block, KeyFigures) for item in block.items]
+
+
+def _grid(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    style = ' style="text-align:left;vertical-align:top"'
+    head = "".join(f"<th{style}>{words(text)}</th>" for text in heads)
+    body = "".join(f"<tr>{''.join(f'<td{style}>{words(text)}</td>' for text in row)}</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

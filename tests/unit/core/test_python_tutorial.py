@@ -1,0 +1,12 @@
+"""The tutorial of Python: every example runs."""
+
+import doctest
+from pathlib import Path
+
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "tutorial" / "in_python.md"
+
+
+def test_every_example_of_the_page_runs() -> None:
+    failed, tried = doctest.testfile(str(PAGE), module_relative=False)
+    assert tried > 15
+    assert failed == 0

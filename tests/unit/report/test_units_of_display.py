@@ -1,0 +1,93 @@
+"""Reports in tonnes-force: every number is the SI one divided by standard gravity, and no unit of SI force is left."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from pathlib import Path
+
+import openpyxl
+import pytest
+from synthetic_result import build
+from tonnes_force import assert_same_numbers, left_in_si
+from typer.testing import CliRunner
+
+import moyai
+from moyai.cli.main import app
+from moyai.core.errors import InputError
+from moyai.report.encoding import column_unit
+from moyai.report.formatting import display_unit, format_quantity
+from moyai.report.systems import displayed_in
+from moyai.report.workbook import render_workbook
+from moyai.report.writer import compose_document, write_report
+
+
+@pytest.mark.parametrize(
+    ("unit", "value", "shown"),
+    [
+        ("N", 9806.65, "1.00 tf"), ("N", 98.0665, "10.0 kgf"), ("N", 98066.5, "10.0 tf"), ("kN", 9.80665, "1.00 tf"),
+        ("N/m", 9806.65, "1.00 tf/m"), ("N m", 19613.3, "2.00 tf·m"), ("Pa", 9806.65, "1.00 tf/m²"),
+        ("Pa", 9.80665, "1.00 kgf/m²"), ("N m/rad", 9806.65, "1.00 tf·m/rad"), ("N s/m", 9806.65, "1.00 tf·s/m"),
+        ("kg", 2e4, "20.0 t"), ("rad", math.pi, "180°"), ("m", 3.0, "3.00 m"), ("N of a kind", 3.0, "3.00 N·of·a·kind"),
+    ],
+)  # fmt: skip
+def test_quantities_in_tonnes_force(unit: str, value: float, shown: str) -> None:
+    with displayed_in("tf"):
+        assert format_quantity(value, unit) == shown
+    assert display_unit("N", 9806.65).name == "kN"
+
+
+def test_other_systems_are_refused() -> None:
+    with pytest.raises(InputError, match="'lbf' is no system of units"):
+        compose_document(build(), "lbf")
+
+
+def test_columns_of_one_unit_share_tonnes_or_kilograms_force() -> None:
+    from moyai.report.document import Column, in_one_unit
+
+    with displayed_in("tf"):
+        columns = in_one_unit((Column("a", [10.0], "N"), Column("b", [2e4], "N")))
+        assert [column_unit(column).name for column in columns] == ["tf", "tf"]
+
+
+def test_a_report_in_tonnes_force_holds_the_numbers_of_that_in_si() -> None:
+    result = build()
+    assert assert_same_numbers(result) > 20
+    assert left_in_si(compose_document(result))
+    assert left_in_si(compose_document(result, "tf")) == []
+
+
+def test_every_file_of_the_report_is_in_tonnes_force(tmp_path: Path) -> None:
+    result = build()
+    files = write_report(result, tmp_path, units="tf")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Texts of notices, remarks and verdicts are in SI" in page
+    heads = [path.read_text(encoding="utf-8-sig").splitlines()[0] for path in files if path.suffix == ".csv"]
+    assert any("[tf]" in head for head in heads)
+    assert not [head for head in heads if re.search(r"\[[kM]?(N|Pa)\b", head)]
+    book = openpyxl.load_workbook(io.BytesIO(render_workbook(compose_document(result, "tf"))))
+    cells = [str(cell.value) for sheet in book if sheet.title != "Summary" for cell in sheet[1] if cell.value]
+    assert any("[tf]" in cell for cell in cells)
+    assert not [cell for cell in cells if re.search(r"\[[kM]?(N|Pa)\b", cell)]
+    assert "9806.65" in str(book["Summary"]["A3"].value)
+
+
+def test_the_command_takes_units_and_keeps_the_data(tmp_path: Path) -> None:
+    build().write(tmp_path / "results.nc")
+    before = (tmp_path / "results.nc").read_bytes()
+    found = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--units", "tf"])
+    assert found.exit_code == 0, found.output
+    assert " tf" in found.output
+    assert (tmp_path / "results.nc").read_bytes() == before
+    assert "[tf]" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    wrong = CliRunner().invoke(app, ["report", str(tmp_path / "results.nc"), "--units", "stone"])
+    assert wrong.exit_code == 2
+    assert "'stone' is no system of units" in wrong.output
+
+
+def test_a_case_says_its_units_and_keeps_its_hash() -> None:
+    case = moyai.load_case(moyai.template("member"))
+    changed = case.replace("display", {"units": "tf"})
+    assert changed.model.display.units == "tf"
+    assert changed.case_hash == case.case_hash
