@@ -154,3 +154,16 @@ def test_slow_drift_of_both_domains_is_one(tmp_path):
     error = 0.5 / math.sqrt(2.0 * math.pi * float(sea.slow_sway_damping_ratio) * cycles)
     assert cycles > 300.0 and error < 0.035
     assert found == pytest.approx(expected, rel=3.0 * error), (found, expected, error)
+
+
+@pytest.mark.parametrize(("limit", "outcome"), [(0.99, "holds"), (0.01, "does not hold")])
+def test_transmission_is_judged_at_a_named_sea(limit, outcome, tmp_path):
+    design = DESIGNS[0]
+    path = design.write(tmp_path, analyses="statics, frequency")
+    path.write_text(path.read_text() + f"criteria: {{greatest_transmission: {{storm: {limit}}}}}\n")
+    result = run(build(load_case(path)))
+    (judged,) = [one for one in result.verdict.judgements if one.criterion.name == "greatest_transmission"]
+    sea = result.tree["SWL/frequency/storm"].to_dataset()
+    assert judged.outcome == outcome
+    # the unfavourable end of the band over the damping
+    assert judged.value == pytest.approx(float(sea.transmission_coefficient_high), rel=1e-9)

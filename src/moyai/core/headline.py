@@ -187,12 +187,23 @@ class Criterion:
 
 @dataclass(frozen=True)
 class Judgement:
-    """A criterion with the value it was judged at and the outcome; ``reason`` says why it was not judged."""
+    """A criterion with the value it was judged at and the outcome; ``reason`` says why it was not judged.
+
+    ``bound`` is that of the value.
+    """
 
     criterion: Criterion
     value: float
     outcome: Outcome
     reason: str = ""
+    bound: Bound = ""
+
+    @property
+    def shown_bound(self) -> Bound:
+        """The bound of the value as people read it: a load of at most so much is a factor of at least so much."""
+        if not self.bound or not self.criterion.as_factor:
+            return self.bound
+        return "at least" if self.bound == "at most" else "at most"
 
     def as_dict(self) -> dict[str, Any]:
         """Return a JSON-ready mapping."""
@@ -206,7 +217,9 @@ class Judgement:
         """Undo :meth:`as_dict`."""
         given = record["criterion"]
         criterion = Criterion(**{**given, "limit": float(given["limit"])})
-        return cls(criterion, float(record["value"]), record["outcome"], record.get("reason", ""))
+        return cls(
+            criterion, float(record["value"]), record["outcome"], record.get("reason", ""), record.get("bound", "")
+        )
 
 
 @dataclass(frozen=True)
@@ -341,8 +354,9 @@ def _judge_one(criterion: Criterion, headline: Headline) -> Judgement:
     # The true value lies below a bound "at most" and above a bound "at least"
     proves = not headline.bound or (headline.bound == criterion.sense) == good
     if not proves:
-        return Judgement(criterion, value, "not judged", f"only a bound is known ({headline.bound} this value)")
-    return Judgement(criterion, value, "holds" if good else "does not hold", headline.where)
+        reason = f"only a bound is known ({headline.bound} this value)"
+        return Judgement(criterion, value, "not judged", reason, headline.bound)
+    return Judgement(criterion, value, "holds" if good else "does not hold", headline.where, headline.bound)
 
 
 def _judge_parts(criterion: Criterion, headline: Headline, value: float) -> Judgement:

@@ -168,13 +168,14 @@ def limit_and_found(item: Judgement, like: float = 0.0) -> tuple[str, str]:
         Magnitude that chooses between N, kN and MN together with both.
     """
     criterion = item.criterion
+    bound = f"{item.shown_bound} " if item.shown_bound else ""
     if criterion.as_factor:
         value = math.nan if math.isnan(item.value) else criterion.shown(item.value)
-        return f"at least {format_number(criterion.shown(criterion.limit))}", format_number(value)
+        return f"at least {format_number(criterion.shown(criterion.limit))}", f"{bound}{format_number(value)}"
     if criterion.unit == "1":
-        return f"{criterion.sense} {format_number(criterion.limit)}", format_number(item.value)
+        return f"{criterion.sense} {format_number(criterion.limit)}", f"{bound}{format_number(item.value)}"
     if criterion.unit == "%":
-        return f"{criterion.sense} {format_percent(criterion.limit, 3)}", format_percent(item.value, 3)
+        return f"{criterion.sense} {format_percent(criterion.limit, 3)}", f"{bound}{format_percent(item.value, 3)}"
     pair = [value for value in (criterion.limit, item.value, like) if math.isfinite(value)]
     shown = display_unit(criterion.unit, pair)
     texts = []
@@ -182,7 +183,7 @@ def limit_and_found(item: Judgement, like: float = 0.0) -> tuple[str, str]:
         text = format_number(value * shown.factor)
         joint = "" if shown.name == "deg" else " "
         texts.append(text if text == DASH else f"{text}{joint}{shown.pretty}")
-    return f"{criterion.sense} {texts[0]}", texts[1]
+    return f"{criterion.sense} {texts[0]}", f"{bound}{texts[1]}"
 
 
 def _within_a_sentence(text: str) -> str:

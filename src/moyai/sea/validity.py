@@ -231,9 +231,11 @@ def check_sea_state(significant_height: float, peak_period: float, water: Water)
     Returns
     -------
     tuple of Notice
-        ``significant-height-depth`` (error above 0.78 h, warning above 0.6 h), ``sea-steepness``.
+        ``significant-height-depth`` (error above 0.78 h, warning above 0.6 h), ``sea-steepness`` (error where the
+        significant height is more than the breaking height of a regular wave of the peak period).
     """
     notices = []
+    breaking = breaking_limit(peak_period, water)
     for factor, severity in ((0.78, "error"), (0.6, "warning")):
         limit = factor * water.depth
         if significant_height > limit:
@@ -254,13 +256,15 @@ def check_sea_state(significant_height: float, peak_period: float, water: Water)
     share = min(max((peak_period - 8.0) / 7.0, 0.0), 1.0)
     limit = 1.0 / 15.0 + share * (1.0 / 25.0 - 1.0 / 15.0)
     if steepness > limit:
+        broken = significant_height > breaking.height
+        more = f": more than the breaking height {breaking.height:.3g} m of a regular wave" if broken else ""
         notices.append(
             Notice(
                 "sea-steepness",
-                f"sea steepness 2 pi H_s / (g T_p^2) = {steepness:.3g} exceeds {limit:.3g}",
+                f"sea steepness 2 pi H_s / (g T_p^2) = {steepness:.3g} exceeds {limit:.3g}{more}",
                 steepness,
                 limit,
-                "warning",
+                "error" if broken else "warning",
                 "lengthen the period or lower the height: such a sea breaks",
                 "DNV-RP-C205, limiting average steepness",
             )

@@ -79,3 +79,18 @@ def test_the_mean_of_few_realisations_is_judged_at_the_end_of_its_interval() -> 
     found = judge([transmission(0.45, band=scatter)], [least], computed=True)
     assert found.outcome == "does not hold" and found.judgements[0].value == 0.35
     assert Headline.from_dict(transmission(0.45, band=scatter).as_dict()).band == scatter
+
+
+def test_a_number_at_a_named_sea_is_judged_by_the_criterion_of_that_sea_alone() -> None:
+    numbers = (transmission(0.4), transmission(0.6, sea="design", shown=False))
+    at_sea = Criterion("transmission", "transmission", 0.5, "at most", "case file", sea="design")
+    assert judge(numbers, [MOST], computed=True).outcome == "holds"
+    assert judge(numbers, [at_sea], computed=True).outcome == "does not hold"
+    assert judge(numbers[:1], [at_sea], computed=True).outcome == "not judged"
+
+
+def test_a_bound_of_a_load_turns_over_with_its_factor_of_safety() -> None:
+    least = Criterion("anchor", "used", 1.0 / 1.5, "at most", "case file", as_factor=True)
+    used = Headline("used", "Anchors", 1.5, "1", bound="at most")
+    (found,) = judge([used], [least], computed=True).judgements
+    assert (found.outcome, found.bound, found.shown_bound) == ("not judged", "at most", "at least")

@@ -117,7 +117,9 @@ def test_sea_state_notices():
     assert validity.check_sea_state(2.0, 12.0, shallow)[0].severity == "warning"
     steep = validity.check_sea_state(5.0, 6.0, WATER)
     assert codes(steep) == ["sea-steepness"]
-    assert steep[0].limit == pytest.approx(1.0 / 15.0)
+    assert steep[0].limit == pytest.approx(1.0 / 15.0) and steep[0].severity == "warning"
+    broken = validity.check_sea_state(1.01 * breaking.breaking_limit(6.0, WATER).height, 6.0, WATER)
+    assert broken[0].severity == "error" and "breaking height" in broken[0].message
     assert validity.check_sea_state(1.0, 6.0, WATER) == ()
 
 

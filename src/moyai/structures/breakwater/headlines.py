@@ -30,6 +30,7 @@ from moyai.structures.breakwater.lines.headlines import (
     place,
     seas_of,
     seeds,
+    storm_words,
     tension_at_rest,
 )
 
@@ -214,7 +215,9 @@ def _offset(domain: str, data: xr.Dataset, level: str, sea: str, frequency: xr.D
         value = float(data["maximum_excursion"].values[0])
         scatter = np.asarray(data["maximum_excursion_of_realisation"].values[:, 0], dtype=float)
         band = seeds(scatter)
-        detail = _slow_words(frequency)
+        within = float(data.attrs.get("duration", math.nan))
+        detail = f"largest in {storm_words(within)}; " if math.isfinite(within) else ""
+        detail += _slow_words(frequency)
     elif "largest_offset" in data:
         value = float(data["largest_offset"])
         detail = _slow_words(data)

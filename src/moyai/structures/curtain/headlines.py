@@ -546,6 +546,25 @@ def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> It
         )  # fmt: skip
 
 
+def weaker_currents(groups: Groups, found: Sequence[Headline]) -> tuple[Criterion, ...]:
+    """Return the criterion that fails where the curtain gives way in a current weaker than that of the case.
+
+    Weaker currents come with every stronger one, twice a tide. Where the plate is a value in the weaker current and
+    only a bound in that of the case, the loads of the case alone would leave the design open. Nothing is asked where
+    the limit is a bound or the curtain holds.
+    """
+    limit = next((item for item in found if item.name == "limit_current"), None)
+    if limit is None or limit.bound or not math.isfinite(limit.value):
+        return ()
+    level = limit.where.rpartition(": ")[2]
+    own = _in_the_case(groups, level, "speed_limit")
+    if not limit.value < own * (1.0 - 1e-6):
+        return ()
+    source = "default of moyai: weaker currents come with every stronger one"
+    label = "largest current held without waves"
+    return (Criterion("weaker_currents", "limit_current", own, "at least", source, label, "m/s", assumed=True),)
+
+
 def _in_the_case(groups: Groups, level: str, key: str) -> float:
     """Return the current of the case, or the largest significant height of its irregular seas; NaN without."""
     if key == "speed_limit":
@@ -568,4 +587,4 @@ def _kilo(value: float, unit: str = "N") -> str:
     return spoken(value, unit, 3)
 
 
-__all__ = ["curtain_headlines"]
+__all__ = ["curtain_headlines", "weaker_currents"]

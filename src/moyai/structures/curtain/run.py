@@ -23,7 +23,7 @@ from moyai.structures.curtain.analyses.span_peaks import peaks_wanted, span_peak
 from moyai.structures.curtain.analyses.statics import require_current, statics_checks, statics_groups, statics_notices
 from moyai.structures.curtain.analyses.waves import wave_answer
 from moyai.structures.curtain.assembly import LevelCurtain, assemble
-from moyai.structures.curtain.headlines import curtain_headlines
+from moyai.structures.curtain.headlines import curtain_headlines, weaker_currents
 from moyai.structures.curtain.hierarchy import CYCLES, hierarchy, hierarchy_dataset, role_of
 from moyai.structures.curtain.model import CurtainProblem
 from moyai.structures.curtain.seas.loads import drag_curve
@@ -220,16 +220,17 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
         "case_hash": problem.case_hash,
         "case_text": problem.case_text,
     }
+    levels = [name for name, _ in problem.environment.water_levels]
+    found = curtain_headlines(collected.groups, levels, problem.criteria)
+    more = weaker_currents(collected.groups, found) if problem.criteria else ()
     return collected.close(
         VOCABULARY,
         attributes,
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
-        notices=_placed(collected, len(problem.environment.water_levels)),
-        headlines=curtain_headlines(
-            collected.groups, [name for name, _ in problem.environment.water_levels], problem.criteria
-        ),
+        notices=_placed(collected, len(levels)),
+        headlines=found,
         fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
-        criteria=problem.criteria,
+        criteria=(*problem.criteria, *more),
     )
 
 

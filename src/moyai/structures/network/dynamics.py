@@ -20,7 +20,7 @@ from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sen
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import affordable, check_peak, doubt, not_converged, unchecked
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
-from moyai.structures.network.run_notices import capsized, peak_inside, run_notices
+from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
 from moyai.structures.network.series import frames_of, kept_nodes, series_of, snaps_of, with_bodies
 
@@ -138,6 +138,7 @@ def run(
     worst = _worst_bar(assembly, history, governing, plan.skip)
     notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
     notices += peak_inside(assembly, series, governing, worst)
+    notices += realised_low(series)
     if coupled is not None:
         notices += capsized(series)
     why = doubt(assembly, history, snaps, governing)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.flexible.result import History
+from moyai.sea.validity import check_realised_height
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.model import NetworkProblem
@@ -127,6 +129,21 @@ def peak_inside(assembly: Assembly, series: xr.Dataset, name: str, bar: int) -> 
             "see settings.sensitivity",
         )
     ]  # fmt: skip
+
+
+def realised_low(series: xr.Dataset) -> list[Notice]:
+    """Say when the record of an irregular sea is clearly lower than what was asked, over the part that counts."""
+    if "surface_elevation" not in series or not int(series.attrs.get("irregular", 0)):
+        return []
+    time = series["time"].values
+    counted = series["surface_elevation"].values[time >= time[0] + series.attrs["skip"]]
+    if counted.size < 2:
+        return []
+    # the run puts its name before it
+    return [
+        replace(one, message=one.message.removeprefix(": "))
+        for one in check_realised_height("", 4.0 * float(counted.std()), float(series.attrs["wave_height"]))
+    ]
 
 
 def capsized(series: xr.Dataset) -> list[Notice]:

@@ -25,6 +25,7 @@ AT_REST = "time domain, lines at rest at every instant"
 FREQUENCY = "frequency domain, waves and slow drift"
 FIRST_ORDER = "frequency domain, regular waves"
 STILL = "at rest, no waves run"
+STORM_DURATION = 10800.0  # [s], for which the largest values of a sea state are usually asked
 SINKER = ("concrete", "sand")  # for which the weight of a sinker is shown
 
 
@@ -52,6 +53,7 @@ class LinePeak:
     vertical_scatter: Array
     horizontal_scatter: Array
     bound: Array
+    duration: float = math.nan
 
     @property
     def analysis(self) -> str:
@@ -146,7 +148,7 @@ def _line_peak(
         of("maximum_anchor_vertical_tension"), of("maximum_anchor_horizontal_tension"), of("least_grounded_length"),
         model, known, scatter, scatter_of("maximum_anchor_vertical_tension"),
         scatter_of("maximum_anchor_horizontal_tension"),
-        scatter_of("line_tension_bound") if moving else scatter,
+        scatter_of("line_tension_bound") if moving else scatter, float(data.attrs.get("duration", math.nan)),
     )  # fmt: skip
 
 
@@ -165,7 +167,7 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
     tension = Headline(
         "line_tension", "Largest line tension", highest.tension, "N", highest.where, highest.model,
         band=seeds(highest.scatter, highest.bound),
-        detail="; ".join(part for part in (_mean_of(highest.scatter), _open(highest), also) if part),
+        detail="; ".join(part for part in (_mean_of(highest.scatter, highest.duration), _open(highest), also) if part),
         analysis=highest.analysis,
     )  # fmt: skip
     load = highest.breaking_load
@@ -347,11 +349,19 @@ def _standard_error(scatter: Array) -> float:
     return float(np.std(scatter, ddof=1)) / math.sqrt(scatter.size)
 
 
-def _mean_of(scatter: Array) -> str:
+def _mean_of(scatter: Array, duration: float) -> str:
     if scatter.size < 2:
         return ""
     share = 100.0 * _standard_error(scatter) / float(scatter.mean())
-    return f"mean of the largest of {scatter.size} realisations, its standard error {share:.2g} %"
+    within = f" in {storm_words(duration)}" if math.isfinite(duration) else ""
+    return f"mean of the largest{within} of {scatter.size} realisations, its standard error {share:.2g} %"
+
+
+def storm_words(duration: float) -> str:
+    """Return the duration [s] that a largest value belongs to, with a word where it is short for a storm."""
+    hours = duration >= 3600.0
+    text = f"{duration / 3600.0:.3g} h" if hours else f"{duration / 60.0:.3g} min"
+    return text if duration >= STORM_DURATION else f"{text} (a storm of {STORM_DURATION / 3600.0:g} h has higher ones)"
 
 
 def kilonewton(force: float) -> str:
