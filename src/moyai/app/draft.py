@@ -181,7 +181,7 @@ def _laid_over(composed: Any, result: Result, other: Other) -> Any:
 
 
 def stages_of(document: Document, kind: str, analyses: tuple[str, ...] = ()) -> list[Document]:
-    """Return a case with the cheap analyses among its own, stage by stage; where it has none, with the first of its kind.
+    """Return a case with its own cheap analyses, stage by stage; where it has none, with the first of its kind.
 
     Parameters
     ----------

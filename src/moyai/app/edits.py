@@ -17,7 +17,8 @@ from moyai.core.errors import InputError
 
 _TOKEN = re.compile(
     r"(?P<quote>['\"]?)(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-    r"(?P<space>[ \t]*)(?P<unit>(?![\d.])[^\s,\]}#:'\"\[{][^,\]}#'\"\[{\n:]*?)?(?P=quote)(?=[ \t]*(?:[,\]}]|[ \t]#|\r?$|\n))"
+    r"(?P<space>[ \t]*)(?P<unit>(?![\d.])[^\s,\]}#:'\"\[{][^,\]}#'\"\[{\n:]*?)?(?P=quote)"
+    r"(?=[ \t]*(?:[,\]}]|[ \t]#|\r?$|\n))"
 )
 
 

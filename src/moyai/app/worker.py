@@ -123,7 +123,7 @@ class DraftWorker:
         return self._pipe.recv_bytes() if self._pipe.poll(left) else None
 
 
-def message(kind: str, **content: Any) -> bytes:
+def message(kind: str, /, **content: Any) -> bytes:
     """Return a message to the page as a line of JSON."""
     from moyai.report.encoding import page_json
 
