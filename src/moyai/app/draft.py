@@ -96,12 +96,12 @@ class Drafts:
             text = document.text
             refuse_foreign_files(wish.root, wish.file.parent, document.data)
             case = case_of(document, wish.file)
-            sliders = sliders_of(document, case.kind)
+            drafts = stages_of(document, case.kind, wish.analyses)
+            sliders = sliders_of(drafts[-1], case.kind)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
-            drafts = stages_of(document, case.kind, wish.analyses)
             for number, draft in enumerate(drafts, 1):
-                report = self._drawn(draft, wish, progress)
+                report = self._drawn(draft, document, wish, progress)
                 more = {"last": number == len(drafts), "seconds": round(time.perf_counter() - started, 4)}
                 yield {**report, **more}
         except MoyaiError as error:
@@ -111,7 +111,7 @@ class Drafts:
             else:
                 yield {"message": "not drawn", "faults": [asdict(fault) for fault in faults]}
 
-    def _drawn(self, document: Document, wish: Wish, progress: Progress) -> dict[str, Any]:
+    def _drawn(self, document: Document, whole: Document, wish: Wish, progress: Progress) -> dict[str, Any]:
         from moyai.report.html import render_parts
         from moyai.report.writer import compose_document
 
@@ -127,7 +127,7 @@ class Drafts:
         return {
             "message": "drawn",
             "analyses": list(document.data["analyses"]),
-            "seas": len(document.data["waves"]) if isinstance(document.data.get("waves"), list) else None,
+            "left_out": document.data.get("waves") != whole.data.get("waves"),
             "status": result.status,
             "headlines": [headline.as_dict() for headline in result.headlines],
             "html": html,

@@ -11,14 +11,14 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from moyai.case.paths import assign, resolve
+from moyai.case.paths import assign, resolve, value_of
 from moyai.case.yaml_reader import Document, core_scalar, parse_yaml
 from moyai.core.errors import InputError
 
 _TOKEN = re.compile(
     r"(?P<quote>['\"]?)(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-    r"(?P<space>[ \t]*)(?P<unit>(?![\d.])[^\s,\]}#:'\"\[{][^,\]}#'\"\[{\n:]*?)?(?P=quote)"
-    r"(?=[ \t]*(?:[,\]}]|[ \t]#|\r?$|\n))"
+    r"(?P<space>[ \t]*)(?P<unit>(?![-+\d.])[^\s,\]}#:'\"\[{][^,\]}#'\"\[{\r\n:]*?)?(?P=quote)"
+    r"(?=[ \t]*(?:[,\]}]|[ \t]#|\r?\n|\r?\Z))"
 )
 
 
@@ -63,6 +63,9 @@ def number_at(document: Document, path: str) -> Written | None:
     found = _TOKEN.match(document.text, before + place.column - 1)
     if found is None:
         return None
+    value = value_of(document.data, places[0])
+    if isinstance(value, bool) or isinstance(value, str) != bool(found["unit"] or found["quote"]):
+        return None
     return Written(float(found["number"]), (found["unit"] or "").strip(), *found.span("number"))
 
 
@@ -97,9 +100,7 @@ def with_number(document: Document, path: str, number: str) -> Document:
 def _assigned(document: Document, path: str, number: str, found: Written) -> Any:
     data = copy.deepcopy(document.data)
     place = resolve(data, path)[0]
-    old: Any = data
-    for step in place:
-        old = old[step]
+    old = value_of(data, place)
     digits = document.text[found.start : found.end]
     new = old.replace(digits, number, 1) if isinstance(old, str) else core_scalar(number)
     assign(data, place, new)

@@ -138,15 +138,26 @@ def sliders_of(document: Document, kind: str) -> list[dict[str, Any]]:
         # A sea that stands as a block alone answers to several paths
         if written is None or written.start in found:
             continue
-        found[written.start] = slider(path, label, written.unit, written.value)
+        name = _sea_name(document.data, path)
+        found[written.start] = slider(path, f"{label}, {name}" if name else label, written.unit, written.value)
         if len(found) == _MOST:
             break
     return [asdict(item) for item in found.values()]
 
 
+def _sea_name(data: Any, path: str) -> str:
+    """Return the name of the sea state of a path, empty where there is only one."""
+    seas = data.get("waves") if path.startswith("waves[") else None
+    if not isinstance(seas, list) or len(seas) < 2:
+        return ""
+    sea = seas[int(path[6 : path.index("]")])]
+    return str(sea.get("name", "")) if isinstance(sea, dict) else ""
+
+
 def slider(path: str, label: str, unit: str, value: float) -> Slider:
     """Return a slider whose range follows from the value: from a half to one and a half; angles have a range of 45."""
     if path.endswith("_deg"):
+        unit = "°"
         low, high, step = value - 45.0, value + 45.0, 0.5
     else:
         size = abs(value) if value else 1.0

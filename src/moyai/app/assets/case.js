@@ -27,12 +27,17 @@ export class CaseView {
     this.saveButton = button("Save", () => this.save(), "Write the text to its file");
     this.state = element("p", { class: "quiet state", role: "status" }, "drawing …");
     this.report = element("div", { class: "report" });
+    this.jump = element("select", { "aria-label": "Go to a section", onchange: () => { document.getElementById(this.jump.value)?.scrollIntoView({ behavior: "instant" }); } });
     this.content.replaceChildren(
       element("div", { class: "controls" }, this.title,
         element("div", { class: "toolbar" }, button("Run", () => this.run(), "Full run as a job, with the report"), this.undoButton, this.pinButton,
           this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, "Take the case")),
         this.sliders.element, this.editor.element),
-      element("div", { class: "look" }, this.state, this.report));
+      element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.jump), this.report));
+    this.report.addEventListener("click", (event) => {
+      const link = event.target.closest("a[href^='#']");
+      if (link) { event.preventDefault(); document.getElementById(link.hash.slice(1))?.scrollIntoView(); }
+    });
     this.live = new Live(this.report);
     this.keys = (event) => { if (event.altKey && event.key.toLowerCase() === "z") { event.preventDefault(); this.undo(); } };
     document.addEventListener("keydown", this.keys);
@@ -105,10 +110,18 @@ export class CaseView {
     this.drawn = said.sequence;
     this.headlines = said.headlines;
     this.live.draw(said.html, said.data);
-    const seas = said.seas === 1 || said.seas === null ? "" : `, ${said.seas} seas`;
+    this.listSections();
+    const seas = said.left_out ? ", without irregular seas" : "";
     this.say(`Draft of ${said.analyses.join(", ")}${seas}, in ${said.seconds.toFixed(2)} s.${said.last ? " Run computes the rest." : " More follows."}`);
     this.report.dataset.sequence = said.sequence;
     if (this.moved) { this.report.dataset.latency = Math.round(performance.now() - this.moved); this.moved = 0; }
+  }
+  listSections() {
+    const sections = [...this.report.querySelectorAll("section[id]")].map((one) => [one.id, one.querySelector("h2").textContent]);
+    const state = JSON.stringify(sections);
+    if (state === this.sections) return;
+    this.sections = state;
+    this.jump.replaceChildren(...sections.map(([id, words]) => element("option", { value: id }, words)));
   }
   say(words, old = false) {
     this.state.textContent = words;
