@@ -119,7 +119,7 @@ class Drafts:
         if result.status == "interrupted":
             raise KeyboardInterrupt
         composed = compose_document(result)
-        if wish.pinned and wish.pinned != wish.text:
+        if wish.pinned and wish.pinned != whole.text:
             other = self._other(wish, document, progress)
             if other is not None:
                 composed = _laid_over(composed, result, other)
