@@ -100,9 +100,9 @@ class Drafts:
             sliders = sliders_of(drafts[-1], case.kind)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
-            for number, draft in enumerate(drafts, 1):
+            for place, draft in enumerate(drafts, 1):
                 report = self._drawn(draft, document, wish, progress)
-                more = {"last": number == len(drafts), "seconds": round(time.perf_counter() - started, 4)}
+                more = {"last": place == len(drafts), "seconds": round(time.perf_counter() - started, 4)}
                 yield {**report, **more}
         except MoyaiError as error:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)

@@ -36,6 +36,8 @@ class Order:
         Where the case stands, from which it names other files.
     text : str
         The case; empty for a paper.
+    saved : bool
+        Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
     """
 
     kind: str
@@ -44,6 +46,7 @@ class Order:
     root: Path
     file: Path
     text: str = ""
+    saved: bool = True
 
 
 def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:

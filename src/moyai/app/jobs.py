@@ -74,7 +74,8 @@ class Job:
         """Return the command line that does the same."""
         if self.order.kind == "paper":
             return f"moyai reproduce {self.order.name} --quick --output {_quoted(shown)}"
-        return f"moyai run {_quoted(self.order.name)} --output {_quoted(shown)}"
+        file = self.order.name if self.order.saved else f"{shown}/case.yaml"
+        return f"moyai run {_quoted(file)} --output {_quoted(shown)}"
 
 
 def _quoted(text: str) -> str:

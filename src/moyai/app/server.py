@@ -206,7 +206,8 @@ async def _start(app: App, request: Request) -> Response:
     else:
         document = app.documents[_text(content, "case")]
         folder = app.jobs.folder_for(output, stem_of(document.name))
-        order = Order("run", document.name, folder, root, root / document.name, document.text)
+        file, saved = root / document.name, document.text == document.saved
+        order = Order("run", document.name, folder, root, file, document.text, saved)
     return _json(app.jobs.add(order).record(root))
 
 

@@ -132,7 +132,8 @@ def test_a_case_does_not_replace_another_file(page: Page) -> None:
 
 
 @pytest.mark.parametrize(
-    "body", [[], "text", {"text": 1}, {"edits": []}, {"edits": {"a": 1}}, {"sequence": "1}"}, {"text": "a", "edits": None}]
+    "body",
+    [[], "text", {"text": 1}, {"edits": []}, {"edits": {"a": 1}}, {"sequence": "1}"}, {"text": "a", "edits": None}],
 )
 def test_odd_requests_are_refused(page: Page, body: Any) -> None:
     key = page.post("/api/cases", {"template": "member"})["id"]
@@ -153,7 +154,7 @@ def test_a_full_run_with_its_files(page: Page) -> None:
         job = next(one for one in page.get("/api/jobs").json()["jobs"] if one["id"] == job["id"])
     assert job["state"] == "done", job
     assert job["files"] == ["report.html", "results.nc", "report.xlsx", "case.yaml"]
-    assert job["command"] == "moyai run pile.yaml --output out/pile"
+    assert job["command"] == "moyai run out/pile/case.yaml --output out/pile", "the text was not saved"
     report = page.get(f"/results/{job['id']}/report.html")
     assert report.headers["content-security-policy"] == REPORT_POLICY
     assert page.get(f"/results/{job['id']}/case.yaml?download").text == MEMBER

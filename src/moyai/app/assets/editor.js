@@ -6,7 +6,7 @@ export class Editor {
     this.area = element("textarea", { spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-label": "Case file (YAML)", "aria-describedby": "faults" });
     this.gutter = element("div", { class: "gutter", "aria-hidden": "true" });
     this.list = element("ul", { class: "notices faults", id: "faults", "aria-live": "polite" });
-    this.element = element("div", {}, element("div", { class: "editor" }, this.gutter, this.area), this.list);
+    this.element = element("div", { class: "text" }, element("div", { class: "editor" }, this.gutter, this.area), this.list);
     this.marks = new Map();
     this.area.addEventListener("input", () => { this.number(); changed(this.area.value); });
     this.area.addEventListener("scroll", () => { this.gutter.scrollTop = this.area.scrollTop; });

@@ -10,6 +10,7 @@ export class Live {
     const fresh = document.createElement("template");
     fresh.innerHTML = html;
     const kept = this.choices(), opened = this.opened(), figures = new Map(), made = [];
+    const looks = new Map(MOYAI.players.map((player) => [player.holder.dataset.scene, lookOf(player)]));
     MOYAI.data = data;
     for (const element of fresh.content.querySelectorAll("[data-figure]")) {
       const name = element.dataset.figure, old = MOYAI.figures.get(name);
@@ -30,11 +31,12 @@ export class Live {
     MOYAI.players = [];
     this.reopen(opened);
     for (const [group, label] of kept) this.choose(group, label);
-    this.paint(new Set(made));
+    this.paint();
     MOYAI.players = [...this.holder.querySelectorAll(".player")].map((holder) => new MOYAI.Player(holder));
+    for (const player of MOYAI.players) lookAgain(player, looks.get(player.holder.dataset.scene));
   }
   // Figures on the screen at once; the others one by one while nothing else is to be done.
-  paint(made) {
+  paint() {
     const at = (figure) => figure.plot.getBoundingClientRect();
     const shown = [...MOYAI.figures.entries()].filter(([, figure]) => MOYAI.isVisible(figure.plot));
     const near = ([, figure]) => { const box = at(figure); return box.bottom > 0 && box.top < innerHeight; };
@@ -50,7 +52,6 @@ export class Live {
       later(rest);
     };
     later(rest);
-    return made.size;
   }
   choices() {
     return [...this.holder.querySelectorAll(".choice")].map((choice) => {
@@ -70,6 +71,23 @@ export class Live {
       if (opened.has(words)) one.open = opened.get(words);
     }
   }
+}
+
+// A moving view that is drawn anew keeps its time, its direction and its zoom.
+const CAMERA = ["yaw", "pitch", "zoom", "pan", "shownView"];
+function lookOf(player) {
+  const { view, t, speed, whole, playing, painter } = player;
+  player.pause();
+  return { view, t, speed, whole, playing, camera: painter ? CAMERA.filter((name) => name in painter).map((name) => [name, painter[name]]) : [] };
+}
+function lookAgain(player, look) {
+  if (!look || !player.painter || !(look.view in player.scene.extents)) return;
+  const { view, speed, whole } = look;
+  Object.assign(player, { view, speed, whole });
+  Object.assign(player.painter, Object.fromEntries(look.camera));
+  player.speedSelect.value = speed;
+  player.seek(look.t);
+  if (look.playing) player.play();
 }
 
 const later = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 400 }) : setTimeout(act, 20));
