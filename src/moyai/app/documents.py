@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import secrets
 import time
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,6 @@ _PAUSE = 2.0
 """Seconds after which a further change of the same kind is a step of its own."""
 
 
-@dataclass
 class OpenCase:
     """A case that is open in the page.
 
@@ -31,17 +29,23 @@ class OpenCase:
         File relative to the chosen folder; where it would be saved if it was never.
     text, saved : str
         As it is now, and as the file has it; empty where there is no file.
+
+    Attributes
+    ----------
     pinned : str
         Text of the pinned case, empty where there is none.
+    earlier : list of str
+        What undo goes back to.
     """
 
-    key: str
-    name: str
-    text: str
-    saved: str = ""
-    pinned: str = ""
-    earlier: list[str] = field(default_factory=list)
-    changed: tuple[str, float] = ("", 0.0)
+    def __init__(self, key: str, name: str, text: str, saved: str = "") -> None:
+        self.key = key
+        self.name = name
+        self.text = text
+        self.saved = saved
+        self.pinned = ""
+        self.earlier: list[str] = []
+        self.changed: tuple[str, float] = ("", 0.0)
 
     def change(self, text: str, gesture: str) -> None:
         """Take another text; changes of one gesture are undone together.

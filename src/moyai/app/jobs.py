@@ -8,7 +8,6 @@ import multiprocessing
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
@@ -22,7 +21,6 @@ _ENDED = ("done", "failed", "cancelled", "lost")
 FILES = ("report.html", "results.nc", "report.xlsx", "case.yaml")
 
 
-@dataclass
 class Job:
     """A job and where it stands.
 
@@ -30,23 +28,22 @@ class Job:
     ----------
     key : str
     order : Order
+
+    Attributes
+    ----------
     state : str
         ``waiting``, ``running``, ``cancelling``, ``done``, ``failed``, ``cancelled`` or ``lost`` (its process was
         killed from outside).
     """
 
-    key: str
-    order: Order
-    state: str = "waiting"
-    words: str = ""
-    stage: str = ""
-    fraction: float = 0.0
-    left: str = ""
-    started: float = 0.0
-    ended: float = 0.0
-    process: Any = field(default=None, repr=False)
-    stop: Any = field(default=None, repr=False)
-    asked: float = 0.0
+    def __init__(self, key: str, order: Order) -> None:
+        self.key = key
+        self.order = order
+        self.state = "waiting"
+        self.words = self.stage = self.left = ""
+        self.fraction = self.started = self.ended = self.asked = 0.0
+        self.process: Any = None
+        self.stop: Any = None
 
     def record(self, root: Path) -> dict[str, Any]:
         """Return what the page shows of it."""
