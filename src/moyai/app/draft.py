@@ -76,11 +76,14 @@ class Drafts:
         ``run(case, progress, keep=folder)`` gives the result of a case.
     keep : Path
         Folder of coefficients.
+    rest : callable
+        Called before every stage but the first; raises KeyboardInterrupt where something newer is waiting.
     """
 
-    def __init__(self, run: Run, keep: Path) -> None:
+    def __init__(self, run: Run, keep: Path, rest: Callable[[], None] = lambda: None) -> None:
         self._run = run
         self._keep = keep
+        self._rest = rest
         self._pinned: dict[str, Other] = {}
 
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
@@ -101,6 +104,8 @@ class Drafts:
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
             for place, draft in enumerate(drafts, 1):
+                if place > 1:
+                    self._rest()
                 report = self._drawn(draft, document, wish, progress)
                 more = {"last": place == len(drafts), "seconds": round(time.perf_counter() - started, 4)}
                 yield {**report, **more}

@@ -18,6 +18,8 @@ from moyai.app.draft import VERSION, Drafts, Run, Wish
 
 LONGEST = 120.0
 """Seconds after which a draft is given up and its process ended."""
+REST = 0.35
+"""Seconds without a newer wish before the longer analyses of a draft begin."""
 _END = b""
 _STALE = b'{"version":1,"message":"stale"}\n'
 
@@ -139,8 +141,12 @@ def _serve(pipe: Any, run: Run, stop: Any) -> None:
         if stop.is_set():
             raise KeyboardInterrupt
 
+    def rest() -> None:
+        if stop.wait(REST):
+            raise KeyboardInterrupt
+
     with tempfile.TemporaryDirectory(prefix="moyai-app-") as keep, contextlib.suppress(EOFError, OSError):
-        drafts = Drafts(run, Path(keep))
+        drafts = Drafts(run, Path(keep), rest)
         while True:
             wish = pipe.recv()
             try:

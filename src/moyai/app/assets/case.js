@@ -5,7 +5,7 @@ import { Live } from "/assets/live.js";
 import { element, get, post, stream, tell } from "/assets/server.js";
 import { Sliders } from "/assets/sliders.js";
 
-const PATIENCE = 200; // ms after which a further request overtakes one on its way
+const PATIENCE = 500; // ms after which a further request overtakes one on its way that has drawn nothing, at least
 const TYPING = 350; // ms of rest before a typed text is sent
 
 export class CaseView {
@@ -71,9 +71,12 @@ export class CaseView {
   }
   async send(gesture) {
     this.gesture = gesture;
-    if (this.flying && performance.now() - this.flying < PATIENCE) {
+    // What is on its way is drawn first, so that a steady drag moves the figures all along
+    const left = this.flying ? Math.max(PATIENCE, 2.5 * (this.pace || 0)) - (performance.now() - this.flying) : 0;
+    if (left > 0) {
       this.again = true;
-      setTimeout(() => { if (this.again) this.send(this.gesture); }, PATIENCE);
+      clearTimeout(this.overtaking);
+      this.overtaking = setTimeout(() => { if (this.again) this.send(this.gesture); }, left);
       return;
     }
     this.again = false;
@@ -86,6 +89,7 @@ export class CaseView {
       tell(refused.message);
     }
     if (sequence !== this.sequence) return;
+    clearTimeout(this.overtaking);
     this.flying = 0;
     this.state.classList.remove("working");
     if (this.again) this.send(this.gesture);
@@ -114,6 +118,11 @@ export class CaseView {
     const seas = said.left_out ? ", without irregular seas" : "";
     this.say(`Draft of ${said.analyses.join(", ")}${seas}, in ${said.seconds.toFixed(2)} s.${said.last ? " Run computes the rest." : " More follows."}`);
     this.report.dataset.sequence = said.sequence;
+    if (said.sequence === this.sequence && this.flying) {
+      this.pace = performance.now() - this.flying;
+      this.flying = 0;
+      if (this.again) this.send(this.gesture);
+    }
     if (this.moved) { this.report.dataset.latency = Math.round(performance.now() - this.moved); this.moved = 0; }
   }
   listSections() {
