@@ -89,7 +89,7 @@ class Drafts:
     def answer(self, wish: Wish, progress: Progress) -> Iterator[dict[str, Any]]:
         """Yield the case as read and checked, then its draft where it has no errors."""
         started = time.perf_counter()
-        text, checked = wish.text, False
+        text, checked, document = wish.text, False, None
         try:
             if len(text) > _TEXT_LIMIT:
                 raise CaseError([Fault(f"the text is longer than {_TEXT_LIMIT // 1_000_000} million characters")])
@@ -112,7 +112,9 @@ class Drafts:
         except MoyaiError as error:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
             if not checked:
-                yield _checked(text, faults, ())
+                # The sliders stay, so that a number that went too far can be moved back
+                more = {} if document is None else {"sliders": _sliders_by_keys(document)}
+                yield _checked(text, faults, (), **more)
             else:
                 yield {"message": "not drawn", "faults": [asdict(fault) for fault in faults]}
 
@@ -212,6 +214,13 @@ def stages_of(document: Document, kind: str, analyses: tuple[str, ...] = ()) -> 
         regular = [sea for sea in data["waves"] if isinstance(sea, dict) and sea.get("kind") == "regular"]
         data = {**data, "waves": regular or data["waves"]}
     return [replace(document, data={**data, "analyses": names}) for names in chosen]
+
+
+def _sliders_by_keys(document: Document) -> list[dict[str, Any]]:
+    """Return the sliders of a case that has errors, by the kind that it names."""
+    structure = document.data.get("structure") if isinstance(document.data, dict) else None
+    kind = structure.get("kind") if isinstance(structure, dict) else None
+    return sliders_of(document, kind) if isinstance(kind, str) else []
 
 
 def _checked(text: str, faults: Any, warnings: Any, **more: Any) -> dict[str, Any]:

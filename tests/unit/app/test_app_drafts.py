@@ -50,6 +50,17 @@ def test_edits_keep_comments_and_units(tmp_path: Path) -> None:
     assert units["structure.section.diameter"] == (80.0, "cm")
 
 
+def test_a_number_that_went_too_far_can_be_moved_back(tmp_path: Path) -> None:
+    drafts = Drafts(run, tmp_path)
+    edits = {"structure.section.diameter": "-5"}
+    (checked,) = drafts.answer(wish(tmp_path, MEMBER, edits=edits), silent)
+    assert checked["faults"] and "-5 cm" in checked["text"]
+    assert any(one["value"] == -5.0 for one in checked["sliders"])
+    back = {"structure.section.diameter": "100"}
+    checked, _ = drafts.answer(wish(tmp_path, checked["text"], edits=back), silent)
+    assert checked["text"] == MEMBER
+
+
 def test_the_pinned_case_lies_under_the_live_one(tmp_path: Path) -> None:
     other = MEMBER.replace("100 cm", "80 cm")
     _, drawn = Drafts(run, tmp_path).answer(wish(tmp_path, MEMBER, pinned=other), silent)
