@@ -109,6 +109,7 @@ def serve(folder: Folder, first: str, run: Run, *, port: int, browser: bool, say
         log_level="critical",
         access_log=False,
         lifespan="on",
+        ws="none",
         server_header=False,
         timeout_graceful_shutdown=1,
         h11_max_incomplete_event_size=64_000,

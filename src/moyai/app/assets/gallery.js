@@ -22,6 +22,8 @@ function drawing(kind) {
   return made;
 }
 
+const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
 async function open(what) {
   const opened = await post("/api/cases", what);
   location.hash = `#/case/${opened.id}`;
@@ -49,7 +51,7 @@ export async function showGallery(content) {
     element("p", { class: "subtitle" }, found.folder),
     group("Open now", found.recent.map((one) => card("", one.file, "as you left it", () => { location.hash = `#/case/${one.id}`; }))),
     group("In this folder", found.files.map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), "no case files in this folder yet"),
-    group("Templates", found.templates.map((one) => card(one.kind, one.template.replace("_", " "), one.title, () => open({ template: one.template })))),
+    group("Templates", found.templates.map((one) => card(one.kind, capital(one.template.replace("_", " ")), one.title, () => open({ template: one.template })))),
     group("Papers, computed again as a job", found.papers.map((one) => card("", `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
   ];
   content.replaceChildren(...parts.filter(Boolean));
