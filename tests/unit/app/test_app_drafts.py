@@ -10,10 +10,12 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from app_runs import MEMBER, run_slowly
 
 from moyai.app.draft import Drafts, Wish, stages_of
+from moyai.app.sliders import sliders_of
 from moyai.app.worker import DraftWorker
 from moyai.case.reader import case_of
 from moyai.case.templates import template
@@ -131,3 +133,29 @@ def test_stale_drafts_are_given_up_and_a_killed_process_is_told(tmp_path: Path) 
             worker.close()
 
     asyncio.run(scenario())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "kind", "count"), [("quick", "member", 300), ("network", "network", 100)])
+def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
+    tmp_path: Path, name: str, kind: str, count: int
+) -> None:
+    rng = np.random.default_rng(7)
+    text = MEMBER if name == "quick" else template(name)
+    original, drafts, drawn_count = text, Drafts(run, tmp_path / "kept"), 0
+    sliders = sliders_of(parse_yaml(text), kind)
+    for _ in range(count):
+        one = sliders[rng.integers(len(sliders))]
+        number = f"{rng.uniform(one['low'], one['high']):.{one['decimals']}f}"
+        checked, *further = drafts.answer(wish(tmp_path, text, edits={one["path"]: number}), silent)
+        text = original if checked["faults"] else checked["text"]
+        if checked["faults"] or further[-1]["message"] != "drawn":
+            continue
+        drawn_count += 1
+        fresh = run(case_of(stages_of(parse_yaml(text), kind)[-1], tmp_path / "case.yaml"))
+        found = [(item["name"], repr(item["value"])) for item in further[-1]["headlines"]]
+        assert found == [(item.name, repr(item.value)) for item in fresh.headlines]
+    assert drawn_count > 0.7 * count
+    assert [line.partition("#")[2] for line in text.splitlines()] == [
+        line.partition("#")[2] for line in original.splitlines()
+    ]
