@@ -113,8 +113,8 @@ class Drafts:
             faults = error.faults if isinstance(error, CaseError) else (error.fault,)
             if not checked:
                 # The sliders stay, so that a number that went too far can be moved back
-                more = {} if document is None else {"sliders": _sliders_by_keys(document)}
-                yield _checked(text, faults, (), **more)
+                known = {} if document is None else {"sliders": _sliders_by_keys(document)}
+                yield _checked(text, faults, (), **known)
             else:
                 yield {"message": "not drawn", "faults": [asdict(fault) for fault in faults]}
 

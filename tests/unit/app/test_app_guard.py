@@ -15,7 +15,8 @@ from starlette.testclient import TestClient
 
 from moyai.app.security import LARGEST_BODY, BodyTooLarge, Guard, Secrets
 
-SECRETS = Secrets()
+# Fixed: parallel processes of the tests must name their parameters alike
+SECRETS = Secrets("secret-of-the-address", "secret-of-the-cookie", "secret-of-the-header")
 BASE = "http://127.0.0.1:8765"
 COOKIE = {"Cookie": f"moyai_8765={SECRETS.cookie}"}
 TOKEN = {**COOKIE, "X-Moyai-Token": SECRETS.header, "Content-Type": "application/json"}
