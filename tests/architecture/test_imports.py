@@ -23,12 +23,12 @@ LEVELS = {
     "study": 9,
     "validation": 10,
     "reproduce": 10,
-    "cli": 11,
+    "cli": 12,
     "app": 11,
 }
 PLOTTING = {"matplotlib", "plotly", "typst", "seaborn", "bokeh"}
 # The facade of the package (moyai/__init__.py) hands out the calls of every room
-FACADE = 12
+FACADE = 13
 
 
 def room(path):

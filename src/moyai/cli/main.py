@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from moyai.cli.app import app as app_command
 from moyai.cli.compare import compare
 from moyai.cli.compiling import compile_command
 from moyai.cli.console import (
@@ -64,6 +65,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="How moored floating and flexible coastal structures answer waves and currents.",
 )
+app.command("app")(app_command)
 app.command()(study)
 app.command()(query)
 app.command()(fit)

@@ -18,7 +18,7 @@ from moyai.core.errors import InputError
 
 STAGED = ".run.partial"
 _LEFT_BEHIND = re.compile(r".+\.[a-z0-9_]{8}\.partial")
-_OUTPUTS = ("report.html", "report.pdf", "report_tables", "results.nc")
+_OUTPUTS = ("report.html", "report.pdf", "report.xlsx", "report_tables", "results.nc")
 """What a run writes, in the order in which an earlier one's is removed; it is put in place the other way round."""
 
 

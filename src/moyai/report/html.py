@@ -41,12 +41,32 @@ LEAST_LETTER = 9.0
 _ONE_LINE = 24  # letters of a cell that is not broken
 _HYPHENATED = re.compile(r"(?<![\w-])(?=[\w.-]{3,40}(?![\w.-]))\w[\w.]*(?:-[\w.]+)+")
 """Height of the smallest letters of a drawing on a narrow screen [CSS px]; the drawing moves sideways there."""
-_SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
+SCRIPTS = ("report.js", "figures.js", "curtain.js", "scene_3d.js", "scene_3d_paint.js", "player.js")
 
 
 def asset(name: str) -> str:
     """Return the text of a file that ships with the report."""
     return (resources.files("moyai.report") / "assets" / name).read_text(encoding="utf-8")
+
+
+def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
+    """Return the inner part of the page and its data, for a page that has styles and scripts of the report already.
+
+    Parameters
+    ----------
+    document : Document
+
+    Returns
+    -------
+    str
+        Badges and sections as HTML.
+    dict
+        What ``MOYAI.data`` of the report's scripts holds: figures, scenes, tables.
+    """
+    page = _Page()
+    sections = "\n".join(page.section(section) for section in document.sections)
+    data = {"figures": page.figures, "scenes": page.scenes, "tables": page.tables}
+    return f"{_badges(document)}\n{sections}", data
 
 
 @cache
@@ -76,7 +96,7 @@ def render_html(document: Document) -> str:
         f'<li><a href="#{escape(slug(section.key))}">{escape(section.title)}</a></li>' for section in document.sections
     )
     plotly = f'<script type="text/plain" id="packed-plotly">{packed_plotly()}</script>' if page.figures else ""
-    scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in _SCRIPTS)
+    scripts = "\n".join(f"<script>\n{asset(name)}</script>" for name in SCRIPTS)
     data = page_json({"figures": page.figures, "scenes": page.scenes, "tables": page.tables})
     return f"""<!DOCTYPE html>
 <html lang="en">

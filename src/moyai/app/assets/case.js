@@ -1,0 +1,164 @@
+// An open case: sliders, text and the live report are three views of one document. Newer answers replace older ones, never the reverse.
+import { Editor } from "/assets/editor.js";
+import { watchJobs } from "/assets/jobs.js";
+import { Live } from "/assets/live.js";
+import { element, get, post, stream, tell } from "/assets/server.js";
+import { Sliders } from "/assets/sliders.js";
+
+const PATIENCE = 500; // ms after which a further request overtakes one on its way that has drawn nothing, at least
+const TYPING = 350; // ms of rest before a typed text is sent
+
+export class CaseView {
+  constructor(content, key) {
+    this.address = `/api/cases/${key}`;
+    this.content = content;
+    this.sequence = this.checked = this.drawn = this.flying = 0;
+    this.edits = new Map();
+    this.typed = 0;
+    this.editor = new Editor((text) => this.textChanged(text));
+    this.sliders = new Sliders((path, number) => this.sliderMoved(path, number));
+  }
+  async open() {
+    const record = await get(this.address);
+    const button = (words, act, title) => element("button", { type: "button", onclick: act, title }, words);
+    this.title = element("h1", {}, record.name);
+    this.undoButton = button("Undo", () => this.undo(), "Back to the text before the last change (Alt+Z)");
+    this.pinButton = button("Pin", () => this.pin(), "Keep this state, faint under the next ones");
+    this.saveButton = button("Save", () => this.save(), "Write the text to its file");
+    this.state = element("p", { class: "quiet state", role: "status" }, "drawing …");
+    this.report = element("div", { class: "report" });
+    this.jump = element("select", { "aria-label": "Go to a section", onchange: () => { document.getElementById(this.jump.value)?.scrollIntoView({ behavior: "instant" }); } });
+    this.content.replaceChildren(
+      element("div", { class: "controls" }, this.title,
+        element("div", { class: "toolbar" }, button("Run", () => this.run(), "Full run as a job, with the report"), this.undoButton, this.pinButton,
+          this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, "Take the case")),
+        this.sliders.element, this.editor.element),
+      element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.jump), this.report));
+    this.report.addEventListener("click", (event) => {
+      const link = event.target.closest("a[href^='#']");
+      if (link) { event.preventDefault(); document.getElementById(link.hash.slice(1))?.scrollIntoView(); }
+    });
+    this.live = new Live(this.report);
+    this.keys = (event) => { if (event.altKey && event.key.toLowerCase() === "z") { event.preventDefault(); this.undo(); } };
+    document.addEventListener("keydown", this.keys);
+    this.take(record);
+    this.send("opened");
+  }
+  close() {
+    this.closed = true;
+    document.removeEventListener("keydown", this.keys);
+    clearTimeout(this.timer);
+  }
+  take(record) {
+    this.name = record.name;
+    this.title.textContent = record.name;
+    document.title = `${record.name} · moyai`;
+    this.editor.text = record.text;
+    this.undoButton.disabled = !record.can_undo;
+    this.pinButton.textContent = record.pinned ? "Unpin" : "Pin";
+    this.saveButton.disabled = !record.unsaved;
+  }
+  textChanged() {
+    this.typed++;
+    this.edits.clear();
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.send("typing"), TYPING);
+  }
+  sliderMoved(path, number) {
+    this.moved = performance.now();
+    this.edits.set(path, number);
+    this.send(`slider ${path}`);
+  }
+  async send(gesture) {
+    this.gesture = gesture;
+    // What is on its way is drawn first, so that a steady drag moves the figures all along
+    const left = this.flying ? Math.max(PATIENCE, 2.5 * (this.pace || 0)) - (performance.now() - this.flying) : 0;
+    if (left > 0) {
+      this.again = true;
+      clearTimeout(this.overtaking);
+      this.overtaking = setTimeout(() => { if (this.again) this.send(this.gesture); }, left);
+      return;
+    }
+    this.again = false;
+    const sequence = ++this.sequence, edits = Object.fromEntries(this.edits), typed = this.typed;
+    this.flying = performance.now();
+    this.state.classList.add("working");
+    try {
+      await stream(`${this.address}/draft`, { sequence, text: this.editor.text, edits, gesture }, (said) => this.hear(said, edits, typed));
+    } catch (refused) {
+      tell(refused.message);
+    }
+    if (sequence !== this.sequence) return;
+    clearTimeout(this.overtaking);
+    this.flying = 0;
+    this.state.classList.remove("working");
+    if (this.again) this.send(this.gesture);
+  }
+  hear(said, edits, typed) {
+    if (this.closed) return;
+    if (said.message === "checked" && said.sequence >= this.checked) this.hearChecked(said, edits, typed);
+    else if (said.message === "drawn" && said.sequence >= this.drawn && said.sequence >= this.checked) this.hearDrawn(said);
+    else if (said.message === "not drawn") { this.editor.show(said.faults, []); this.say("not drawn; what is shown is older than the text", true); }
+    else if (said.message === "lost") this.say(said.text, true);
+  }
+  hearChecked(said, edits, typed) {
+    this.checked = said.sequence;
+    for (const [path, number] of Object.entries(edits)) if (this.edits.get(path) === number) this.edits.delete(path);
+    if (typed === this.typed) this.editor.text = said.text;
+    this.editor.show(said.faults, said.warnings);
+    if (said.sliders) this.sliders.show(said.sliders);
+    if (!said.faults.length) { this.say("drawing …"); this.undoButton.disabled = false; this.saveButton.disabled = false; }
+    else this.say(`${said.faults.length} error${said.faults.length === 1 ? "" : "s"} in the case; what is shown is older than the text`, true);
+  }
+  hearDrawn(said) {
+    this.drawn = said.sequence;
+    this.headlines = said.headlines;
+    this.live.draw(said.html, said.data);
+    this.listSections();
+    const seas = said.left_out ? ", without irregular seas" : "";
+    this.say(`Draft of ${said.analyses.join(", ")}${seas}, in ${said.seconds.toFixed(2)} s.${said.last ? " Run computes the rest." : " More follows."}`);
+    this.report.dataset.sequence = said.sequence;
+    if (said.sequence === this.sequence && this.flying) {
+      this.pace = performance.now() - this.flying;
+      this.flying = 0;
+      if (this.again) this.send(this.gesture);
+    }
+    if (this.moved) { this.report.dataset.latency = Math.round(performance.now() - this.moved); this.moved = 0; }
+  }
+  listSections() {
+    const sections = [...this.report.querySelectorAll("section[id]")].map((one) => [one.id, one.querySelector("h2").textContent]);
+    const state = JSON.stringify(sections);
+    if (state === this.sections) return;
+    this.sections = state;
+    this.jump.replaceChildren(...sections.map(([id, words]) => element("option", { value: id }, words)));
+  }
+  say(words, old = false) {
+    this.state.textContent = words;
+    this.report.classList.toggle("old", old);
+  }
+  async undo() {
+    this.edits.clear();
+    this.typed++;
+    this.take(await post(`${this.address}/undo`));
+    this.send("undo");
+  }
+  async pin() {
+    this.take(await post(`${this.address}/pin`));
+    this.send("pin");
+  }
+  async save() {
+    try {
+      this.take(await post(`${this.address}/save`));
+      tell(`${this.name} is saved`);
+    } catch (refused) {
+      const name = prompt(`${refused.message}\nSave under another name:`, this.name);
+      if (name) { this.take(await post(`${this.address}/save`, { name })); tell(`${this.name} is saved`); }
+    }
+  }
+  async run() {
+    const key = this.address.split("/").pop();
+    await post("/api/jobs", { case: key });
+    await watchJobs();
+    location.hash = "#/jobs";
+  }
+}

@@ -1,0 +1,58 @@
+// Cards: open cases, case files of the folder, a template of each kind, the five papers.
+import { element, get, post } from "/assets/server.js";
+
+const SHAPES = {
+  breakwater: "M10 30h26v-14h-26zM10 30Q4 46 -8 52M36 30Q42 46 54 52",
+  curtain: "M22 12v2a4 4 0 0 1 0 8v0q10 14 2 28M22 22q-2 14 2 28",
+  cage: "M6 16h34M8 16l3 24h24l3-24M11 40l12 8l12-8",
+  network: "M36 12a5 5 0 1 1-.1 0M34 21Q30 46 4 52",
+  member: "M4 28h38M4 36h38M4 28a2 4 0 0 0 0 8M42 28a2 4 0 0 1 0 8",
+};
+
+function drawing(kind) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  made.setAttribute("viewBox", "-12 0 70 56");
+  made.setAttribute("aria-hidden", "true");
+  for (const [d, name] of [["M-12 16h70", "surface"], ["M-12 53h70", "bed-line"], [SHAPES[kind] || "", "mooring"]]) {
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    path.setAttribute("d", d);
+    path.setAttribute("class", name);
+    made.append(path);
+  }
+  return made;
+}
+
+const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
+async function open(what) {
+  const opened = await post("/api/cases", what);
+  location.hash = `#/case/${opened.id}`;
+}
+
+async function startPaper(paper) {
+  await post("/api/jobs", { paper });
+  location.hash = "#/jobs";
+}
+
+function card(kind, title, detail, act) {
+  return element("li", {}, element("button", { class: "card", type: "button", onclick: act }, kind ? drawing(kind) : null,
+    element("span", { class: "card-title" }, title), element("span", { class: "card-detail" }, detail)));
+}
+
+function group(title, cards, empty = "") {
+  if (!cards.length && !empty) return null;
+  return element("section", {}, element("h2", {}, title), cards.length ? element("ul", { class: "cards" }, ...cards) : element("p", { class: "quiet" }, empty));
+}
+
+export async function showGallery(content) {
+  const found = await get("/api/gallery");
+  const parts = [
+    element("h1", {}, "Cases"),
+    element("p", { class: "subtitle" }, found.folder),
+    group("Open now", found.recent.map((one) => card("", one.file, "as you left it", () => { location.hash = `#/case/${one.id}`; }))),
+    group("In this folder", found.files.map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), "no case files in this folder yet"),
+    group("Templates", found.templates.map((one) => card(one.kind, capital(one.template.replace("_", " ")), one.title, () => open({ template: one.template })))),
+    group("Papers, computed again as a job", found.papers.map((one) => card("", `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
+  ];
+  content.replaceChildren(...parts.filter(Boolean));
+}

@@ -1,0 +1,171 @@
+"""Open cases: their text, what came before it, what is pinned. All of it lives here, so that a reload loses nothing."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from pathlib import Path
+from typing import Any
+
+from moyai.app.draft import Wish
+from moyai.app.folder import CASE_ENDINGS, Folder
+from moyai.case.templates import template
+from moyai.core.errors import InputError
+from moyai.core.files import write_whole
+
+_STEPS = 200
+_PAUSE = 2.0
+"""Seconds after which a further change of the same kind is a step of its own."""
+
+
+class OpenCase:
+    """A case that is open in the page.
+
+    Parameters
+    ----------
+    key : str
+        Part of its address.
+    name : str
+        File relative to the chosen folder; where it would be saved if it was never.
+    text, saved : str
+        As it is now, and as the file has it; empty where there is no file.
+
+    Attributes
+    ----------
+    pinned : str
+        Text of the pinned case, empty where there is none.
+    earlier : list of str
+        What undo goes back to.
+    """
+
+    def __init__(self, key: str, name: str, text: str, saved: str = "") -> None:
+        self.key = key
+        self.name = name
+        self.text = text
+        self.saved = saved
+        self.pinned = ""
+        self.earlier: list[str] = []
+        self.changed: tuple[str, float] = ("", 0.0)
+
+    def change(self, text: str, gesture: str) -> None:
+        """Take another text; changes of one gesture are undone together.
+
+        Parameters
+        ----------
+        text : str
+        gesture : str
+            What changes it: a slider, typing.
+        """
+        if text == self.text:
+            return
+        before, when = self.changed
+        now = time.monotonic()
+        if before != gesture or now - when > _PAUSE or not self.earlier:
+            self.earlier = [*self.earlier[-_STEPS:], self.text]
+        self.changed = (gesture, now)
+        self.text = text
+
+    def undo(self) -> None:
+        """Go back one step, if there is one."""
+        if self.earlier:
+            self.text = self.earlier.pop()
+        self.changed = ("", 0.0)
+
+    def wish(self, folder: Folder, text: str, edits: dict[str, str]) -> Wish:
+        """Return what the worker is asked for."""
+        return Wish(text, folder.root / self.name, folder.root, edits, self.pinned)
+
+    def record(self) -> dict[str, Any]:
+        """Return what the page needs to show it."""
+        return {
+            "id": self.key,
+            "name": self.name,
+            "text": self.text,
+            "unsaved": self.text != self.saved,
+            "pinned": bool(self.pinned),
+            "can_undo": bool(self.earlier),
+        }
+
+
+class Documents:
+    """All open cases.
+
+    Parameters
+    ----------
+    folder : Folder
+    """
+
+    def __init__(self, folder: Folder) -> None:
+        self._folder = folder
+        self._open: dict[str, OpenCase] = {}
+
+    def __getitem__(self, key: str) -> OpenCase:
+        return self._open[key]
+
+    def recent(self) -> list[dict[str, Any]]:
+        """Return the open cases, the last opened first."""
+        return [{"id": one.key, "file": one.name} for one in reversed(self._open.values())]
+
+    def open_template(self, name: str) -> OpenCase:
+        """Open the template of a kind under a name that no file has."""
+        text = template(name)
+        taken = {one.name for one in self._open.values()}
+        file, count = f"{name}.yaml", 2
+        while file in taken or (self._folder.root / file).exists():
+            file, count = f"{name}_{count}.yaml", count + 1
+        return self._added(OpenCase(_key(), file, text))
+
+    def open_file(self, name: str) -> OpenCase:
+        """Open a case file of the folder; one that is open already as it is now.
+
+        Raises
+        ------
+        InputError
+            When it is outside the folder or no case file.
+        CaseError
+            When it is no text.
+        """
+        from moyai.case.yaml_reader import decode
+
+        path = self._folder.inside(name)
+        name = path.relative_to(self._folder.root).as_posix()
+        known = next((one for one in self._open.values() if one.name == name), None)
+        if known is not None:
+            return self._added(self._open.pop(known.key))
+        if path.suffix not in CASE_ENDINGS or not path.is_file() or path.stat().st_size > 2_000_000:
+            raise InputError(f"{name!r} is no case file", path="file", allowed="files .yaml and .yml up to 2 MB")
+        text = decode(path.read_bytes(), name)
+        return self._added(OpenCase(_key(), name, text, saved=text))
+
+    def save(self, document: OpenCase, name: str = "") -> None:
+        """Write a case to its file, or to another of the folder that does not exist yet.
+
+        Raises
+        ------
+        InputError
+            When the name is outside the folder, no case file, or another's.
+        """
+        path = self._folder.inside(name or document.name)
+        file = path.relative_to(self._folder.root).as_posix()
+        if path.suffix not in CASE_ENDINGS:
+            raise InputError(f"{file!r} is no name of a case file", path="file", remedy="let it end with .yaml")
+        if path.exists() and not (document.saved and file == document.name):
+            raise InputError(f"{file!r} exists", path="file", remedy="choose another name")
+        if path.exists() and path.read_text(encoding="utf-8", errors="replace") not in (document.saved, document.text):
+            raise InputError(f"{file!r} was changed by another program", path="file", remedy="choose another name")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, document.text.encode("utf-8"))
+        document.name, document.saved = file, document.text
+
+    def _added(self, document: OpenCase) -> OpenCase:
+        self._open[document.key] = document
+        return document
+
+
+def _key() -> str:
+    return secrets.token_hex(6)
+
+
+def stem_of(name: str) -> str:
+    """Return the name of a file without folders and ending."""
+    return Path(name).stem or "case"

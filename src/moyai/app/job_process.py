@@ -1,0 +1,120 @@
+"""What the process of a job does: a full run, or a paper computed again, into a folder of its own."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from moyai.app.draft import Run
+from moyai.core.errors import CaseError, MoyaiError
+from moyai.core.progress import Pace, duration_words
+
+_EVERY = 0.2
+
+
+@dataclass(frozen=True)
+class Order:
+    """What a job is to do.
+
+    Parameters
+    ----------
+    kind : str
+        ``run`` or ``paper``.
+    name : str
+        Name of the case file, or key of the paper.
+    folder : Path
+        Of the results.
+    root : Path
+        The chosen folder.
+    file : Path
+        Where the case stands, from which it names other files.
+    text : str
+        The case; empty for a paper.
+    saved : bool
+        Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
+    """
+
+    kind: str
+    name: str
+    folder: Path
+    root: Path
+    file: Path
+    text: str = ""
+    saved: bool = True
+
+
+def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
+    """Do an order and report over the pipe: ``("progress", ...)``, then ``("done", ...)`` or ``("failed", text)``."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process
+    pace, told = Pace(), [0.0]
+
+    def listen(what: str, done: float, total: float) -> None:
+        pace.tell(what, done, total)
+        if stop.is_set():
+            raise KeyboardInterrupt
+        now = time.monotonic()
+        if now - told[0] >= _EVERY:
+            told[0] = now
+            left = pace.left(what)
+            pipe.send(
+                (
+                    "progress",
+                    what,
+                    done / total if total > 0.0 else 0.0,
+                    duration_words(left) if math.isfinite(left) else "",
+                )
+            )
+
+    try:
+        order.folder.mkdir(parents=True, exist_ok=True)
+        done = _run(order, run, listen) if order.kind == "run" else _paper(order, listen)
+        pipe.send(("done", *done))
+    except KeyboardInterrupt:
+        pipe.send(("failed", "cancelled before there was a result"))
+    except CaseError as error:
+        pipe.send(("failed", "\n".join(map(str, error.faults))))
+    except MoyaiError as error:
+        pipe.send(("failed", str(error)))
+    except Exception as error:
+        pipe.send(("failed", f"internal error, {type(error).__name__}: {error}"))
+
+
+def _run(order: Order, run: Run, listen: Any) -> tuple[str, str, str]:
+    from moyai.app.folder import refuse_foreign_files
+    from moyai.case.reader import case_of
+    from moyai.case.yaml_reader import parse_yaml
+    from moyai.core.compile_ahead import compiling_ahead
+    from moyai.core.files import write_whole
+    from moyai.core.run_folder import alone_in, put_in_place, staged_outputs
+    from moyai.report.writer import compose_document, write_report
+
+    document = parse_yaml(order.text, order.file.name)
+    refuse_foreign_files(order.root, order.file.parent, document.data)
+    case = case_of(document, order.file)
+    with compiling_ahead(case.kind), alone_in(order.folder), staged_outputs(order.folder) as staged:
+        write_whole(order.folder / "case.yaml", order.text.encode("utf-8"))
+        result = run(case, listen, keep=order.folder / "coefficients")
+        files = [result.write(staged / "results.nc")]
+        files += write_report(result, staged, document=compose_document(result))
+        files = put_in_place(staged, order.folder, files)
+    return result.status, result.message, result.verdict.message
+
+
+def _paper(order: Order, listen: Any) -> tuple[str, str, str]:
+    from moyai.core.run_folder import alone_in
+    from moyai.reproduce import as_result, reproduce
+    from moyai.reproduce.page import write
+
+    with alone_in(order.folder):
+        found = reproduce(order.name, quick=True, progress=listen)
+        result = as_result(found)
+        write(found, result, order.folder)
+    return result.status, result.message, ""

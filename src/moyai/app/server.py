@@ -1,0 +1,275 @@
+"""The addresses of the app. Answers are JSON with a version; drafts are lines of JSON, one a message."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+from dataclasses import asdict
+from functools import cache, wraps
+from importlib import resources
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import FileResponse, Response, StreamingResponse
+from starlette.routing import Route
+
+from moyai.app.documents import Documents, OpenCase, stem_of
+from moyai.app.draft import Run
+from moyai.app.folder import Folder, within
+from moyai.app.gallery import gallery
+from moyai.app.job_process import Order
+from moyai.app.jobs import FILES, Jobs
+from moyai.app.security import REPORT_POLICY, BodyTooLarge, Guard, Secrets
+from moyai.app.worker import DraftWorker, message
+from moyai.core.errors import CaseError, MoyaiError
+
+_OWN = ("app.css", "page.js", "case.js", "gallery.js", "editor.js", "sliders.js", "live.js", "jobs.js", "server.js")
+_TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}
+_DOWNLOADS = {"results.nc": "application/x-netcdf", "case.yaml": "text/yaml; charset=utf-8"}
+
+Endpoint = Callable[["App", Request], Awaitable[Response]]
+
+
+class App:
+    """State of one start: the folder, open cases, jobs, the process of the drafts.
+
+    Parameters
+    ----------
+    folder : Folder
+    run : callable
+        Runs a case; a function of a module.
+    secrets_ : Secrets
+    first : str
+        Case file that the page opens at once, relative to the folder; empty for the gallery.
+    """
+
+    def __init__(self, folder: Folder, run: Run, secrets_: Secrets, first: str = "") -> None:
+        self.folder = folder
+        self.secrets = secrets_
+        self.first = first
+        self.documents = Documents(folder)
+        self.jobs = Jobs(run)
+        self.worker = DraftWorker(run)
+
+
+def _json(content: dict[str, Any], status: int = 200) -> Response:
+    return Response(message("answer", **content), status, media_type="application/json")
+
+
+def _endpoint(function: Endpoint) -> Any:
+    """Turn what a user can mend into an answer with its errors, and what is not there into 404."""
+
+    @wraps(function)
+    async def answered(request: Request) -> Response:
+        try:
+            return await function(request.app.state.app, request)
+        except BodyTooLarge:
+            return _json({"faults": [{"message": "the request is too large"}]}, 413)
+        except CaseError as error:
+            return _json({"faults": [asdict(fault) for fault in error.faults]}, 422)
+        except MoyaiError as error:
+            return _json({"faults": [asdict(error.fault)]}, 422)
+        except KeyError:
+            return _json({"faults": [{"message": "there is no such case, job or file"}]}, 404)
+        except (ValueError, OSError, RecursionError) as error:
+            return _json({"faults": [{"message": f"the request cannot be answered: {error}"}]}, 400)
+
+    return answered
+
+
+async def _body(request: Request) -> dict[str, Any]:
+    content = json.loads(await request.body() or b"{}")
+    if not isinstance(content, dict):
+        raise ValueError("an object is expected")
+    return content
+
+
+def _text(content: dict[str, Any], key: str) -> str:
+    value = content.get(key, "")
+    if not isinstance(value, str):
+        raise ValueError(f"{key!r} is text")
+    return value
+
+
+@cache
+def _asset(name: str) -> str:
+    from moyai.report.html import SCRIPTS, asset
+
+    if name == "plotly.js":
+        from plotly.offline import get_plotlyjs
+
+        return str(get_plotlyjs())
+    if name == "report.css" or name in SCRIPTS:
+        return asset(name)
+    if name not in (*_OWN, "index.html"):
+        raise KeyError(name)
+    return (resources.files("moyai.app") / "assets" / name).read_text(encoding="utf-8")
+
+
+async def _page(app: App, request: Request) -> Response:
+    """The page, with the token of its requests."""
+    text = _asset("index.html").replace("{{token}}", app.secrets.header).replace("{{first}}", "1" if app.first else "")
+    return Response(text, media_type="text/html")
+
+
+async def _static(app: App, request: Request) -> Response:
+    name = request.path_params["name"]
+    return Response(_asset(name), media_type=_TYPES[name.rpartition(".")[2]])
+
+
+async def _gallery(app: App, request: Request) -> Response:
+    return _json(gallery(app.folder, app.documents))
+
+
+async def _open(app: App, request: Request) -> Response:
+    """Open a template, a file of the folder, or the one of the command line."""
+    content = await _body(request)
+    if template := _text(content, "template"):
+        return _json(app.documents.open_template(template).record())
+    return _json(app.documents.open_file(_text(content, "file") or app.first).record())
+
+
+def _case(app: App, request: Request) -> OpenCase:
+    return app.documents[request.path_params["key"]]
+
+
+async def _show(app: App, request: Request) -> Response:
+    return _json(_case(app, request).record())
+
+
+async def _draft(app: App, request: Request) -> Response:
+    """Take a text with changed numbers; answer with the check, then with the draft."""
+    document, content = _case(app, request), await _body(request)
+    text, gesture, sequence = _text(content, "text"), _text(content, "gesture"), content.get("sequence", 0)
+    edits = content.get("edits", {})
+    if not isinstance(edits, dict) or not all(isinstance(item, str) for pair in edits.items() for item in pair):
+        raise ValueError("'edits' are numbers by path, both as text")
+    if not isinstance(sequence, int):
+        raise ValueError("'sequence' is a whole number")
+    if not edits:
+        document.change(text, gesture)
+    wish = document.wish(app.folder, text, edits)
+    head = f'{{"sequence":{sequence},'.encode()
+
+    async def lines() -> AsyncIterator[bytes]:
+        async for line in app.worker.ask(document.key, wish):
+            if edits and b'"message":"checked"' in line[:60]:
+                checked = json.loads(line)
+                if not checked["faults"] or checked["text"] != text:
+                    document.change(checked["text"], gesture)
+            yield head + line[1:]
+
+    return StreamingResponse(lines(), media_type="application/x-ndjson")
+
+
+async def _undo(app: App, request: Request) -> Response:
+    document = _case(app, request)
+    document.undo()
+    return _json(document.record())
+
+
+async def _pin(app: App, request: Request) -> Response:
+    document = _case(app, request)
+    document.pinned = "" if document.pinned else document.text
+    return _json(document.record())
+
+
+async def _save(app: App, request: Request) -> Response:
+    document, content = _case(app, request), await _body(request)
+    app.documents.save(document, _text(content, "name"))
+    return _json(document.record())
+
+
+async def _take_case(app: App, request: Request) -> Response:
+    document = _case(app, request)
+    name = f"{stem_of(document.name)}.yaml".replace('"', "")
+    safe = name if name.isascii() and name.isprintable() else "case.yaml"
+    headers = {"content-disposition": f'attachment; filename="{safe}"'}
+    return Response(document.text, media_type="text/yaml", headers=headers)
+
+
+async def _jobs(app: App, request: Request) -> Response:
+    return _json({"jobs": app.jobs.records(app.folder.root)})
+
+
+async def _start(app: App, request: Request) -> Response:
+    """Start a full run of an open case, or of a paper."""
+    content = await _body(request)
+    root, output = app.folder.root, app.folder.output
+    if paper := _text(content, "paper"):
+        from moyai.reproduce import paper as known
+
+        key = known(paper).key
+        order = Order("paper", key, app.jobs.folder_for(output, key), root, root / key)
+    else:
+        document = app.documents[_text(content, "case")]
+        folder = app.jobs.folder_for(output, stem_of(document.name))
+        file, saved = root / document.name, document.text == document.saved
+        order = Order("run", document.name, folder, root, file, document.text, saved)
+    return _json(app.jobs.add(order).record(root))
+
+
+async def _cancel(app: App, request: Request) -> Response:
+    return _json(app.jobs.cancel(request.path_params["key"]).record(app.folder.root))
+
+
+async def _again(app: App, request: Request) -> Response:
+    return _json(app.jobs.again(request.path_params["key"]).record(app.folder.root))
+
+
+async def _result(app: App, request: Request) -> Response:
+    """Hand out a file of a job: the report for a frame, the others for download."""
+    job, name = app.jobs[request.path_params["key"]], request.path_params["name"]
+    if name not in FILES:
+        raise KeyError(name)
+    path = within(job.order.folder.resolve(), job.order.folder / name, name)
+    if not path.is_file():
+        raise KeyError(name)
+    if name == "report.html" and "download" not in request.query_params:
+        return FileResponse(path, media_type="text/html", headers={"content-security-policy": REPORT_POLICY})
+    return FileResponse(path, media_type=_DOWNLOADS.get(name), filename=f"{job.order.folder.name}_{name}")
+
+
+def create(app: App, port: int) -> Guard:
+    """Return the ASGI application, guarded.
+
+    Parameters
+    ----------
+    app : App
+    port : int
+        On 127.0.0.1.
+    """
+    get, post = ["GET"], ["POST"]
+    table: list[tuple[str, Endpoint, list[str]]] = [
+        ("/", _page, get),
+        ("/assets/{name}", _static, get),
+        ("/api/gallery", _gallery, get),
+        ("/api/cases", _open, post),
+        ("/api/cases/{key}", _show, get),
+        ("/api/cases/{key}/draft", _draft, post),
+        ("/api/cases/{key}/undo", _undo, post),
+        ("/api/cases/{key}/pin", _pin, post),
+        ("/api/cases/{key}/save", _save, post),
+        ("/api/cases/{key}/case.yaml", _take_case, get),
+        ("/api/jobs", _jobs, get),
+        ("/api/jobs", _start, post),
+        ("/api/jobs/{key}/cancel", _cancel, post),
+        ("/api/jobs/{key}/again", _again, post),
+        ("/results/{key}/{name}", _result, get),
+    ]
+
+    @asynccontextmanager
+    async def life(_: Starlette) -> AsyncIterator[None]:
+        app.worker.start()
+        try:
+            yield
+        finally:
+            app.worker.close()
+            app.jobs.close()
+
+    routes = [Route(path, _endpoint(function), methods=methods) for path, function, methods in table]
+    inner = Starlette(routes=routes, lifespan=life)
+    inner.state.app = app
+    return Guard(inner, app.secrets, port)

@@ -1,0 +1,161 @@
+"""Drafts: numbers of a fresh run, stale ones dropped, a killed process told, hostile texts refused."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from app_runs import MEMBER, run_slowly
+
+from moyai.app.draft import Drafts, Wish, stages_of
+from moyai.app.sliders import sliders_of
+from moyai.app.worker import DraftWorker
+from moyai.case.reader import case_of
+from moyai.case.templates import template
+from moyai.case.yaml_reader import parse_yaml
+from moyai.cli.runner import run
+from moyai.core.progress import silent
+
+
+def wish(folder: Path, text: str, **more: Any) -> Wish:
+    return Wish(text, folder / "case.yaml", folder, **more)
+
+
+@pytest.mark.parametrize(("name", "kind"), [("network", "network"), ("rigid_cage", "cage"), ("quick", "member")])
+def test_numbers_are_those_of_a_fresh_run(tmp_path: Path, name: str, kind: str) -> None:
+    text = MEMBER if name == "quick" else template(name)
+    drafts = Drafts(run, tmp_path / "kept")
+    numbers = ("2.5", "2.75") if name == "rigid_cage" else ("1.5", "1.25")
+    for number in numbers:
+        checked, drawn = drafts.answer(wish(tmp_path, text, edits={"waves[0].height": number}), silent)
+        text = checked["text"]
+        assert checked["faults"] == [] and drawn["message"] == "drawn" and drawn["last"]
+        draft = stages_of(parse_yaml(text), kind)[-1]
+        fresh = run(case_of(draft, tmp_path / "case.yaml"))
+        found = [(item["name"], repr(item["value"])) for item in drawn["headlines"]]
+        assert found == [(item.name, repr(item.value)) for item in fresh.headlines]
+        assert found
+
+
+def test_edits_keep_comments_and_units(tmp_path: Path) -> None:
+    edits = {"structure.section.diameter": "80", "waves[0].height": "1.2"}
+    checked, _ = Drafts(run, tmp_path).answer(wish(tmp_path, MEMBER, edits=edits), silent)
+    assert checked["text"] == MEMBER.replace("100 cm", "80 cm").replace("height: 1 m", "height: 1.2 m")
+    units = {one["path"]: (one["value"], one["unit"]) for one in checked["sliders"]}
+    assert units["structure.section.diameter"] == (80.0, "cm")
+
+
+def test_a_number_that_went_too_far_can_be_moved_back(tmp_path: Path) -> None:
+    drafts = Drafts(run, tmp_path)
+    edits = {"structure.section.diameter": "-5"}
+    (checked,) = drafts.answer(wish(tmp_path, MEMBER, edits=edits), silent)
+    assert checked["faults"] and "-5 cm" in checked["text"]
+    assert any(one["value"] == -5.0 for one in checked["sliders"])
+    back = {"structure.section.diameter": "100"}
+    checked, _ = drafts.answer(wish(tmp_path, checked["text"], edits=back), silent)
+    assert checked["text"] == MEMBER
+
+
+def test_the_pinned_case_lies_under_the_live_one(tmp_path: Path) -> None:
+    other = MEMBER.replace("100 cm", "80 cm")
+    _, drawn = Drafts(run, tmp_path).answer(wish(tmp_path, MEMBER, pinned=other), silent)
+    assert 'id="differences"' in drawn["html"]
+    series = [one for figure in drawn["data"]["figures"].values() for one in figure["series"]]
+    assert any(one["label"].endswith("(pinned)") and one["faint"] for one in series)
+
+
+BOMB = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n" + "".join(
+    f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]\n" for n in range(1, 12)
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (BOMB, "aliases expand"),
+        ("[" * 5000, "nested more than"),
+        ("a: !!python/object/apply:os.system ['true']", "is not allowed"),
+        ("a: 1\n---\nb: 1", "second document"),
+        ("x" * 2_000_001, "longer than"),
+        (MEMBER + "\nmeasured: {file: ../../etc/passwd}\n", "outside the folder"),
+        ("", "empty"),
+    ],
+)
+def test_hostile_texts_are_refused_quickly(tmp_path: Path, text: str, words: str) -> None:
+    started = time.perf_counter()
+    (checked,) = Drafts(run, tmp_path).answer(wish(tmp_path, text), silent)
+    assert any(words in fault["message"] for fault in checked["faults"]), checked["faults"][:3]
+    assert time.perf_counter() - started < 5.0
+
+
+async def answers(worker: DraftWorker, name: str, asked: Wish) -> list[dict[str, Any]]:
+    return [json.loads(line) async for line in worker.ask(name, asked)]
+
+
+def kinds(said: list[dict[str, Any]]) -> list[str]:
+    return [one["message"] for one in said]
+
+
+def test_stale_drafts_are_given_up_and_a_killed_process_is_told(tmp_path: Path) -> None:
+    slow = MEMBER.replace("Quick", "slow")
+
+    async def scenario() -> None:
+        worker = DraftWorker(run_slowly)
+        try:
+            warm = await answers(worker, "one", wish(tmp_path, MEMBER))
+            assert kinds(warm) == ["checked", "drawn"]
+
+            first = asyncio.create_task(answers(worker, "one", wish(tmp_path, slow)))
+            await asyncio.sleep(0.3)
+            second = asyncio.create_task(answers(worker, "one", wish(tmp_path, slow)))
+            third = asyncio.create_task(answers(worker, "one", wish(tmp_path, MEMBER.replace("100", "90"))))
+            started = time.monotonic()
+            assert "drawn" not in kinds(await first)
+            assert kinds(await second) == ["stale"]
+            newest = await third
+            assert kinds(newest) == ["checked", "drawn"]
+            assert "90 cm" in newest[0]["text"]
+            assert time.monotonic() - started < 4.0
+
+            running = asyncio.create_task(answers(worker, "two", wish(tmp_path, slow)))
+            await asyncio.sleep(0.5)
+            os.kill(worker.process_id or 0, signal.SIGTERM)
+            assert kinds(await running)[-1] == "lost"
+            assert kinds(await answers(worker, "two", wish(tmp_path, MEMBER))) == ["checked", "drawn"]
+        finally:
+            worker.close()
+
+    asyncio.run(scenario())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "kind", "count"), [("quick", "member", 300), ("network", "network", 100)])
+def test_random_moves_of_sliders_give_the_numbers_of_fresh_runs(
+    tmp_path: Path, name: str, kind: str, count: int
+) -> None:
+    rng = np.random.default_rng(7)
+    text = MEMBER if name == "quick" else template(name)
+    original, drafts, drawn_count = text, Drafts(run, tmp_path / "kept"), 0
+    sliders = sliders_of(parse_yaml(text), kind)
+    for _ in range(count):
+        one = sliders[rng.integers(len(sliders))]
+        number = f"{rng.uniform(one['low'], one['high']):.{one['decimals']}f}"
+        checked, *further = drafts.answer(wish(tmp_path, text, edits={one["path"]: number}), silent)
+        text = original if checked["faults"] else checked["text"]
+        if checked["faults"] or further[-1]["message"] != "drawn":
+            continue
+        drawn_count += 1
+        fresh = run(case_of(stages_of(parse_yaml(text), kind)[-1], tmp_path / "case.yaml"))
+        found = [(item["name"], repr(item["value"])) for item in further[-1]["headlines"]]
+        assert found == [(item.name, repr(item.value)) for item in fresh.headlines]
+    assert drawn_count > 0.7 * count
+    assert [line.partition("#")[2] for line in text.splitlines()] == [
+        line.partition("#")[2] for line in original.splitlines()
+    ]

@@ -1,0 +1,165 @@
+"""The addresses of the app in order: open, draft, undo, pin, save, run, take away; what is not there is refused."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("starlette")
+pytest.importorskip("httpx")
+
+from app_runs import MEMBER, run_slowly
+from starlette.testclient import TestClient
+
+from moyai.app.folder import Folder
+from moyai.app.security import REPORT_POLICY, Secrets
+from moyai.app.server import App, create
+
+PORT = 8766
+
+
+@dataclass
+class Page:
+    """What the page of the browser does."""
+
+    client: TestClient
+    secrets: Secrets
+    folder: Path
+
+    def get(self, address: str, status: int = 200) -> Any:
+        answer = self.client.get(address)
+        assert answer.status_code == status, answer.text[:300]
+        return answer
+
+    def post(self, address: str, body: Any = None, status: int = 200) -> Any:
+        headers = {"X-Moyai-Token": self.secrets.header, "Content-Type": "application/json"}
+        answer = self.client.post(address, content=json.dumps({} if body is None else body), headers=headers)
+        assert answer.status_code == status, answer.text[:300]
+        return answer.json() if answer.headers["content-type"] == "application/json" else answer
+
+    def draft(self, key: str, **body: Any) -> list[dict[str, Any]]:
+        return [json.loads(line) for line in self.post(f"/api/cases/{key}/draft", body).text.splitlines()]
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    root = tmp_path_factory.mktemp("cases")
+    (root / "pile.yaml").write_text(MEMBER)
+    (root / "secret.txt").write_text("secret")
+    secrets = Secrets()
+    app = App(Folder(root.resolve(), root.resolve() / "out"), run_slowly, secrets, "pile.yaml")
+    with TestClient(create(app, PORT), base_url=f"http://127.0.0.1:{PORT}") as client:
+        client.get(f"/?token={secrets.address}")
+        yield Page(client, secrets, root)
+
+
+def test_the_page_and_its_parts(page: Page) -> None:
+    text = page.get("/").text
+    assert page.secrets.header in text
+    assert page.secrets.cookie not in text and page.secrets.address not in text
+    for part in ("page.js", "case.js", "app.css", "report.css", "figures.js"):
+        assert f"/assets/{part}" in text or part == "case.js"
+        page.get(f"/assets/{part}")
+    for name in ("server.py", "..%2fserver.py", "%2e%2e/server.py", "index.html/../../server.py", "nothing.js"):
+        assert page.client.get(f"/assets/{name}").status_code == 404
+
+
+def test_the_gallery_has_files_templates_and_papers(page: Page) -> None:
+    found = page.get("/api/gallery").json()
+    assert found["version"] == 1
+    assert {"file": "pile.yaml", "kind": "member", "title": "Quick member"} in found["files"]
+    assert {one["template"] for one in found["templates"]} >= {"breakwater", "curtain", "cage", "network", "member"}
+    assert len(found["papers"]) == 5
+
+
+def test_a_case_from_opening_to_saving(page: Page) -> None:
+    record = page.post("/api/cases", {"file": "pile.yaml"})
+    key, text = record["id"], record["text"]
+    assert (text, record["unsaved"]) == (MEMBER, False)
+    checked, drawn = page.draft(key, sequence=1, text=text)
+    assert (checked["sequence"], checked["message"], drawn["message"]) == (1, "checked", "drawn")
+    before = drawn["headlines"][0]["value"]
+
+    assert page.post(f"/api/cases/{key}/pin")["pinned"]
+    moves = {"structure.section.diameter": "90"}
+    checked, drawn = page.draft(key, sequence=2, text=text, edits=moves, gesture="slider")
+    assert checked["text"] == MEMBER.replace("100 cm", "90 cm")
+    assert drawn["headlines"][0]["value"] < before
+    assert "(pinned)" in json.dumps(drawn["data"])
+    assert page.get(f"/api/cases/{key}").json()["text"] == checked["text"], "a reload finds the text of now"
+
+    page.post(f"/api/cases/{key}/save")
+    assert (page.folder / "pile.yaml").read_text() == checked["text"]
+    undone = page.post(f"/api/cases/{key}/undo")
+    assert (undone["text"], undone["unsaved"]) == (MEMBER, True)
+    assert page.post("/api/cases", {"file": "./pile.yaml"})["id"] == key, "the same file is the same case"
+    answer = page.get(f"/api/cases/{key}/case.yaml")
+    assert answer.text == MEMBER and "attachment" in answer.headers["content-disposition"]
+
+
+def test_errors_come_with_their_lines(page: Page) -> None:
+    key = page.post("/api/cases", {"template": "member"})["id"]
+    (checked,) = page.draft(key, sequence=1, text="moyai: 1\nstructure: {kind: membr}\n")
+    assert checked["faults"][0]["line"] == 2
+    assert "member" in checked["faults"][0]["remedy"]
+    (checked,) = page.draft(key, sequence=2, text="a: [1\n")
+    assert checked["faults"] and checked["faults"][0]["line"] >= 1
+
+
+@pytest.mark.parametrize("name", ["../x.yaml", "/etc/passwd", "secret.txt", "absent.yaml", "", ".", "out\u0000.yaml"])
+def test_only_case_files_of_the_folder_are_opened_or_written(page: Page, name: str) -> None:
+    if name:
+        page.post("/api/cases", {"file": name}, status=422)
+    key = page.post("/api/cases", {"template": "member"})["id"]
+    if name and name != "absent.yaml":
+        page.post(f"/api/cases/{key}/save", {"name": name}, status=422)
+    assert (page.folder / "secret.txt").read_text() == "secret"
+    assert sorted(one.name for one in page.folder.parent.glob("*.yaml")) == []
+
+
+def test_a_case_does_not_replace_another_file(page: Page) -> None:
+    key = page.post("/api/cases", {"template": "member"})["id"]
+    page.post(f"/api/cases/{key}/save", {"name": "pile.yaml"}, status=422)
+    assert page.post(f"/api/cases/{key}/save", {"name": "sub/new.yaml"})["name"] == "sub/new.yaml"
+    (page.folder / "sub" / "new.yaml").write_text("changed: elsewhere\n")
+    page.post(f"/api/cases/{key}/save", status=422)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [[], "text", {"text": 1}, {"edits": []}, {"edits": {"a": 1}}, {"sequence": "1}"}, {"text": "a", "edits": None}],
+)
+def test_odd_requests_are_refused(page: Page, body: Any) -> None:
+    key = page.post("/api/cases", {"template": "member"})["id"]
+    page.post(f"/api/cases/{key}/draft", body, status=400)
+    page.post("/api/cases/nothing/draft", {}, status=404)
+    page.post("/api/jobs", {"case": "nothing"}, status=404)
+    page.post("/api/jobs/job99/cancel", status=404)
+
+
+def test_a_full_run_with_its_files(page: Page) -> None:
+    key = page.post("/api/cases", {"file": "pile.yaml"})["id"]
+    page.draft(key, sequence=9, text=MEMBER)
+    job = page.post("/api/jobs", {"case": key})
+    end = time.monotonic() + 60.0
+    while job["state"] in ("waiting", "running"):
+        assert time.monotonic() < end
+        time.sleep(0.1)
+        job = next(one for one in page.get("/api/jobs").json()["jobs"] if one["id"] == job["id"])
+    assert job["state"] == "done", job
+    assert job["files"] == ["report.html", "results.nc", "report.xlsx", "case.yaml"]
+    assert job["command"] == "moyai run out/pile/case.yaml --output out/pile", "the text was not saved"
+    report = page.get(f"/results/{job['id']}/report.html")
+    assert report.headers["content-security-policy"] == REPORT_POLICY
+    assert page.get(f"/results/{job['id']}/case.yaml?download").text == MEMBER
+    for name in ("coefficients", "..%2f..%2fsecret.txt", "report_tables", ".run.lock"):
+        assert page.client.get(f"/results/{job['id']}/{name}").status_code == 404
+    (page.folder / "out" / "pile" / "report.xlsx").unlink()
+    (page.folder / "out" / "pile" / "report.xlsx").symlink_to(page.folder / "secret.txt")
+    page.get(f"/results/{job['id']}/report.xlsx", status=422)
