@@ -256,7 +256,8 @@ def check_sea_state(significant_height: float, peak_period: float, water: Water)
     share = min(max((peak_period - 8.0) / 7.0, 0.0), 1.0)
     limit = 1.0 / 15.0 + share * (1.0 / 25.0 - 1.0 / 15.0)
     if steepness > limit:
-        broken = significant_height > breaking.height
+        # one error is enough of a sea that is higher than the water is deep
+        broken = significant_height > breaking.height and not any(one.severity == "error" for one in notices)
         more = f": more than the breaking height {breaking.height:.3g} m of a regular wave" if broken else ""
         notices.append(
             Notice(
