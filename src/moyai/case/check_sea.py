@@ -181,7 +181,9 @@ def check_waves(
                 pairs = [(key, check_spectrum(sea.spectrum, water))]
             for key, notices in pairs:
                 for notice in notices:
-                    record = findings.fault if notice.severity == "error" else findings.warn
+                    # waves of a file, one by one, are run as they are: their peak period is but an estimate
+                    drawn = isinstance(sea, ComponentSea) and notice.code == "sea-steepness"
+                    record = findings.fault if notice.severity == "error" and not drawn else findings.warn
                     if notice.severity == "information" or notice.code in said:
                         continue
                     said.add(notice.code)
