@@ -49,6 +49,7 @@ def asset(name: str) -> str:
     return (resources.files("moyai.report") / "assets" / name).read_text(encoding="utf-8")
 
 
+@in_its_units
 def render_parts(document: Document) -> tuple[str, dict[str, Any]]:
     """Return the inner part of the page and its data, for a page that has styles and scripts of the report already.
 
