@@ -142,8 +142,8 @@ def without_limit(result: Result) -> str:
     judged |= {name.replace("utilisation", "tension") for name in judged}
     answers = [item for item in result.headlines if item.shown and not item.condition]
     left = [item for item in answers if item.name not in judged and math.isfinite(item.value)]
-    names = dict.fromkeys(_within_a_sentence(item.label) for item in left)
-    return f"No limit is given for: {', '.join(names)}." if names else ""
+    names = dict.fromkeys(_within_a_sentence(item.label) for item in left if not item.name.startswith("limit_"))
+    return f"No criterion is given for: {', '.join(names)}." if names else ""
 
 
 def largest_by_unit(result: Result) -> dict[str, float]:

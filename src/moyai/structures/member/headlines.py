@@ -29,6 +29,10 @@ if TYPE_CHECKING:
 #: Share of the largest force above which a cause counts as one that decides.
 DECIDES = 0.1
 _CAUSES = ("inertia", "drag", "lift")
+_NOT_JUDGED = Headline(
+    "not_judged", "Not judged", math.nan, "1",
+    text="strength and fatigue of the section, slamming and run-up, vibration by vortices, scour", condition=True,
+)  # fmt: skip
 #: Drag and inertia are read at the KC of waves and current together, the circulation at that of the waves
 _COEFFICIENTS, _CIRCULATION = "coefficient_keulegan_carpenter", "keulegan_carpenter"
 _Kind = Literal["force", "end_force", "bending_moment"]
@@ -112,7 +116,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
                 detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
             )
         )  # fmt: skip
-    return tuple(items)
+    return (*items, _NOT_JUDGED)
 
 
 def _number_label(found: _Largest) -> str:
@@ -245,7 +249,7 @@ def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, 
         return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
     low, high = min([own, *peaks]) / own, max([own, *peaks]) / own
     reach = reach_of_mean(scatter)
-    words.append(f"{scatter.size} realisations; criteria at the 95 % end of their mean")
+    words.append(f"{scatter.size} realisations; judged at the 95 % end of their mean")
     return Band(
         low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,
         judged=(low * (found.value - reach), high * (found.value + reach)),
