@@ -43,8 +43,8 @@ class BreakwaterCriteria(LineCriteria):
         Discriminator(sea_form),
     ] = Field(
         default=None,
-        description="Largest K_T: of the irregular seas, of the regular ones where there are no others, or of named ones "
-        "{name: K_T}" + OFF + ".",
+        description="Largest K_T: of the irregular seas, of the regular ones where there are no others, or of named "
+        "ones {name: K_T}" + OFF + ".",
         examples=[{"storm": 0.5}],
     )
     greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
