@@ -23,6 +23,7 @@ from moyai.report.document import (
     in_one_unit,
 )
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent
+from moyai.report.input_line import input_line
 from moyai.report.systems import UNITS_NOTES
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
@@ -78,7 +79,9 @@ def with_first_page(document: Document, result: Result) -> Document:
     notices = [block for block in first.blocks if isinstance(block, NoticeBlock)]
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
     table = criteria_table(result)
-    blocks: list[Block] = [*numbers, *([] if table is None else [table]), *notices, *rest]
+    conditions = input_line(result)
+    blocks: list[Block] = [Paragraph(conditions, quiet=True)] if conditions else []
+    blocks += [*numbers, *([] if table is None else [table]), *notices, *rest]
     if said := UNITS_NOTES.get(units_of(result)):
         blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)
