@@ -5,6 +5,7 @@ Imports of the numerical packages stand inside the commands, so that ``moyai --h
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 import signal
@@ -433,6 +434,8 @@ def _write_text(path: Path, text: str, force: bool) -> None:
 def main() -> None:
     """Entry point of the ``moyai`` command."""
     prepare_streams()
+    # Imports and the compiler make a million objects that live on: the search for garbage among them costs a tenth
+    gc.set_threshold(100_000, 50, 50)
     # Whoever ends the program politely gets the partial result as with Ctrl-C
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     arguments = sys.argv[1:]
