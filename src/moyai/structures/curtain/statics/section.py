@@ -227,6 +227,8 @@ class SectionShape:
         In use [-]; no blockage in infinite depth.
     residual : float
         Miss of the top over the length [-].
+    hold_share : float
+        Hold of the toe over that of a straight sheet [-], NaN for a free toe.
     """
 
     skirt: Skirt
@@ -241,6 +243,7 @@ class SectionShape:
     drag_coefficient: float
     blockage: float
     residual: float
+    hold_share: float = math.nan
 
     @property
     def effective_depth(self) -> float:
@@ -308,16 +311,18 @@ class _Problem:
         law: LoadLaw,
         top_depth: float,
         friction: float,
+        share: float = math.nan,
     ) -> None:
         self.skirt, self.top, self.friction = skirt, -top_depth, friction
+        #: Hold of the toe over that of a straight sheet, as guessed and then as found.
+        self.share = share
         self.law = LAW_CODES[law]
         most = skirt.toe_load + max(skirt.submerged_weight, 0.0) * skirt.length
         low = max(-water.depth, self.top - skirt.length * (1.0 + 2.0 * most / skirt.stiffness))
         self.pressure = _sample(current, heading, low, self.top, water.density)
         self.largest = float(np.max(np.abs(self.pressure.values)))
-        #: Height of the toe found last, NaN before; hold and slope of the lean, both per drag coefficient.
-        self._toe = math.nan
-        self._hold: tuple[float, float] | None = None
+        #: Height of the toe found last, NaN before; rise of the lean with the hold, at first of a toe load alone.
+        self._toe, self._slope = math.nan, skirt.length / skirt.toe_load
 
     def nodes(self, drag: float) -> Array:
         """Return the steps of a solution, from the toe."""
@@ -367,13 +372,14 @@ class _Problem:
             # the top lies at path[-1, 0] from the toe: upstream of it (negative) while the hold is too small
             return float(path[-1, 0]) if math.isfinite(miss) else math.copysign(math.inf, hold - straight)
 
-        start, slope = (straight, math.nan) if self._hold is None else (self._hold[0] * drag, self._hold[1] / drag)
+        start = straight * self.share if math.isfinite(self.share) else straight
         low, high = straight - limit, straight + limit
-        hold, slope = _crossing(
-            lean, low, high, min(max(start, low), high), slope, 1e-12 * self.skirt.length, 1e-14 * limit
-        )
+        start = min(max(start, low), high)
+        hold, slope = _crossing(lean, low, high, start, self._slope, 1e-12 * self.skirt.length, 1e-14 * limit)
         path, miss = found[0]
-        self._hold = (hold / drag, slope * drag) if math.isfinite(miss) and slope > 0.0 else None
+        if math.isfinite(miss) and slope > 0.0:
+            self._slope = slope
+            self.share = hold / straight if straight != 0.0 else math.nan
         return path, miss, hold
 
 
@@ -435,6 +441,7 @@ def solve_section(
     top_depth: float = 0.0,
     below_bed: bool = False,
     friction: float = 0.0,
+    near: SectionShape | None = None,
 ) -> SectionShape:
     """Return the section of a hanging skirt at rest in a current.
 
@@ -463,6 +470,8 @@ def solve_section(
         (:mod:`moyai.structures.curtain.statics.on_bed`).
     friction : float
         Coefficient of the load along the sheet from the velocity along it, both faces together [-]; 0 leaves it out.
+    near : SectionShape, optional
+        The same skirt in a current nearby, from which the search starts; the solution is the same to its tolerance.
 
     Raises
     ------
@@ -483,7 +492,8 @@ def solve_section(
             allowed=f"at most {room:g} m",
             remedy="shorten the skirt, or let it lie on the bed",
         )
-    problem = _Problem(skirt, current, heading, water, law, top_depth, friction)
+    share = near.hold_share if near is not None else math.nan
+    problem = _Problem(skirt, current, heading, water, law, top_depth, friction, share)
 
     def solve(coefficient: float) -> tuple[Array, float, float]:
         if toe == "held":
@@ -541,4 +551,5 @@ def solve_section(
         drag_coefficient=coefficient,
         blockage=depth / water.depth if finite else 0.0,
         residual=abs(miss) / skirt.length,
+        hold_share=problem.share if toe == "held" else math.nan,
     )
