@@ -353,9 +353,13 @@ def exit_code(result: Result, *, require_hold: bool) -> int:
 
 def _deck_or_case(file: Path, folder: Path, motions: list[str], duration: float | None) -> Path:
     """Return the case file: FILE itself, or that of a deck of MoorDyn, written into the folder of the results."""
-    from moyai.interop.moordyn_case import is_deck
+    deck = False
+    if file.suffix.lower() not in (".yaml", ".yml"):
+        # decks are read by half the package, which most cases do not need
+        from moyai.interop.moordyn_case import is_deck
 
-    if is_deck(file):
+        deck = is_deck(file)
+    if deck:
         return case_of_deck(file, folder / "case.yaml", motions, duration, None, replace=True)
     if motions or duration is not None:
         from moyai.core.errors import InputError
