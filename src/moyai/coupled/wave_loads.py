@@ -264,7 +264,7 @@ class Excitation:
         along = waves.wave_number * (x * np.cos(waves.heading) + y * np.sin(waves.heading))
         turn = waves.amplitude * np.exp(1j * (along - waves.omega * time + waves.phase))
         own = growth * np.real(turn @ self._at_heading(waves.heading - yaw))
-        out = own.copy()
+        out: Array = own.copy()
         for first in (0, 3):
             out[first], out[first + 1] = c * own[first] - s * own[first + 1], s * own[first] + c * own[first + 1]
         return out

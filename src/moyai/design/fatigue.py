@@ -109,7 +109,7 @@ def narrow_band_damage(deviation: float, crossing_frequency: float, duration: fl
     """
     m = curve.exponent
     mean_power = (2.0 * math.sqrt(2.0) * deviation) ** m * float(gamma(1.0 + m / 2.0))
-    return crossing_frequency * duration * mean_power / curve.capacity
+    return float(crossing_frequency * duration * mean_power / curve.capacity)
 
 
 def dirlik_damage(moments: ArrayLike, duration: float, curve: EnduranceCurve) -> float:

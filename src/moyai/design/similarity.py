@@ -66,7 +66,7 @@ class Scale:
             return 1.0
         # one power of S keeps the rounding to one operation
         exponent = dimension.length + 3 * dimension.mass + 0.5 * dimension.time
-        return self.length**exponent * self.density**dimension.mass * self.gravity ** (-0.5 * dimension.time)
+        return float(self.length**exponent * self.density**dimension.mass * self.gravity ** (-0.5 * dimension.time))
 
     def to_model(self, value: float, unit: str) -> float:
         """Return the model's value of a prototype's value in ``unit``."""

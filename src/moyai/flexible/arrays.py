@@ -56,11 +56,13 @@ class KernelArrays:
 
     def node(self, name: str) -> Array:
         """Return one row of the nodes."""
-        return self.nodes[NODE_ROWS.index(name)]
+        values: Array = self.nodes[NODE_ROWS.index(name)]
+        return values
 
     def bar(self, name: str) -> Array:
         """Return one row of the bars."""
-        return self.bars[BAR_ROWS.index(name)]
+        values: Array = self.bars[BAR_ROWS.index(name)]
+        return values
 
     @property
     def greatest_spring(self) -> Array:

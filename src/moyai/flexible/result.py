@@ -95,7 +95,8 @@ class History:
     def energy_balance(self) -> Array:
         """Energy now minus energy at the first row minus work: minus what viscosity, bed and scheme have taken [J]."""
         energy = self.kinetic_energy + self.elastic_energy
-        return energy - energy[0] - (self.work - self.work[0])
+        values: Array = energy - energy[0] - (self.work - self.work[0])
+        return values
 
     def peak_at(self, bar: int) -> Array:
         """Return the highest tension of one bar in every row [N]."""

@@ -198,7 +198,7 @@ class SteppedNetwork:
     @property
     def time(self) -> float:
         """Time of the accepted state [s]."""
-        return self._kept[1]
+        return float(self._kept[1])
 
     @property
     def energy(self) -> tuple[float, float, float]:

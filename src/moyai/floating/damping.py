@@ -128,7 +128,8 @@ class QuadraticDamping:
         return -self.directions.T @ (self.coefficients * np.abs(measure) * measure)
 
     def _assembled(self, equivalent: Array) -> Array:
-        return np.einsum("ki,...k,kj->...ij", self.directions, equivalent, self.directions)
+        values: Array = np.einsum("ki,...k,kj->...ij", self.directions, equivalent, self.directions)
+        return values
 
     def equivalent_regular(self, measure_amplitude: Array) -> Array:
         """Return the linear damping (..., m, m) of equal work at amplitudes (..., k) of J_k v.

@@ -102,7 +102,8 @@ def drift_force_per_amplitude_squared(
     group, phase = energy_velocity(omega, water)
     energy = 0.5 * water.density * water.gravity
     flux = energy * (group / phase)[:, None] * np.cos(heading) ** 2 * np.sign(np.cos(heading)) * length
-    return 2.0 * flux * far.drift_coefficient
+    values: Array = 2.0 * flux * far.drift_coefficient
+    return values
 
 
 def dissipated_fraction(
@@ -132,7 +133,8 @@ def dissipated_fraction(
         ).real
     )
     flux = 0.5 * water.density * water.gravity * group[:, None] * np.abs(np.cos(heading)) * length
-    return power / flux
+    values: Array = power / flux
+    return values
 
 
 def _driven_fraction(motions: Motions, water: Water, length: float) -> Array:

@@ -260,7 +260,7 @@ class IrregularForcing:
             return time_step
         from scipy.fft import next_fast_len
 
-        return repeat / next_fast_len(math.ceil(repeat / time_step - 1e-9))
+        return float(repeat / next_fast_len(math.ceil(repeat / time_step - 1e-9)))
 
     def mean_drift(self) -> Array:
         """Return the mean drift force (m,) of the sea, sum of T_i |a_i|^2."""

@@ -75,7 +75,8 @@ class StateSpaceMemory:
         """Return K(t) (n, m, m) of the states, without the dashpot."""
         instants = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles[None, :] * instants[:, None])
-        return np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        values: Array = np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        return values
 
     def transfer(self, omega: ArrayLike) -> ComplexArray:
         """Return ``int K exp(i omega t) dt + dashpot`` = B - i omega (A - A_inf), (n, m, m)."""

@@ -118,7 +118,8 @@ def mean_offset(
     rest = mooring.force(np.zeros(len(load)))
 
     def residual(at: Array) -> Array:
-        return mooring.force(at) - rest - restoring @ at + load
+        values: Array = mooring.force(at) - rest - restoring @ at + load
+        return values
 
     if not np.any(load):
         return MeanOffset(np.zeros(len(load)), 0.0, 0, "converged")

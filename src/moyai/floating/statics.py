@@ -276,9 +276,10 @@ def find_equilibrium(
             area, x_buoyancy = section.area, section.centroid[0] + offset
         buoyancy = density * gravity * area * length
         # Positive roll carries a point on the +x side down, so an upward force there turns the body back
-        return (
+        values: Array = (
             np.array([lines[0], lines[1] + buoyancy - weight, lines[2] - buoyancy * (x_buoyancy - x_gravity)]) / scale
         )
+        return values
 
     value = residual(state)
     iterations = 0

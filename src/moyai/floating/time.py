@@ -350,18 +350,20 @@ def _stepper(
         inputs, outputs = np.ascontiguousarray(memory.inputs), np.ascontiguousarray(memory.outputs)
 
         def advance_states(first: int, count: int) -> tuple[int, int]:
-            return kernel.run_state_space(
+            found: tuple[int, int] = kernel.run_state_space(
                 q, v, z, first, count, step, force, body, lines, rest, weights, inputs, outputs, limit, every, saved
-            )  # fmt: skip
+            )
+            return found
 
         return advance_states, ()
     values = memory.on_steps(0.5 * step)
     history = np.zeros((values.shape[0] // 2 + 1, len(q)))
 
     def advance_convolution(first: int, count: int) -> tuple[int, int]:
-        return kernel.run_convolution(
+        found: tuple[int, int] = kernel.run_convolution(
             q, v, history, first, count, step, force, body, lines, rest, values, limit, every, saved
-        )  # fmt: skip
+        )
+        return found
 
     notice = Notice(
         code="memory-length",

@@ -83,7 +83,7 @@ def equivalent_point(first: float, second: float) -> float:
         Lengths of the two faces [m].
     """
     numerator = (0.5 * (first**2 + second**2) ** 2) ** (1.0 / 3.0)
-    return numerator / (first ** (4.0 / 3.0) + second ** (4.0 / 3.0))
+    return float(numerator / (first ** (4.0 / 3.0) + second ** (4.0 / 3.0)))
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,8 @@ class Measure:
             weight * velocity_row(point, direction, centre)
             for weight, point, direction in zip(self.weights, self.points, self.directions, strict=True)
         ]
-        return np.sum(rows, axis=0)
+        values: Array = np.sum(rows, axis=0)
+        return values
 
 
 def measures(corners: tuple[CornerEdge, ...], plates: tuple[PlateEdge, ...]) -> tuple[Measure, ...]:

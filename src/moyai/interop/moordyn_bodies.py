@@ -264,7 +264,7 @@ def read_rods(
                 row.line, f"rod {number} has {segments:g} segments and "
                 + ("no length" if segments else "a length"), "0 segments for a rod of no length", path="rods",
             )  # fmt: skip
-        choice: RodKind = kind or "fixed"  # type: ignore[assignment]
+        choice: RodKind = kind or "fixed"
         found.append(
             DeckRod(
                 number, name, choice, (xa, ya, za), (xb, yb, zb), int(segments), body, row.cells.get("outputs", "-"),

@@ -126,7 +126,8 @@ class LineSystem:
         """Return fairlead positions (..., lines, 3) [m] in site axes for body positions (..., 6)."""
         position = _positions(position)
         rotation = rotation_matrix(position[..., 3:])
-        return position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, self._arms)
+        values: Array = position[..., None, :3] + np.einsum("...ij,lj->...li", rotation, self._arms)
+        return values
 
     def states(self, position: ArrayLike) -> dict[str, LineState]:
         """Solve every line for body positions (n, 6) or (6,); arrays of the states have a leading axis n."""
@@ -215,7 +216,8 @@ class LineSystem:
         rest = evaluate(np.zeros(6))[0] if subtract_rest_force else np.zeros(6)
 
         def imbalance(position: Array) -> Array:
-            return evaluate(position)[0] - rest + load - hydrostatic @ position
+            values: Array = evaluate(position)[0] - rest + load - hydrostatic @ position
+            return values
 
         def jacobian(position: Array) -> Array:
             spin = np.eye(6)
@@ -394,7 +396,8 @@ def direction_vector(direction: str | ArrayLike, names: Sequence[str]) -> Array:
     if isinstance(direction, str):
         if direction not in names:
             raise InputError(f"unknown direction {direction!r}", path="direction", allowed=", ".join(names))
-        return np.eye(len(names))[list(names).index(direction)]
+        values: Array = np.eye(len(names))[list(names).index(direction)]
+        return values
     vector = np.asarray(direction, dtype=float)
     if vector.shape != (len(names),):
         raise InputError(f"{vector.size} components", path="direction", allowed=f"{len(names)} components or a name")

@@ -99,7 +99,8 @@ def _lift_off_distance(line: Line, depth: float, z: Array) -> Array | None:
 def _bins(nodes: Array) -> IntArray:
     """Return the cell that holds the lower edge of every uniform bin."""
     edges = nodes[0] + (nodes[-1] - nodes[0]) * np.arange(_BINS) / _BINS
-    return np.clip(np.searchsorted(nodes, edges, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
+    values: IntArray = np.clip(np.searchsorted(nodes, edges, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
+    return values
 
 
 @dataclass(frozen=True)

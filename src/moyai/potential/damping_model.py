@@ -51,7 +51,7 @@ class DampingModel:
     @property
     def size(self) -> int:
         """Number of modes."""
-        return self.steady.shape[0]
+        return int(self.steady.shape[0])
 
     def damping(self, omega: ArrayLike) -> Array:
         """Return the damping (k, m, m) at any frequencies [rad/s]."""
@@ -106,7 +106,8 @@ class DampingModel:
         out = kernel @ values - kernel.sum(axis=1)[:, None] * own
         end = edges[-1]
         out -= own * (np.arctanh(w / end) / w)[:, None]
-        return (2.0 / np.pi * out).reshape(len(w), self.size, self.size)
+        found: Array = (2.0 / np.pi * out).reshape(len(w), self.size, self.size)
+        return found
 
     def response(self, omega: ArrayLike) -> ComplexArray:
         """Return the transform of K, integral of K exp(i omega t) = B - i omega (A - A_inf), (k, m, m)."""
@@ -118,7 +119,8 @@ class DampingModel:
         half = 0.5 * np.diff(self.knots)
         x = (self.knots[:-1, None] + half[:, None] * (_POINTS + 1.0)).ravel()
         weight = (half[:, None] * _WEIGHTS).ravel()
-        return -2.0 / np.pi * np.einsum("k,kij->ij", weight * x**2, self.damping(x))
+        values: Array = -2.0 / np.pi * np.einsum("k,kij->ij", weight * x**2, self.damping(x))
+        return values
 
 
 def _times(time: ArrayLike) -> Array:

@@ -33,13 +33,15 @@ def arc_position(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array 
     """Position at the arc-length fraction ``t`` (0..1) of edges with bulge tan(sweep / 4); all broadcast."""
     half_sweep = 2.0 * np.arctan(bulge)
     ratio = t * np.sinc(half_sweep * t / np.pi) / np.sinc(half_sweep / np.pi)
-    return start + (end - start) * ratio * np.exp(1j * half_sweep * (t - 1.0))
+    values: ComplexArray = start + (end - start) * ratio * np.exp(1j * half_sweep * (t - 1.0))
+    return values
 
 
 def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | float) -> ComplexArray:
     """Derivative of :func:`arc_position` with respect to ``t``; its modulus is the length of the edge."""
     half_sweep = 2.0 * np.arctan(bulge)
-    return (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
+    values: ComplexArray = (end - start) / np.sinc(half_sweep / np.pi) * np.exp(1j * half_sweep * (2.0 * t - 1.0))
+    return values
 
 
 @dataclass(frozen=True, eq=False)

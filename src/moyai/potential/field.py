@@ -91,7 +91,7 @@ def potential_at(
     on_body = part.radiation[index] @ speed + amplitude * part.scattered[index]
     on_surface = part.radiation_surface[index] @ speed + amplitude * part.scattered_surface[index]
 
-    out = unit * incident_wave(place, states.wave_number[one], states.along[one], water.depth)[0][0]
+    out: ComplexArray = unit * incident_wave(place, states.wave_number[one], states.along[one], water.depth)[0][0]
     left, right = solution.section.bounds[0], solution.section.bounds[1]
     # A point sees the surface at x + i |z|: where that lies above the ray, the representation still holds
     reach = 1.2 * np.maximum(0.0, np.maximum(place[:, 0] - right, left - place[:, 0]))

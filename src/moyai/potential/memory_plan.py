@@ -111,7 +111,8 @@ def refine_frequencies(
     poor = errors > tolerance
     # Both gaps next to a poor frequency are halved
     gaps = poor[:-1] | poor[1:]
-    return 0.5 * (w[:-1] + w[1:])[gaps]
+    values: Array = 0.5 * (w[:-1] + w[1:])[gaps]
+    return values
 
 
 @dataclass(frozen=True)

@@ -236,7 +236,8 @@ class Surroundings:
             chord = self._chord[None, others]
             along = np.clip((offset / chord).real, 0.0, 1.0)
             best = np.abs(offset - along * chord).min(axis=1)
-        return np.minimum(best, bed)
+        values: Array = np.minimum(best, bed)
+        return values
 
     def corner_scale(self, run: int, edge: int, place: int) -> float:
         """Local length at the start (0) or end (1) of an edge: its neighbour, other edges, bed, still water."""

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,7 +104,7 @@ class Panels:
     body: IntArray
 
     @property
-    def kernel_panels(self) -> tuple[NDArray, ...]:
+    def kernel_panels(self) -> tuple[NDArray[Any], ...]:
         """The panels as the compiled quadrature wants them."""
         start = np.array([piece.start for piece in self.pieces], dtype=complex)
         step = np.array([piece.step for piece in self.pieces], dtype=complex)

@@ -73,9 +73,12 @@ def _heave(x: Array, y: Array, along: float) -> Array:
     """Solution with unit upward velocity at y = 1 and none at y = 0."""
     if along == 0.0:
         return 0.5 * (y**2 - x**2)
+    values: Array
     if _plain(along):
-        return np.exp(along * (y - 1.0)) * (1.0 + np.exp(-2.0 * along * y)) / (along * -np.expm1(-2.0 * along))
-    return 2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+        values = np.exp(along * (y - 1.0)) * (1.0 + np.exp(-2.0 * along * y)) / (along * -np.expm1(-2.0 * along))
+        return values
+    values = 2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+    return values
 
 
 def _heave_slope(x: Array, along: float) -> Array:
@@ -92,7 +95,8 @@ def _roll(x: Array, y: Array, along: float) -> Array:
     if _plain(along):
         return -x * _heave(x, y, along)
     excess = 2.0 * x * np.sinh(0.5 * along * y) ** 2 - _sinh_excess(along * x) / along
-    return -excess / (along * np.sinh(along))
+    values: Array = -excess / (along * np.sinh(along))
+    return values
 
 
 def _roll_slope(x: Array, y: Array, along: float) -> Array:
@@ -101,7 +105,8 @@ def _roll_slope(x: Array, y: Array, along: float) -> Array:
         return 0.5 * (x**2 - y**2)
     if _plain(along):
         return -_heave(x, y, along)
-    return -2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+    values: Array = -2.0 * (np.sinh(0.5 * along * y) ** 2 - np.sinh(0.5 * along * x) ** 2) / (along * np.sinh(along))
+    return values
 
 
 def _sinh_excess(u: Array) -> Array:

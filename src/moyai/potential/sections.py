@@ -112,7 +112,8 @@ class Outline:
 
 def _turned(points: Array, heel: float) -> Array:
     cosine, sine = math.cos(heel), math.sin(heel)
-    return points @ np.array([[cosine, -sine], [sine, cosine]])
+    values: Array = points @ np.array([[cosine, -sine], [sine, cosine]])
+    return values
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,7 +305,8 @@ class Section:
 
     @cached_property
     def _moments(self) -> Array:
-        return np.sum([chain.edges.moments() for chain in self.chains] + [(0.0, 0.0, 0.0)], axis=0)
+        values: Array = np.sum([chain.edges.moments() for chain in self.chains] + [(0.0, 0.0, 0.0)], axis=0)
+        return values
 
     @property
     def area(self) -> float:
@@ -373,9 +375,10 @@ class Section:
 
     def to_site(self, points: ArrayLike) -> Array:
         """Return points (n, 2) of the body frame in the frame of the site, for instance a fairlead [m]."""
-        return _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
+        values: Array = _turned(np.atleast_2d(np.asarray(points, dtype=float)), self.heel) + np.array(
             [self.offset, -self.draught]
         )
+        return values
 
     def symmetry_axis(self) -> float | None:
         """Return x [m] of the upright line about which the wetted boundary is its own mirror image, or None."""

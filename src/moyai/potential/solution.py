@@ -92,17 +92,20 @@ class RadiationDiffraction:
     @property
     def excitation_force(self) -> ComplexArray:
         """Excitation (omega, heading, mode) per unit wave amplitude."""
-        return self._over_headings("excitation_force")
+        values: ComplexArray = self._over_headings("excitation_force")
+        return values
 
     @property
     def reflection_coefficient(self) -> ComplexArray:
         """R (omega, heading) of the section held fixed, phase at x = 0."""
-        return self._over_headings("reflection")
+        values: ComplexArray = self._over_headings("reflection")
+        return values
 
     @property
     def transmission_coefficient(self) -> ComplexArray:
         """T (omega, heading) of the section held fixed, phase at x = 0."""
-        return self._over_headings("transmission")
+        values: ComplexArray = self._over_headings("transmission")
+        return values
 
     def _over_headings(self, name: str) -> Any:
         """Stack a quantity of the headings that were finished along a second axis; NaN for the others."""

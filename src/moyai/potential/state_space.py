@@ -111,7 +111,8 @@ class StateSpace:
         """Return K(t) (t, m, m)."""
         t = np.atleast_1d(np.asarray(time, dtype=float))
         growth = np.exp(self.poles * t[:, None])
-        return np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        values: Array = np.einsum("ik,tk,kj->tij", self.outputs, growth, self.inputs).real
+        return values
 
     def response(self, omega: ArrayLike) -> ComplexArray:
         """Return the integral of K exp(i omega t), B - i omega (A - A_inf), (k, m, m)."""

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from moyai.core.arrays import Array, ComplexArray
+from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.potential.mesh import Layout, require_memory
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
 from moyai.potential.quadrature import add_helmholtz, add_helmholtz_slopes, add_rankine, add_rankine_slopes
@@ -71,7 +72,9 @@ class Block:
         return max(1, int(_STACK_BYTES / (16.0 * (len(self.surface) ** 2 + 1))))
 
 
-def _slopes(u: ComplexArray, normal: ComplexArray, own: np.ndarray, tables: tuple, crest: float) -> ComplexArray:
+def _slopes(
+    u: ComplexArray, normal: ComplexArray, own: IntArray, tables: tuple[Any, ...], crest: float
+) -> ComplexArray:
     """Return derivatives of S and D along normals at real targets, one image (2, targets, nodes)."""
     shape = 2, len(u), len(tables[1][0])
     slopes = np.zeros(shape, dtype=complex)

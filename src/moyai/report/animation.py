@@ -266,7 +266,8 @@ def displaced_line(rest: Array, fairlead_shift: Array, bed: float | None) -> Arr
         if lying.size and lying[0] == 0:
             touchdown = float(along[lying[-1]])
     weight = np.clip((along - touchdown) / max(along[-1] - touchdown, 1e-12), 0.0, 1.0)
-    return rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+    values: Array = rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+    return values
 
 
 def _distance(points: Array) -> Array:
@@ -308,7 +309,8 @@ def tabulated_line(shift_x: Array, shift_z: Array, shapes: Array, fairlead_shift
     origin = shapes[:, :, -1, :] - np.stack(np.meshgrid(shift_x, shift_z, indexing="ij"), axis=-1)
     missing = origin.reshape(-1, 2).mean(axis=0) + fairlead_shift - path[:, -1, :]
     weight = np.linspace(0.0, 1.0, shapes.shape[2])
-    return path + weight[None, :, None] * missing[:, None, :]
+    values: Array = path + weight[None, :, None] * missing[:, None, :]
+    return values
 
 
 def fairlead_motion(pose: Array, arm: tuple[float, float]) -> Array:

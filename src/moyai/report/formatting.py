@@ -243,4 +243,5 @@ def axis_label(label: str, unit: str) -> str:
 def finite(values: ArrayLike) -> NDArray[np.float64]:
     """Return the finite entries, flattened."""
     array = np.asarray(values, dtype=float).ravel()
-    return array[np.isfinite(array)]
+    sound: NDArray[np.float64] = array[np.isfinite(array)]
+    return sound

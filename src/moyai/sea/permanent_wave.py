@@ -203,7 +203,8 @@ class NonlinearWave:
         """
         (u, w, _, _), shape = self._fields(time, x, y, z)
         head = self.bernoulli_constant - 0.5 * ((u - self.relative_celerity) ** 2 + w**2)
-        return (self.water.density * head).reshape(shape)
+        values: Array = (self.water.density * head).reshape(shape)
+        return values
 
     def notices(self) -> tuple[Notice, ...]:
         """Return a warning where a stream-function wave misses its free surface by more than :data:`RESIDUAL`."""

@@ -80,7 +80,7 @@ class AcerFit:
 def _level_of(tail: AcerFit, rate: float) -> float:
     if not 0.0 < rate < tail.q:
         raise InputError("the number of peaks is too small for the tail", path="count", remedy="ask for a rarer level")
-    return tail.b + (math.log(tail.q / rate) / tail.a) ** (1.0 / tail.c)
+    return float(tail.b + (math.log(tail.q / rate) / tail.a) ** (1.0 / tail.c))
 
 
 def exceedance_rates(realisations: list[ArrayLike], *, order: int, levels: int = 60) -> ExceedanceRates:

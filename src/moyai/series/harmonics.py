@@ -47,7 +47,8 @@ class Harmonics:
     @property
     def first(self) -> ComplexArray:
         """Complex amplitude of the first harmonic."""
-        return self.amplitude[0]
+        values: ComplexArray = self.amplitude[0]
+        return values
 
 
 def fit_harmonics(

@@ -218,7 +218,7 @@ class OptimiseRun:
             scale[0] = abs(first) if math.isfinite(first) and first != 0.0 else 1.0
             bounds = [{"type": "ineq", "fun": lambda x, i=i: x[i]} for i in range(len(ranges))]
             bounds += [{"type": "ineq", "fun": lambda x, i=i: 1.0 - x[i]} for i in range(len(ranges))]
-            found = minimize(  # type: ignore[call-overload]
+            found = minimize(
                 objective, point, method="COBYLA", constraints=[*bounds, {"type": "ineq", "fun": margin}],
                 options={"maxiter": self.evaluations, "rhobeg": 0.25, "tol": 1e-3},
             )  # fmt: skip

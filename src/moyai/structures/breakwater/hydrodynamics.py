@@ -21,7 +21,8 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.potential.damping_model import Start
 from moyai.potential.memory_plan import FrequencyPlan, recommend_frequencies, refine_frequencies
 from moyai.potential.modes import rigid_modes
-from moyai.potential.solver import RadiationDiffraction, solve
+from moyai.potential.solution import RadiationDiffraction
+from moyai.potential.solver import solve
 from moyai.sea.dispersion import angular_frequency, wave_number
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.model import BreakwaterProblem, IrregularSea, RegularSea

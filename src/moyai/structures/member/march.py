@@ -138,7 +138,8 @@ def _shown_time(problem: MemberProblem, wave: Wave) -> Array:
         calm = law.counted and law.start == "calm"
         periods = max(1, math.ceil(8.0 * law.relaxation_periods)) if calm else 1
     steps = wave.time.size - 1
-    return np.arange(periods * steps + 1) * (wave.time[1] - wave.time[0])
+    values: Array = np.arange(periods * steps + 1) * (wave.time[1] - wave.time[0])
+    return values
 
 
 def _repeated(values: Array, time: Array, wave: Wave) -> Array:

@@ -11,12 +11,13 @@ import numpy as np
 from moyai.core.errors import ConvergenceError, InputError
 from moyai.core.progress import Progress, silent
 from moyai.core.validity import IdentityCheck, Notice
+from moyai.coupled.rest import CoupledRest
 from moyai.flexible.result import History, State
 from moyai.flexible.sensitivity import PeakSensitivity, peak_sensitivity
 from moyai.flexible.simulation import simulate
 from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
-from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
+from moyai.structures.network.bodies import CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
 from moyai.structures.network.refinement import affordable, check_peak, doubt, not_converged, unchecked
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends

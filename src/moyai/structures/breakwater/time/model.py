@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -40,7 +40,7 @@ class TimeRun:
     name : str
         Name of its group in the result.
     simulation : Simulation
-    attributes : dict
+    attributes : dict[str, Any]
     lines : LinesInMotion or None
         Of lines that are in motion.
     at_rest : Simulation or None
@@ -49,7 +49,7 @@ class TimeRun:
 
     name: str
     simulation: Simulation
-    attributes: dict
+    attributes: dict[str, Any]
     lines: LinesInMotion | None = None
     at_rest: Simulation | None = None
 
@@ -80,7 +80,7 @@ class TimeRun:
             data = data.assign(self._compared(data.time.values))
         return labelled(data)
 
-    def _compared(self, time: Array) -> dict:
+    def _compared(self, time: Array) -> dict[str, Any]:
         """Return position and tension of the run with lines at rest, at the times of this run."""
         other = self.at_rest
         assert other is not None
@@ -158,7 +158,7 @@ class SeaOfRun:
 
 def run_with_lines(
     name: str,
-    attributes: dict,
+    attributes: dict[str, Any],
     model: FrequencyModel,
     cummins: CumminsModel,
     forcing: Forcing,

@@ -221,7 +221,7 @@ def line_load(answer: ImpactAnswer, tension: float) -> float:
     """Return the load per length of curtain [N/m] that goes with a sum of cable tensions [N], T/a just taut."""
     impact = answer.impact
     b = taut_shape(impact.span_ratio)
-    return 2.0 * b * tension / impact.span
+    return float(2.0 * b * tension / impact.span)
 
 
 def impact_notices(unit: LevelCurtain, settings: ImpactSettings, answer: ImpactAnswer) -> tuple[Notice, ...]:
@@ -293,6 +293,6 @@ def _work(impact: Impact, displacement: float) -> float:
     places = 0.5 * displacement * (nodes + 1.0)
 
     def load(x: float) -> float:
-        return spring(x, impact.span, impact.span_ratio, taut, impact.stiffness)[0]
+        return float(spring(x, impact.span, impact.span_ratio, taut, impact.stiffness)[0])
 
     return float(0.5 * displacement * sum(w * load(x) for x, w in zip(places, weights)))

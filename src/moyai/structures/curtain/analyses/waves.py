@@ -340,7 +340,7 @@ def _realisation(
 
 def _largest(snaps: SeaSnaps, transient: float) -> float:
     after = snaps.motion.time >= transient
-    return max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()])
+    return float(max([float(snaps.motion.tension[after].max()), *snaps.tension.tolist()]))
 
 
 def _oblique(unit: LevelCurtain, sea: IrregularSea) -> bool:

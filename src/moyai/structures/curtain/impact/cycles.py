@@ -75,7 +75,7 @@ class SlackTautMotion:
 
 def slack_sag(impact: Impact) -> float:
     """Return the sag of the just-taut cable [m]: nothing is taut while mid-span is nearer than this."""
-    return 0.5 * impact.span * sag_ratio(taut_shape(impact.span_ratio))
+    return float(0.5 * impact.span * sag_ratio(taut_shape(impact.span_ratio)))
 
 
 def rise_time(impact: Impact) -> float:

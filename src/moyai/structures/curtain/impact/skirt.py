@@ -118,7 +118,7 @@ def _arc_mass(impact: Impact, skirt: Skirt, finite_depth: bool) -> ArcMass:
 def shape_of_displacement(impact: Impact, displacement: float) -> float:
     """Return the shape number b of the cable at a displacement of its middle from just taut [m]."""
     taut = taut_shape(impact.span_ratio)
-    return shape_of_sag(sag_ratio(taut) + 2.0 * displacement / impact.span, taut)
+    return float(shape_of_sag(sag_ratio(taut) + 2.0 * displacement / impact.span, taut))
 
 
 def curved_impact(impact: Impact, skirt: Skirt, *, finite_depth: bool = False) -> ImpactPeak:

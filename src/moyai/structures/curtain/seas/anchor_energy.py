@@ -85,7 +85,8 @@ class EnergyModel:
 
     def float_speed(self, height: ArrayLike, period: ArrayLike, current: ArrayLike, water: Water) -> Array:
         """Return U_max = alpha u_max + U [m/s], waves already reduced for their direction [eq:curtain-float-speed]."""
-        return self.orbital_factor * surface_speed(height, period, water) + np.asarray(current)
+        values: Array = self.orbital_factor * surface_speed(height, period, water) + np.asarray(current)
+        return values
 
     def fluctuating_tension(self, float_speed: ArrayLike, pretension: ArrayLike) -> Array:
         """Return the wave part of the tension [N] for float speeds [m/s] [eq:curtain-energy].
@@ -117,7 +118,8 @@ def product_needed(tension: ArrayLike, float_speed: ArrayLike, pretension: Array
     With a steady tension the same rise takes more energy, T_e (T_e + 2 T) [eq:curtain-energy].
     """
     rise = np.asarray(tension, dtype=np.float64)
-    return rise * (rise + 2.0 * np.asarray(pretension)) / np.asarray(float_speed) ** 2
+    values: Array = rise * (rise + 2.0 * np.asarray(pretension)) / np.asarray(float_speed) ** 2
+    return values
 
 
 @checks_words

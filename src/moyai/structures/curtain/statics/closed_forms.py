@@ -240,7 +240,8 @@ class CableSolution:
     @property
     def sag(self) -> Array:
         """Deflection at mid-span, downstream of the line between the supports [m] [eq:curtain-cable-shape]."""
-        return self.span / self.shape_number * np.sinh(0.5 * self.shape_number) ** 2
+        values: Array = self.span / self.shape_number * np.sinh(0.5 * self.shape_number) ** 2
+        return values
 
     @property
     def stretched_length(self) -> Array:
@@ -345,7 +346,8 @@ class SkirtArc:
     @property
     def sagitta(self) -> Array:
         """Deflection at mid-depth from the chord [m]."""
-        return self.radius * 2.0 * np.sin(0.5 * self.half_angle) ** 2
+        values: Array = self.radius * 2.0 * np.sin(0.5 * self.half_angle) ** 2
+        return values
 
     @property
     def edge_load(self) -> Array:

@@ -155,7 +155,8 @@ def under_toe_flow(
 def sample_pressure(current: CurrentProfile, heading: float, z: ArrayLike, density: float) -> Array:
     """Return rho/2 u|u| [N/m2] of the component along ``heading`` [rad] at heights ``z`` [m]."""
     u = current.component(z, heading)
-    return 0.5 * density * u * np.abs(u)
+    values: Array = 0.5 * density * u * np.abs(u)
+    return values
 
 
 def check_drag(law: DragLaw, blockage: float) -> tuple[Notice, ...]:
