@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
+from moyai.potential.oblique_quadrature import add_helmholtz
 from moyai.potential.panels import GAP, PLATE, Panels, gauss_rule, make_panels
-from moyai.potential.quadrature import add_helmholtz, add_rankine
+from moyai.potential.quadrature import add_rankine
 from moyai.potential.solution import RadiationDiffraction
 from moyai.potential.waves import depth_profile, incident_wave
 from moyai.sea.dispersion import evanescent_wave_numbers

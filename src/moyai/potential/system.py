@@ -16,8 +16,9 @@ import numpy as np
 
 from moyai.core.arrays import Array, ComplexArray, IntArray
 from moyai.potential.mesh import Layout, require_memory
+from moyai.potential.oblique_quadrature import add_helmholtz, add_helmholtz_slopes
 from moyai.potential.panels import GAP, PLATE, RAY, gauss_rule
-from moyai.potential.quadrature import add_helmholtz, add_helmholtz_slopes, add_rankine, add_rankine_slopes
+from moyai.potential.quadrature import add_rankine, add_rankine_slopes
 
 # Stacks of matrices are cut so that one takes about this many bytes
 _STACK_BYTES = 6.0e7
