@@ -14,7 +14,7 @@ from moyai.floating.coefficients import Hydrodynamics
 from moyai.floating.damping import EquivalentDamping, LinearDamping, QuadraticDamping
 from moyai.floating.far_field import FarField, drift_force_per_amplitude_squared, far_field
 from moyai.floating.frequency import Motions, solve_motions
-from moyai.floating.irregular import integration_weights, linearised_in_sea
+from moyai.floating.irregular import linearised_in_sea
 from moyai.floating.offset import MeanOffset, Mooring, Status, mean_offset
 from moyai.sea.water import Water
 
@@ -225,49 +225,6 @@ def solve_with_drift(
         statuses.append(status)
     progress("drift loop", count, count)
     return _joined(hydro, states, amplitude, iterations, tuple(statuses), with_drift)
-
-
-def solve_irregular_with_drift(
-    problem: DriftProblem,
-    spectral_density: ArrayLike,
-    *,
-    with_drift: bool = True,
-    tolerance: float = 1e-8,
-    maximum_iterations: int = 60,
-) -> DriftedMotions:
-    """Run the drift/stiffness loop for an irregular sea: one offset from the drift of the whole spectrum.
-
-    Parameters
-    ----------
-    problem : DriftProblem
-        Quadratic terms are linearised for the sea inside the loop.
-    spectral_density : array_like (n,)
-        S at the frequencies of the coefficients [m2 s/rad].
-    with_drift, tolerance, maximum_iterations
-        As in :func:`solve_with_drift`.
-
-    Returns
-    -------
-    DriftedMotions
-        ``drift_force``, ``offset`` and ``mooring_stiffness`` repeat one value along n.
-    """
-    hydro = problem.one_heading()
-    # A component of amplitude a has a^2 = 2 S d omega
-    density = np.asarray(spectral_density, dtype=float)
-    weight = 2.0 * density * integration_weights(hydro.omega)
-    amplitude = np.sqrt(np.maximum(weight, 0.0))
-    state, used, status = _loop(problem, hydro, weight, amplitude, with_drift, tolerance, maximum_iterations, density)
-    count = len(hydro.omega)
-    return DriftedMotions(
-        motions=state.motions,
-        far=state.far,
-        drift_force=np.full(count, state.force),
-        offset=np.tile(state.offset.position, (count, 1)),
-        mooring_stiffness=np.tile(state.stiffness, (count, 1, 1)),
-        iterations=np.full(count, float(used)),
-        status=(status,) * count,
-        notices=_loop_notices((status,), hydro.omega[:1]),
-    )
 
 
 def _loop(

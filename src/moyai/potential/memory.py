@@ -60,11 +60,6 @@ class MemoryFunctions:
     model: DampingModel
     checks: tuple[IdentityCheck, ...]
 
-    @property
-    def decaying_acceleration_kernel(self) -> Array:
-        """Return lambda - D(0): this may be cut off at the end of the memory, lambda itself never."""
-        return self.acceleration_kernel - self.steady_dashpot
-
 
 @checks_words
 def memory_functions(

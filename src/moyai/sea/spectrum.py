@@ -257,11 +257,6 @@ class Spectrum:
         """Energy period T_e = T_m-1,0 = 2 pi m_-1 / m_0 [s]."""
         return 2.0 * math.pi * self.moment(-1) / self.moment(0)
 
-    @property
-    def narrowness(self) -> float:
-        """Spectral width nu = sqrt(m_0 m_2 / m_1^2 - 1) of Longuet-Higgins (1975) [-]."""
-        return math.sqrt(max(self.moment(0) * self.moment(2) / self.moment(1) ** 2 - 1.0, 0.0))
-
     def broadness(self, upper: float = math.inf) -> float:
         """Return epsilon = sqrt(1 - m_2^2 / (m_0 m_4)) of Cartwright and Longuet-Higgins (1956) [-].
 
@@ -283,11 +278,3 @@ class Spectrum:
         """Return the spectrum with all densities multiplied by ``factor`` [-]."""
         shapes = tuple(replace(shape, scale=shape.scale * factor) for shape in self.shapes)
         return replace(self, density=self.density * factor, shapes=shapes)
-
-    def with_significant_height(self, significant_height: float) -> Spectrum:
-        """Return the same form with another significant height H_m0 [m]."""
-        if not (math.isfinite(significant_height) and significant_height > 0.0):
-            raise InputError(
-                f"significant_height is {significant_height:g}", path="significant_height", allowed="greater than 0"
-            )
-        return self.scaled((significant_height / self.significant_height) ** 2)

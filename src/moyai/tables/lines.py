@@ -145,24 +145,6 @@ def line_type(name: str, diameter: float) -> LineProperties:
     )
 
 
-def diameter_for_submerged_weight(name: str, weight: float, density: float, gravity: float) -> float:
-    """Return the nominal diameter [m] whose submerged weight is ``weight`` [N/m] in water of ``density`` [kg/m3].
-
-    Raises
-    ------
-    InputError
-        When the type floats or the weight is not positive.
-    """
-    unit = line_type(name, 1e-3).submerged_weight_per_length(density, gravity) * 1e6
-    if not (weight > 0.0 and unit > 0.0):
-        raise InputError(
-            f"{name} with a submerged weight of {weight:g} N/m in water of {density:g} kg/m3",
-            path="submerged_weight",
-            allowed="a positive weight and a type heavier than water",
-        )
-    return math.sqrt(weight / unit)
-
-
 def check_line_properties(properties: LineProperties) -> tuple[Notice, ...]:
     """Tell where a catalogue entry is used outside its source's range or rests on unconfirmed values."""
     low, high = properties.diameter_range

@@ -337,37 +337,6 @@ def response_of(
     )
 
 
-@dataclass(frozen=True)
-class ImagePlane:
-    """From pixels of a camera that looks along the structure to metres in the x-z plane.
-
-    Parameters
-    ----------
-    scale : float
-        Metres per pixel.
-    origin : tuple of float
-        Pixel (column, row) of x = 0, z = 0.
-    tilt : float
-        Angle by which the camera is turned about its axis: positive when the level line rises to the right in the
-        picture [rad].
-    mirrored : bool
-        Whether +x points to the left in the picture.
-    """
-
-    scale: float
-    origin: tuple[float, float] = (0.0, 0.0)
-    tilt: float = 0.0
-    mirrored: bool = False
-
-    def to_plane(self, pixels: ArrayLike) -> Array:
-        """Return x and z [m] of pixels (..., 2), columns to the right and rows downwards."""
-        p = np.asarray(pixels, dtype=float)
-        right, up = (p[..., 0] - self.origin[0]) * self.scale, (self.origin[1] - p[..., 1]) * self.scale
-        c, s = math.cos(self.tilt), math.sin(self.tilt)
-        x, z = c * right + s * up, -s * right + c * up
-        return np.stack([-x if self.mirrored else x, z], axis=-1)
-
-
 @dataclass(frozen=True, eq=False)
 class RigidMotion:
     """Planar motion of a body from its markers; equation [eq:records-markers].

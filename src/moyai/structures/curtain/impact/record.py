@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
@@ -198,21 +197,3 @@ def _just_slack(impact: Impact) -> float:
     from moyai.structures.curtain.impact.cycles import slack_sag
 
     return slack_sag(impact) * (1.0 - 1e-9)
-
-
-def residual_against(series: ModelSeries, time: ArrayLike, tension: ArrayLike) -> float:
-    """Return the root mean square difference of a model from a record over the record's largest tension.
-
-    Parameters
-    ----------
-    series : ModelSeries
-        The model.
-    time, tension : array_like
-        Record with time 0 at the taut instant [s], plateau not taken off [N]; only times within the series count.
-    """
-    t, row = np.asarray(time, dtype=np.float64), np.asarray(tension, dtype=np.float64)
-    inside = (t >= series.time[0]) & (t <= series.time[-1])
-    if t.shape != row.shape or not inside.any():
-        raise InputError("the record and the model share no time", path="time", allowed="0 at the taut instant")
-    model = np.interp(t[inside], series.time, series.tension)
-    return float(np.sqrt(np.mean((model - row[inside]) ** 2)) / np.abs(row).max())
