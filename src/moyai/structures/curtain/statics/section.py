@@ -1,9 +1,9 @@
 """Section of a curtain at rest in a current that varies with depth: weight, toe load, stretch, free or held toe.
 
 The skirt is followed upwards from the toe by its force vector; the height of the toe is found such that the top comes
-out where it is held, and for a held toe the force of the lower cable such that the toe hangs under the top. The closed
-forms of :mod:`moyai.structures.curtain.statics.load_laws` and :mod:`moyai.structures.curtain.statics.closed_forms` are
-special cases and its tests.
+out where it is held, and for a held toe with it the force of the lower cable such that the toe hangs under the top. The
+closed forms of :mod:`moyai.structures.curtain.statics.load_laws` and
+:mod:`moyai.structures.curtain.statics.closed_forms` are special cases and its tests.
 """
 
 from __future__ import annotations
@@ -138,6 +138,58 @@ def _hang(
                 fb *= 0.5
             side = -1
     return f
+
+
+@njit(cache=True, error_model="numpy")
+def _hold(
+    top_height: float,
+    hold: float,
+    limit: float,
+    toe_load: float,
+    nodes: Array,
+    low: float,
+    step: float,
+    pressure: Array,
+    data: Array,
+    path: Array,
+) -> tuple[float, float]:
+    """Find height and hold of a toe under the top by Broyden's method from a straight skirt.
+
+    Fills ``path``; returns the miss of the top [m] and the hold, NaN where it does not close in.
+    """
+    length = nodes[nodes.size - 1]
+    toe, first = top_height - length, hold
+    a = b = c = d = 0.0
+    before_x = before_z = move_toe = move_hold = 0.0
+    for k in range(20):
+        _climb(toe, hold, toe_load, nodes, low, step, pressure, data, path)
+        x, z = path[-1, 0], path[-1, 1] - top_height
+        if not (abs(x) < 4.0 * length and abs(z) < 4.0 * length):
+            break
+        if abs(x) <= 1e-12 * length and abs(z) <= 1e-13 * length:
+            return z, hold
+        if k == 0:
+            small_toe, small_hold = 1e-7 * length, 1e-7 * limit
+            _climb(toe + small_toe, hold, toe_load, nodes, low, step, pressure, data, path)
+            a, c = (path[-1, 0] - x) / small_toe, (path[-1, 1] - top_height - z) / small_toe
+            _climb(toe, hold + small_hold, toe_load, nodes, low, step, pressure, data, path)
+            b, d = (path[-1, 0] - x) / small_hold, (path[-1, 1] - top_height - z) / small_hold
+        else:
+            # the matrix takes up what the last move did beyond what it foretold
+            size = (move_toe / length) ** 2 + (move_hold / limit) ** 2
+            miss_x = (x - before_x - a * move_toe - b * move_hold) / size
+            miss_z = (z - before_z - c * move_toe - d * move_hold) / size
+            a += miss_x * move_toe / length**2
+            b += miss_x * move_hold / limit**2
+            c += miss_z * move_toe / length**2
+            d += miss_z * move_hold / limit**2
+        determinant = a * d - b * c
+        move_toe, move_hold = (b * z - d * x) / determinant, (c * x - a * z) / determinant
+        if not (abs(move_toe) <= 0.5 * length and abs(hold + move_hold - first) <= limit):
+            break
+        before_x, before_z = x, z
+        toe, hold = toe + move_toe, hold + move_hold
+    return math.nan, math.nan
 
 
 @dataclass(frozen=True)
@@ -301,11 +353,15 @@ class _Problem:
         """Return the steps of a solution, from the toe."""
         return _nodes(self.skirt, drag * self.largest)
 
+    def data(self, drag: float) -> Array:
+        """Return the numbers of the kernel."""
+        skirt = self.skirt
+        return np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.law, self.friction])
+
     def solve(self, drag: float, hold: float) -> tuple[Array, float]:
         """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
         skirt, pressure = self.skirt, self.pressure
-        data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.law, self.friction])
-        nodes = self.nodes(drag)
+        data, nodes = self.data(drag), self.nodes(drag)
         path = np.empty((nodes.size, 4))
         most = math.hypot(
             skirt.toe_load + abs(skirt.submerged_weight) * skirt.length,
@@ -335,6 +391,23 @@ class _Problem:
         z = np.linspace(self.top - self.skirt.length, self.top, 200)
         values = np.interp(z, self.pressure.low + self.pressure.step * np.arange(_SAMPLES), self.pressure.values)
         straight = hold = drag * float(np.mean(values * (self.top - z)))
+        data, nodes = self.data(drag), self.nodes(drag)
+        path, pressure = np.empty((nodes.size, 4)), self.pressure
+        miss, found = _hold(
+            self.top,
+            straight,
+            limit,
+            self.skirt.toe_load,
+            nodes,
+            pressure.low,
+            pressure.step,
+            pressure.values,
+            data,
+            path,
+        )
+        # a skirt that nowhere lies level has this one shape; the others are looked for between bounds
+        if math.isfinite(miss) and np.all(path[:, 3] > 0.0):
+            return path, miss, found
         a, b, lean_a, lean_b = straight - limit, straight + limit, math.nan, math.nan
         for _ in range(100):
             path, miss = self.solve(drag, hold)
