@@ -27,6 +27,8 @@ LAW_CODES: dict[LoadLaw, float] = {"normal_velocity": 0.0, "uniform_normal": 1.0
 """Of the laws in the kernel."""
 
 _SAMPLES = 4001
+#: Horizontal over vertical force [-], up to which a skirt under any law has one shape
+_STEEP = 2.5
 
 
 @njit(cache=True, error_model="numpy")
@@ -141,10 +143,12 @@ def _hang(
 
 
 @njit(cache=True, error_model="numpy")
-def _hold(
+def _close_in(
     top_height: float,
+    toe: float,
     hold: float,
     limit: float,
+    tolerance: float,
     toe_load: float,
     nodes: Array,
     low: float,
@@ -152,13 +156,12 @@ def _hold(
     pressure: Array,
     data: Array,
     path: Array,
-) -> tuple[float, float]:
-    """Find height and hold of a toe under the top by Broyden's method from a straight skirt.
+) -> tuple[float, float, float]:
+    """Find height and hold of a toe under the top by Broyden's method; fills ``path``.
 
-    Fills ``path``; returns the miss of the top [m] and the hold, NaN where it does not close in.
+    Returns height, hold and miss of the top [m]; NaN where it does not close in.
     """
     length = nodes[nodes.size - 1]
-    toe, first = top_height - length, hold
     a = b = c = d = 0.0
     before_x = before_z = move_toe = move_hold = 0.0
     for k in range(20):
@@ -166,8 +169,8 @@ def _hold(
         x, z = path[-1, 0], path[-1, 1] - top_height
         if not (abs(x) < 4.0 * length and abs(z) < 4.0 * length):
             break
-        if abs(x) <= 1e-12 * length and abs(z) <= 1e-13 * length:
-            return z, hold
+        if abs(x) <= 10.0 * tolerance * length and abs(z) <= tolerance * length:
+            return toe, hold, z
         if k == 0:
             small_toe, small_hold = 1e-7 * length, 1e-7 * limit
             _climb(toe + small_toe, hold, toe_load, nodes, low, step, pressure, data, path)
@@ -185,11 +188,51 @@ def _hold(
             d += miss_z * move_hold / limit**2
         determinant = a * d - b * c
         move_toe, move_hold = (b * z - d * x) / determinant, (c * x - a * z) / determinant
-        if not (abs(move_toe) <= 0.5 * length and abs(hold + move_hold - first) <= limit):
+        if not (abs(move_toe) <= 0.5 * length and abs(move_hold) <= limit):
             break
         before_x, before_z = x, z
         toe, hold = toe + move_toe, hold + move_hold
-    return math.nan, math.nan
+    return math.nan, math.nan, math.nan
+
+
+@njit(cache=True, error_model="numpy")
+def _hold(
+    top_height: float,
+    straight: float,
+    limit: float,
+    toe_load: float,
+    nodes: Array,
+    low: float,
+    step: float,
+    pressure: Array,
+    data: Array,
+    path: Array,
+) -> tuple[float, float]:
+    """Find the hold of a toe under the top, from that of a straight skirt through loads that grow; fills ``path``.
+
+    Returns the miss of the top [m] and the hold; NaN where a load of the way has no shape.
+    """
+    given = data[0]
+    part = min(1.0, 4.0 * toe_load / limit)
+    toe, hold = top_height - nodes[nodes.size - 1], part * straight
+    before, before_toe, before_hold = 0.0, toe, 0.0
+    miss = math.nan
+    while True:
+        data[0] = part * given
+        last = part == 1.0
+        found, held, miss = _close_in(
+            top_height, toe, hold, limit, 1e-13 if last else 1e-3, toe_load, nodes, low, step, pressure, data, path
+        )
+        if last or math.isnan(miss):
+            break
+        # on along the line through the last two shapes
+        after = min(1.0, 2.5 * part)
+        share = (after - part) / (part - before)
+        toe, hold = found + share * (found - before_toe), held + share * (held - before_hold)
+        before, before_toe, before_hold = part, found, held
+        part = after
+    data[0] = given
+    return miss, held
 
 
 @dataclass(frozen=True)
@@ -405,8 +448,9 @@ class _Problem:
             data,
             path,
         )
-        # a skirt that nowhere lies level has this one shape; the others are looked for between bounds
-        if math.isfinite(miss) and np.all(path[:, 3] > 0.0):
+        # the load of the normal velocity has one shape, others only while the skirt is steep: more are sought in bounds
+        steep = math.inf if self.law == LAW_CODES["normal_velocity"] else _STEEP
+        if abs(found - straight) <= limit and np.all(np.abs(path[:, 2]) < steep * path[:, 3]):
             return path, miss, found
         a, b, lean_a, lean_b = straight - limit, straight + limit, math.nan, math.nan
         for _ in range(100):
