@@ -15,47 +15,37 @@ _FILE = "lines.csv"
 
 @dataclass(frozen=True)
 class LineProperties:
-    """Properties of one mooring line type at one diameter.
+    """Properties of one mooring line type at one diameter."""
 
-    Parameters
-    ----------
-    name, material : str
-        Catalogue name and what it is.
-    diameter : float
-        Nominal diameter d (bar diameter of a chain) [m].
-    mass_per_length : float
-        In air [kg/m].
-    volume_per_length : float
-        Displaced volume [m2].
-    axial_stiffness : float
-        EA [N]; of fibre ropes the quasi-static value.
-    breaking_load : float
-        Minimum breaking load, new [N].
-    drag_normal, drag_tangential : float
-        Drag coefficients on the nominal diameter [-]: force per length rho/2 C d u|u|.
-    added_mass_normal, added_mass_tangential : float
-        Added-mass coefficients on the displaced volume [-].
-    diameter_range : tuple
-        Range of the source [m].
-    confirmed : bool
-        Whether every value was read in the source named; otherwise check before design use.
-    source : str
-        Where the values come from.
-    """
-
+    #: ``name``, ``material``: Catalogue name and what it is.
     name: str
+    #: ``name``, ``material``: Catalogue name and what it is.
     material: str
+    #: Nominal diameter d (bar diameter of a chain) [m].
     diameter: float
+    #: In air [kg/m].
     mass_per_length: float
+    #: Displaced volume [m2].
     volume_per_length: float
+    #: EA [N]; of fibre ropes the quasi-static value.
     axial_stiffness: float
+    #: Minimum breaking load, new [N].
     breaking_load: float
+    #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
+    #: u|u|.
     drag_normal: float
+    #: ``drag_normal``, ``drag_tangential``: Drag coefficients on the nominal diameter [-]: force per length rho/2 C d
+    #: u|u|.
     drag_tangential: float
+    #: Added-mass coefficients on the displaced volume [-].
     added_mass_normal: float
+    #: Added-mass coefficients on the displaced volume [-].
     added_mass_tangential: float
+    #: Range of the source [m].
     diameter_range: tuple[float, float]
+    #: Whether every value was read in the source named; otherwise check before design use.
     confirmed: bool
+    #: Where the values come from.
     source: str
 
     def submerged_weight_per_length(self, density: float, gravity: float) -> float:
