@@ -26,26 +26,17 @@ _ASYMPTOTIC = 1e4  # times the last frequency: beyond it only the leading power 
 
 @dataclass(frozen=True)
 class DampingModel:
-    """Radiation damping between 0 and infinity.
+    """Radiation damping between 0 and infinity."""
 
-    Parameters
-    ----------
-    knots : ndarray (n + 1,)
-        Frequencies from 0 to the last one given [rad/s].
-    coefficients : ndarray (6, n, m, m)
-        Local powers of the damping on every interval, lowest first.
-    over_frequency : ndarray (6, n, m, m)
-        The same of (damping - steady)/omega.
-    steady : ndarray (m, m)
-        Damping at zero frequency, D(0).
-    tails : tuple of tuple of Tail
-        Beyond the last frequency.
-    """
-
+    #: Frequencies from 0 to the last one given [rad/s]; shape (n + 1,).
     knots: Array
+    #: Local powers of the damping on every interval, lowest first; shape (6, n, m, m).
     coefficients: Array
+    #: The same of (damping - steady)/omega; shape (6, n, m, m).
     over_frequency: Array
+    #: Damping at zero frequency, D(0); shape (m, m).
     steady: Array
+    #: Beyond the last frequency.
     tails: tuple[tuple[Tail, ...], ...]
 
     @property

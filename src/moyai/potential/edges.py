@@ -46,18 +46,13 @@ def arc_slope(start: ComplexArray, end: ComplexArray, bulge: Array, t: Array | f
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """A run of straight and circular edges, one after the other.
+    """A run of straight and circular edges, one after the other."""
 
-    Parameters
-    ----------
-    start, end : ndarray, shape (n, 2)
-        End points (x, z) [m] of each edge.
-    bulge : ndarray, shape (n,)
-        tan(sweep / 4) of each edge: 0 is straight, positive turns counter-clockwise, 1 is a half circle.
-    """
-
+    #: End points (x, z) [m] of each edge; shape (n, 2).
     start: Array
+    #: End points (x, z) [m] of each edge; shape (n, 2).
     end: Array
+    #: tan(sweep / 4) of each edge: 0 is straight, positive turns counter-clockwise, 1 is a half circle; shape (n,).
     bulge: Array
 
     def __post_init__(self) -> None:

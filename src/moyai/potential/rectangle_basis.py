@@ -24,14 +24,9 @@ _FEWEST_MODES = 512
 
 @dataclass(frozen=True)
 class GapBasis:
-    """Even functions of y with the corner singularities of the exact velocity, [eq:reference-gap-basis].
+    """Even functions of y with the corner singularities of the exact velocity, [eq:reference-gap-basis]."""
 
-    Parameters
-    ----------
-    pairs : int
-        Functions of each of the two corner families; one constant is added to them.
-    """
-
+    #: Functions of each of the two corner families; one constant is added to them.
     pairs: int
 
     @property

@@ -117,31 +117,22 @@ def _sinh_excess(u: Array) -> Array:
 
 @dataclass(frozen=True)
 class Fields:
-    """Solution at one frequency, modes sway, heave, roll about the middle of the waterline.
+    """Solution at one frequency, modes sway, heave, roll about the middle of the waterline."""
 
-    Parameters
-    ----------
-    potential_moment : ndarray (3, 3)
-        Integral of phi_j n_i over the wetted surface for unit velocity, over the gap height squared (one more power
-        for every roll index).
-    exciting_moment : ndarray (3,)
-        The same integral for a wave of unit potential amplitude (norm 1 over the depth) from -x, body held.
-    incident_moment : ndarray (3,)
-        The part of the undisturbed wave in it.
-    radiated : ndarray (3,)
-        Amplitude of the wave mode at x > 0, phase referred to x = 0.
-    reflection, transmission : complex
-        Of the body held fixed, phase referred to x = 0.
-    surface : float
-        Value of the wave mode at the surface.
-    """
-
+    #: Integral of phi_j n_i over the wetted surface for unit velocity, over the gap height squared (one more power for
+    #: every roll index); shape (3, 3).
     potential_moment: ComplexArray
+    #: The same integral for a wave of unit potential amplitude (norm 1 over the depth) from -x, body held; shape (3,).
     exciting_moment: ComplexArray
+    #: The part of the undisturbed wave in it; shape (3,).
     incident_moment: ComplexArray
+    #: Amplitude of the wave mode at x > 0, phase referred to x = 0; shape (3,).
     radiated: ComplexArray
+    #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
     reflection: complex
+    #: ``reflection``, ``transmission``: Of the body held fixed, phase referred to x = 0.
     transmission: complex
+    #: Value of the wave mode at the surface.
     surface: float
 
 

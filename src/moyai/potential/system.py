@@ -30,13 +30,9 @@ class Block:
 
     phi_F solves (surface + K surface_rate) phi_F = flux q_B; then
     phi_B = body_flux q_B - (body + K body_rate) phi_F.
-
-    Parameters
-    ----------
-    sign : int
-        1 symmetric, -1 antisymmetric, 0 the whole section.
     """
 
+    #: 1 symmetric, -1 antisymmetric, 0 the whole section.
     sign: int
     body: ComplexArray
     body_rate: ComplexArray
