@@ -28,67 +28,41 @@ DEGREES_OF_FREEDOM = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 @dataclass(frozen=True)
 class RestoringCurve:
-    """Answer of a line system to an imposed offset.
+    """Answer of a line system to an imposed offset."""
 
-    Parameters
-    ----------
-    offsets : ndarray (n,)
-        Imposed offsets [m or rad].
-    direction : ndarray (d,)
-        Unit motion of the offset.
-    force : ndarray (n, d)
-        Force and moment on the body [N, N m].
-    tension : ndarray (n, lines)
-        Fairlead tension of one copy of every line [N].
-    stiffness : ndarray (n, d, d)
-        Tangent stiffness at every offset.
-    """
-
+    #: Imposed offsets [m or rad]; shape (n,).
     offsets: Array
+    #: Unit motion of the offset; shape (d,).
     direction: Array
+    #: Force and moment on the body [N, N m]; shape (n, d).
     force: Array
+    #: Fairlead tension of one copy of every line [N]; shape (n, lines).
     tension: Array
+    #: Tangent stiffness at every offset; shape (n, d, d).
     stiffness: Array
 
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A body at rest under its lines, an external load and linear hydrostatics.
+    """A body at rest under its lines, an external load and linear hydrostatics."""
 
-    Parameters
-    ----------
-    position : ndarray (d,)
-        Position found.
-    line_force : ndarray (d,)
-        Force of the lines on the body there [N, N m].
-    tension : ndarray (lines,)
-        Fairlead tensions of one copy [N].
-    stiffness : ndarray (d, d)
-        Tangent stiffness of the lines there.
-    residual : float
-        Largest imbalance over the largest load taking part.
-    iterations : int
-        Newton steps.
-    """
-
+    #: Position found; shape (d,).
     position: Array
+    #: Force of the lines on the body there [N, N m]; shape (d,).
     line_force: Array
+    #: Fairlead tensions of one copy [N]; shape (lines,).
     tension: Array
+    #: Tangent stiffness of the lines there; shape (d, d).
     stiffness: Array
+    #: Largest imbalance over the largest load taking part.
     residual: float
+    #: Newton steps.
     iterations: int
 
 
 @dataclass(frozen=True)
 class LineSystem:
     """Lines between the bed and one body.
-
-    Parameters
-    ----------
-    lines : tuple of Line or SpringLine
-        With unique names.
-    water_depth : float
-        [m]; the bed lies at z = -water_depth; ``inf`` for no bed.
 
     Examples
     --------
@@ -101,7 +75,9 @@ class LineSystem:
     2.01
     """
 
+    #: With unique names.
     lines: tuple[LineElement, ...]
+    #: [m]; the bed lies at z = -water_depth; ``inf`` for no bed.
     water_depth: float
 
     def __post_init__(self) -> None:
