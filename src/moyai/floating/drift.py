@@ -21,67 +21,44 @@ from moyai.sea.water import Water
 
 @dataclass(frozen=True)
 class DriftedMotions:
-    """Motions about the mean offset that their own drift causes.
+    """Motions about the mean offset that their own drift causes."""
 
-    Parameters
-    ----------
-    motions : Motions
-        One heading.
-    far : FarField
-    drift_force : ndarray (n,)
-        Mean drift force along x [N]: of each regular wave, or n equal values in an irregular sea.
-    offset : ndarray (n, m)
-        Mean offset X0.
-    mooring_stiffness : ndarray (n, m, m)
-        K_M about the offset.
-    iterations : ndarray (n,) of int
-    status : tuple of str
-        One for each wave.
-    notices : tuple of Notice
-    """
-
+    #: One heading.
     motions: Motions
     far: FarField
+    #: Mean drift force along x [N]: of each regular wave, or n equal values in an irregular sea; shape (n,).
     drift_force: Array
+    #: Mean offset X0; shape (n, m).
     offset: Array
+    #: K_M about the offset; shape (n, m, m).
     mooring_stiffness: Array
+    #: Shape (n,).
     iterations: Array
+    #: One for each wave.
     status: tuple[Status, ...]
     notices: tuple[Notice, ...] = ()
 
 
 @dataclass(frozen=True)
 class DriftProblem:
-    """A moored section in one sea: everything that the loop holds fixed.
+    """A moored section in one sea: everything that the loop holds fixed."""
 
-    Parameters
-    ----------
-    hydrodynamics : Hydrodynamics
-        Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
-    inertia, hydrostatic_stiffness : ndarray (m, m)
-    mooring : Mooring
-    water : Water
-    damping : LinearDamping or None
-        The fraction of critical follows K_M of the offset position.
-    quadratic : QuadraticDamping or None
-    line_damping : callable or None
-    steady_force : ndarray (m,) or None
-        Wind and current [N, N, N m].
-    heading_index : int
-    water_motion : ndarray (n, 1, k) or None
-        What the water does in the measures of ``quadratic``, per unit wave amplitude.
-    """
-
+    #: Coefficients of the whole unit with the far field; the loop uses heading number ``heading_index``.
     hydrodynamics: Hydrodynamics
+    #: Shape (m, m).
     inertia: Array
+    #: Shape (m, m).
     hydrostatic_stiffness: Array
     mooring: Mooring
     water: Water
+    #: The fraction of critical follows K_M of the offset position.
     damping: LinearDamping | None = None
     quadratic: QuadraticDamping | None = None
     line_damping: EquivalentDamping | None = None
+    #: Wind and current [N, N, N m]; shape (m,).
     steady_force: Array | None = None
     heading_index: int = 0
+    #: What the water does in the measures of ``quadratic``, per unit wave amplitude; shape (n, 1, k).
     water_motion: ComplexArray | None = None
 
     def one_heading(self) -> Hydrodynamics:

@@ -18,21 +18,15 @@ from moyai.sea.water import Water
 
 @dataclass(frozen=True)
 class FarField:
-    """Waves far from the moving section and what they cost, per frequency and heading.
+    """Waves far from the moving section and what they cost, per frequency and heading."""
 
-    Parameters
-    ----------
-    reflection, transmission : ndarray (n, h)
-        Complex coefficients of the moving body.
-    loss : ndarray (n, h)
-        E_L = 1 - |R|^2 - |T|^2.
-    drift_coefficient : ndarray (n, h)
-        F* = |R|^2 + E_L / 2.
-    """
-
+    #: Complex coefficients of the moving body; shape (n, h).
     reflection: ComplexArray
+    #: Complex coefficients of the moving body; shape (n, h).
     transmission: ComplexArray
+    #: E_L = 1 - |R|^2 - |T|^2; shape (n, h).
     loss: Array
+    #: F* = |R|^2 + E_L / 2; shape (n, h).
     drift_coefficient: Array
 
 

@@ -66,21 +66,14 @@ class FunctionMooring:
 
 @dataclass(frozen=True)
 class MeanOffset:
-    """Position under a steady force.
+    """Position under a steady force."""
 
-    Parameters
-    ----------
-    position : ndarray (m,)
-        Relative to rest [m, m, rad].
-    residual : float
-        Remaining force over the largest force involved, rows scaled by their stiffness.
-    iterations : int
-    status : {"converged", "not_converged"}
-    """
-
+    #: Relative to rest [m, m, rad]; shape (m,).
     position: Array
+    #: Remaining force over the largest force involved, rows scaled by their stiffness.
     residual: float
     iterations: int
+    #: One of "converged", "not_converged".
     status: Status
 
 

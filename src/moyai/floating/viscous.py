@@ -25,40 +25,27 @@ PLATE_POINTS = 8
 
 @dataclass(frozen=True)
 class Face:
-    """A face next to an edge, as far as it belongs to that edge.
+    """A face next to an edge, as far as it belongs to that edge."""
 
-    Parameters
-    ----------
-    far : tuple of float
-        End of it away from the edge (x, z) [m].
-    length : float
-        [m].
-    normal : tuple of float
-        Out of the body.
-    """
-
+    #: End of it away from the edge (x, z) [m].
     far: tuple[float, float]
+    #: [m].
     length: float
+    #: Out of the body.
     normal: tuple[float, float]
 
 
 @dataclass(frozen=True)
 class CornerEdge:
-    """A corner of the section under water.
+    """A corner of the section under water."""
 
-    Parameters
-    ----------
-    point : tuple of float
-        (x, z) [m], for a round bilge where the faces would meet.
-    before, after : Face
-        The faces on both sides.
-    pressure : float
-        C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
-    """
-
+    #: (x, z) [m], for a round bilge where the faces would meet.
     point: tuple[float, float]
+    #: The faces on both sides.
     before: Face
+    #: The faces on both sides.
     after: Face
+    #: C_p, rounding and angle included; the same at every KC for a right angle [eq:viscous-exponent].
     pressure: float
 
 
@@ -88,20 +75,15 @@ def equivalent_point(first: float, second: float) -> float:
 
 @dataclass(frozen=True)
 class Measure:
-    """One measure of velocity: weighted velocities of points along directions, with its drag coefficient per length.
+    """One measure of velocity: weighted velocities of points along directions, with its drag coefficient per length."""
 
-    Parameters
-    ----------
-    weights : ndarray (p,)
-    points, directions : ndarray (p, 2)
-        (x, z) [m]; unit vectors.
-    coefficient : float
-        c / (rho l) of the force c |J v| J v.
-    """
-
+    #: Shape (p,).
     weights: Array
+    #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
     points: Array
+    #: ``points``, ``directions``: (x, z) [m]; unit vectors; shape (p, 2).
     directions: Array
+    #: c / (rho l) of the force c |J v| J v.
     coefficient: float
 
     def row(self, centre: tuple[float, float]) -> Array:
