@@ -18,26 +18,16 @@ from moyai.core.errors import InputError
 
 @dataclass(frozen=True)
 class EnduranceCurve:
-    """Cycles to failure ``N = capacity / range^exponent``.
-
-    Parameters
-    ----------
-    name : str
-    exponent : float
-        Inverse slope m.
-    capacity : float
-        Number of cycles at a range of one (ratio to the breaking load, or stress in ``unit``).
-    unit : str
-        ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N).
-    confirmed : bool
-        Whether the values were held against the standard itself.
-    source : str
-    """
+    """Cycles to failure ``N = capacity / range^exponent``."""
 
     name: str
+    #: Inverse slope m.
     exponent: float
+    #: Number of cycles at a range of one (ratio to the breaking load, or stress in ``unit``).
     capacity: float
+    #: ``1`` where ranges are ratios to the breaking load (T-N), ``MPa`` where they are stresses (S-N).
     unit: str
+    #: Whether the values were held against the standard itself.
     confirmed: bool
     source: str
 
