@@ -19,46 +19,29 @@ FRAMES_PER_PERIOD_COARSE = 8
 
 @dataclass(frozen=True)
 class MovingBody:
-    """A rigid body of the scene.
-
-    Parameters
-    ----------
-    name : str
-    outlines : tuple of ndarray, shape (points, 2)
-        Closed outlines at rest, x and z in site axes [m].
-    pivot : tuple of float
-        Point that ``pose`` moves and turns about [m].
-    pose : ndarray, shape (frames, 3)
-        Sway and heave [m], roll [rad], relative to rest.
-    """
+    """A rigid body of the scene."""
 
     name: str
+    #: Closed outlines at rest, x and z in site axes [m]; shape (points, 2).
     outlines: tuple[Array, ...]
+    #: Point that ``pose`` moves and turns about [m].
     pivot: tuple[float, float]
+    #: Sway and heave [m], roll [rad], relative to rest; shape (frames, 3).
     pose: Array
 
 
 @dataclass(frozen=True)
 class MovingLine:
-    """A line of the scene.
-
-    Parameters
-    ----------
-    name : str
-    path : ndarray, shape (frames, points, 2)
-        x and z from the anchor to the fairlead [m].
-    tension : ndarray, shape (frames,)
-        Tension at the fairlead [N].
-    maximum : float
-        Largest tension of the whole record [N].
-    breaking_load : float
-        NaN where not known [N].
-    """
+    """A line of the scene."""
 
     name: str
+    #: x and z from the anchor to the fairlead [m]; shape (frames, points, 2).
     path: Array
+    #: Tension at the fairlead [N]; shape (frames,).
     tension: Array
+    #: Largest tension of the whole record [N].
     maximum: float
+    #: NaN where not known [N].
     breaking_load: float = float("nan")
 
 

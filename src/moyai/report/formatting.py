@@ -38,17 +38,11 @@ _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 @dataclass(frozen=True)
 class DisplayUnit:
-    """Unit in which a quantity is shown.
+    """Unit in which a quantity is shown."""
 
-    Parameters
-    ----------
-    name : str
-        The unit shown, plain text (``kN m``); empty for a pure number.
-    factor : float
-        Multiply a value in the stored unit by it.
-    """
-
+    #: The unit shown, plain text (``kN m``); empty for a pure number.
     name: str
+    #: Multiply a value in the stored unit by it.
     factor: float = 1.0
 
     @property
