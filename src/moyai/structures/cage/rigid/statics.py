@@ -23,31 +23,23 @@ _LARGEST_MOVE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Rest:
-    """A position of rest.
+    """A position of rest."""
 
-    Parameters
-    ----------
-    x, z, theta : float
-        Centre of gravity [m] above still water, rotation [rad].
-    tension : ndarray, shape (lines,)
-        At the attachment [N].
-    immersion : float
-        Share of the volume of the floats under water [-].
-    residual : float
-        Largest unbalanced force over the weight in air [-].
-    stiffness : ndarray, shape (3, 3)
-        -d(force)/d(x, z, theta) [N/m], [N], [N m/rad].
-    middle_z : float
-        Middle of the cage above still water [m].
-    """
-
+    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     x: float
+    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     z: float
+    #: ``x``, ``z``, ``theta``: Centre of gravity [m] above still water, rotation [rad].
     theta: float
+    #: At the attachment [N]; shape (lines,).
     tension: Array
+    #: Share of the volume of the floats under water [-].
     immersion: float
+    #: Largest unbalanced force over the weight in air [-].
     residual: float
+    #: -d(force)/d(x, z, theta) [N/m], [N], [N m/rad]; shape (3, 3).
     stiffness: Array
+    #: Middle of the cage above still water [m].
     middle_z: float
 
     @property

@@ -19,32 +19,25 @@ _CHUNK = 4000
 
 @dataclass(frozen=True, eq=False)
 class March:
-    """Motion of a cage over time.
+    """Motion of a cage over time."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (rows,)
-        [s].
-    state : ndarray, shape (rows, 6)
-        x, z of the centre of gravity [m], rotation [rad], and their rates.
-    tension : ndarray, shape (rows, lines)
-        At the attachment, at the time of the row [N].
-    tension_peak : ndarray, shape (rows, lines)
-        Largest tension around the row, found within the steps [N].
-    steps, refused, events, evaluations : int
-        What it took.
-    status : str
-        ``converged``, ``not_converged`` or ``interrupted``.
-    """
-
+    #: [s]; shape (rows,).
     time: Array
+    #: x, z of the centre of gravity [m], rotation [rad], and their rates; shape (rows, 6).
     state: Array
+    #: At the attachment, at the time of the row [N]; shape (rows, lines).
     tension: Array
+    #: Largest tension around the row, found within the steps [N]; shape (rows, lines).
     tension_peak: Array
+    #: What it took.
     steps: int
+    #: What it took.
     refused: int
+    #: What it took.
     events: int
+    #: What it took.
     evaluations: int
+    #: ``converged``, ``not_converged`` or ``interrupted``.
     status: str
 
 
