@@ -31,37 +31,27 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A run and what is reported of it.
-
-    Parameters
-    ----------
-    plan : RunPlan
-    history : History
-    series, frames : xarray.Dataset
-        Time series of lines and points; places of all nodes and tensions of all bars at fewer times.
-    snaps : mapping of str to SnapRecord
-        By line.
-    sensitivity : PeakSensitivity or None
-        Of the line with the highest tension.
-    governing : str
-        That line.
-    notices, checks : tuple
-    doubt : str
-        Why the peak may hang on mesh and step; empty where nothing says so.
-    failure : str
-        Why the peak is not converged; empty where it is, or was not checked.
-    """
+    """A run and what is reported of it."""
 
     plan: RunPlan
     history: History
+    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
+    #: times.
     series: xr.Dataset
+    #: ``series``, ``frames``: Time series of lines and points; places of all nodes and tensions of all bars at fewer
+    #: times.
     frames: xr.Dataset
+    #: By line.
     snaps: Mapping[str, SnapRecord]
+    #: Of the line with the highest tension.
     sensitivity: PeakSensitivity | None
+    #: That line.
     governing: str
     notices: tuple[Notice, ...]
     checks: tuple[IdentityCheck, ...]
+    #: Why the peak may hang on mesh and step; empty where nothing says so.
     doubt: str = ""
+    #: Why the peak is not converged; empty where it is, or was not checked.
     failure: str = ""
 
 
