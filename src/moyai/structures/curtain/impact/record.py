@@ -19,22 +19,17 @@ from moyai.structures.curtain.impact.release import snap_in_current
 
 @dataclass(frozen=True)
 class ModelError:
-    """A model against a record.
+    """A model against a record."""
 
-    Parameters
-    ----------
-    model : str
-        Name.
-    tension, observed_tension : float
-        Impact tension of the model and of the record [N].
-    time, observed_time : float
-        Rise times [s]; NaN where there is none.
-    """
-
+    #: Name.
     model: str
+    #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
     tension: float
+    #: ``tension``, ``observed_tension``: Impact tension of the model and of the record [N].
     observed_tension: float
+    #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
     time: float
+    #: ``time``, ``observed_time``: Rise times [s]; NaN where there is none.
     observed_time: float
 
     @property
@@ -50,17 +45,11 @@ class ModelError:
 
 @dataclass(frozen=True)
 class RecordComparison:
-    """All models against a record.
+    """All models against a record."""
 
-    Parameters
-    ----------
-    lines : tuple of ModelError
-        In the order of the comparison; the cables of A2 as ``A2 upper`` and ``A2 lower`` where they were measured.
-    notices : tuple of Notice
-        What makes the comparison doubtful.
-    """
-
+    #: In the order of the comparison; the cables of A2 as ``A2 upper`` and ``A2 lower`` where they were measured.
     lines: tuple[ModelError, ...]
+    #: What makes the comparison doubtful.
     notices: tuple[Notice, ...]
 
     @property
@@ -137,20 +126,13 @@ def compare_record(
 
 @dataclass(frozen=True, eq=False)
 class ModelSeries:
-    """Tension of a model from its taut instant on.
+    """Tension of a model from its taut instant on."""
 
-    Parameters
-    ----------
-    model : str
-        Name.
-    time : ndarray
-        [s], 0 when the cable becomes taut.
-    tension : ndarray
-        Sum of both cables [N].
-    """
-
+    #: Name.
     model: str
+    #: [s], 0 when the cable becomes taut.
     time: Array
+    #: Sum of both cables [N].
     tension: Array
 
 

@@ -158,20 +158,13 @@ def surface_speed(height: ArrayLike, period: ArrayLike, water: Water) -> Array:
 
 @dataclass(frozen=True)
 class ProportionalFit:
-    """Tension in proportion to the squared velocity, T = c u2.
+    """Tension in proportion to the squared velocity, T = c u2."""
 
-    Parameters
-    ----------
-    factor : float
-        c [N s2/m2].
-    standard_error : float
-        Of the factor [N s2/m2].
-    determination : float
-        R^2 about the mean [-]; negative when a constant would fit better.
-    """
-
+    #: c [N s2/m2].
     factor: float
+    #: Of the factor [N s2/m2].
     standard_error: float
+    #: R^2 about the mean [-]; negative when a constant would fit better.
     determination: float
 
 
