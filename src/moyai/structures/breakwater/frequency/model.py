@@ -31,30 +31,18 @@ COEFFICIENT_ACCURACY = 1e-3  # of the solve of the section
 
 @dataclass(frozen=True)
 class FrequencyModel:
-    """The unit as the frequency domain sees it.
-
-    Parameters
-    ----------
-    unit : FloatingUnit
-    hydro : UnitHydrodynamics
-    damping : LinearDamping
-    quadratic : QuadraticDamping or None
-    steady : ndarray (3,)
-        Wind and current [N, N, N m].
-    with_drift : bool
-    rows_of_lines : int
-        How many of the first rows of ``quadratic`` are drag of lines; the others are the unit's own.
-    line_inertia : ndarray (3, 3)
-        Of lines that are in motion in time, which bring their inertia themselves there.
-    """
+    """The unit as the frequency domain sees it."""
 
     unit: FloatingUnit
     hydro: UnitHydrodynamics
     damping: LinearDamping
     quadratic: QuadraticDamping | None
+    #: Wind and current [N, N, N m]; shape (3,).
     steady: Array
     with_drift: bool
+    #: How many of the first rows of ``quadratic`` are drag of lines; the others are the unit's own.
     rows_of_lines: int = 0
+    #: Of lines that are in motion in time, which bring their inertia themselves there; shape (3, 3).
     line_inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
 
     @property
