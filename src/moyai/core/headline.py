@@ -260,7 +260,8 @@ def _holding(criteria: list[Criterion]) -> str:
     count, assumed = len(kept), sum(item.assumed for item in kept.values())
     words = "the criterion holds" if count == 1 else f"all {count} criteria hold"
     if assumed:
-        words += ", a default of moyai" if count == 1 else f", {assumed} of them defaults of moyai"
+        several = "all" if assumed == count else f"{assumed} of them"
+        words += ", a default of moyai" if count == 1 else f", {several} defaults of moyai"
     if any(UNCONFIRMED in item.source for item in criteria):
         words += "; factors of a standard that were not confirmed against it"
     return words

@@ -62,7 +62,8 @@ def test_a_result_that_judges_nothing_has_one_badge() -> None:
 def test_numbers_come_before_criteria_before_notices() -> None:
     result = judged(FACTOR, UPLIFT, notices=(snap("HWL, storm", 6.0),))
     blocks = compose_document(result).sections[0].blocks
-    kinds = [type(block) for block in blocks if not isinstance(block, Paragraph)]
+    blocks = [block for block in blocks if not isinstance(block, Paragraph)]
+    kinds = [type(block) for block in blocks]
     assert kinds[0] is KeyFigures and kinds[2] is NoticeBlock
     assert isinstance(blocks[1], Table) and blocks[1].key == "criteria"
     columns = {column.label: list(column.values) for column in blocks[1].columns}
