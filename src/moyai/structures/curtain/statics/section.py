@@ -1,9 +1,9 @@
 """Section of a curtain at rest in a current that varies with depth: weight, toe load, stretch, free or held toe.
 
 The skirt is followed upwards from the toe by its force vector; the height of the toe is found such that the top comes
-out where it is held, and for a held toe with it the force of the lower cable such that the toe hangs under the top. The
-closed forms of :mod:`moyai.structures.curtain.statics.load_laws` and
-:mod:`moyai.structures.curtain.statics.closed_forms` are special cases and its tests.
+out where it is held, and for a held toe the force of the lower cable such that the toe hangs under the top. The closed
+forms of :mod:`moyai.structures.curtain.statics.load_laws` and :mod:`moyai.structures.curtain.statics.closed_forms` are
+special cases and its tests.
 """
 
 from __future__ import annotations
@@ -27,8 +27,6 @@ LAW_CODES: dict[LoadLaw, float] = {"normal_velocity": 0.0, "uniform_normal": 1.0
 """Of the laws in the kernel."""
 
 _SAMPLES = 4001
-#: Horizontal over vertical force [-], up to which a skirt under any law has one shape
-_STEEP = 2.5
 
 
 @njit(cache=True, error_model="numpy")
@@ -142,110 +140,25 @@ def _hang(
     return f
 
 
-@njit(cache=True, error_model="numpy")
-def _close_in(
-    top_height: float,
-    toe: float,
-    hold: float,
-    limit: float,
-    tolerance: float,
-    toe_load: float,
-    nodes: Array,
-    low: float,
-    step: float,
-    pressure: Array,
-    data: Array,
-    path: Array,
-) -> tuple[float, float, float]:
-    """Find height and hold of a toe under the top by Broyden's method; fills ``path``.
-
-    Returns height, hold and miss of the top [m]; NaN where it does not close in.
-    """
-    length = nodes[nodes.size - 1]
-    a = b = c = d = 0.0
-    before_x = before_z = move_toe = move_hold = 0.0
-    for k in range(20):
-        _climb(toe, hold, toe_load, nodes, low, step, pressure, data, path)
-        x, z = path[-1, 0], path[-1, 1] - top_height
-        if not (abs(x) < 4.0 * length and abs(z) < 4.0 * length):
-            break
-        if abs(x) <= 10.0 * tolerance * length and abs(z) <= tolerance * length:
-            return toe, hold, z
-        if k == 0:
-            small_toe, small_hold = 1e-7 * length, 1e-7 * limit
-            _climb(toe + small_toe, hold, toe_load, nodes, low, step, pressure, data, path)
-            a, c = (path[-1, 0] - x) / small_toe, (path[-1, 1] - top_height - z) / small_toe
-            _climb(toe, hold + small_hold, toe_load, nodes, low, step, pressure, data, path)
-            b, d = (path[-1, 0] - x) / small_hold, (path[-1, 1] - top_height - z) / small_hold
-        else:
-            # the matrix takes up what the last move did beyond what it foretold
-            size = (move_toe / length) ** 2 + (move_hold / limit) ** 2
-            miss_x = (x - before_x - a * move_toe - b * move_hold) / size
-            miss_z = (z - before_z - c * move_toe - d * move_hold) / size
-            a += miss_x * move_toe / length**2
-            b += miss_x * move_hold / limit**2
-            c += miss_z * move_toe / length**2
-            d += miss_z * move_hold / limit**2
-        determinant = a * d - b * c
-        move_toe, move_hold = (b * z - d * x) / determinant, (c * x - a * z) / determinant
-        if not (abs(move_toe) <= 0.5 * length and abs(move_hold) <= limit):
-            break
-        before_x, before_z = x, z
-        toe, hold = toe + move_toe, hold + move_hold
-    return math.nan, math.nan, math.nan
-
-
-@njit(cache=True, error_model="numpy")
-def _hold(
-    top_height: float,
-    straight: float,
-    limit: float,
-    toe_load: float,
-    nodes: Array,
-    low: float,
-    step: float,
-    pressure: Array,
-    data: Array,
-    path: Array,
-) -> tuple[float, float]:
-    """Find the hold of a toe under the top, from that of a straight skirt through loads that grow; fills ``path``.
-
-    Returns the miss of the top [m] and the hold; NaN where a load of the way has no shape.
-    """
-    given = data[0]
-    part = min(1.0, 4.0 * toe_load / limit)
-    toe, hold = top_height - nodes[nodes.size - 1], part * straight
-    before, before_toe, before_hold = 0.0, toe, 0.0
-    miss = math.nan
-    while True:
-        data[0] = part * given
-        last = part == 1.0
-        found, held, miss = _close_in(
-            top_height, toe, hold, limit, 1e-13 if last else 1e-3, toe_load, nodes, low, step, pressure, data, path
-        )
-        if last or math.isnan(miss):
-            break
-        # on along the line through the last two shapes
-        after = min(1.0, 2.5 * part)
-        share = (after - part) / (part - before)
-        toe, hold = found + share * (found - before_toe), held + share * (held - before_hold)
-        before, before_toe, before_hold = part, found, held
-        part = after
-    data[0] = given
-    return miss, held
-
-
 @dataclass(frozen=True)
 class Skirt:
-    """The sheet of a curtain per length of span."""
+    """The sheet of a curtain per length of span.
 
-    #: Unstretched, from the top load line to the toe [m].
+    Parameters
+    ----------
+    length : float
+        Unstretched, from the top load line to the toe [m].
+    submerged_weight : float
+        Per area of sheet in water [N/m2]; may be negative (buoyant film).
+    toe_load : float
+        Submerged weight of chain, ballast and lower cable per span [N/m].
+    stiffness : float
+        Modulus times thickness per span [N/m]; infinite for a sheet that does not stretch.
+    """
+
     length: float
-    #: Per area of sheet in water [N/m2]; may be negative (buoyant film).
     submerged_weight: float
-    #: Submerged weight of chain, ballast and lower cable per span [N/m].
     toe_load: float
-    #: Modulus times thickness per span [N/m]; infinite for a sheet that does not stretch.
     stiffness: float
 
     def __post_init__(self) -> None:
@@ -273,33 +186,41 @@ class Skirt:
 
 @dataclass(frozen=True, eq=False)
 class SectionShape:
-    """A section at rest; arrays run from the top to the toe."""
+    """A section at rest; arrays run from the top to the toe.
 
-    #: What hangs.
+    Parameters
+    ----------
+    skirt : Skirt
+        What hangs.
+    arc : ndarray
+        Unstretched length of skirt from the top [m].
+    x, z : ndarray
+        Downstream of the top and height above still water [m].
+    tension : ndarray
+        Along the skirt per span [N/m].
+    angle : ndarray
+        Of the skirt from the vertical [rad], positive where it leads downstream.
+    top_load, toe_hold : float
+        Horizontal force per span of the current on the top and on the lower cable [N/m]; the latter 0 for a free toe.
+    top_pull : float
+        Vertical force per span by which the skirt pulls its floats down [N/m].
+    drag_coefficient, blockage : float
+        In use [-]; no blockage in infinite depth.
+    residual : float
+        Miss of the top over the length [-].
+    """
+
     skirt: Skirt
-    #: Unstretched length of skirt from the top [m].
     arc: Array
-    #: ``x``, ``z``: Downstream of the top and height above still water [m].
     x: Array
-    #: ``x``, ``z``: Downstream of the top and height above still water [m].
     z: Array
-    #: Along the skirt per span [N/m].
     tension: Array
-    #: Of the skirt from the vertical [rad], positive where it leads downstream.
     angle: Array
-    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
-    #: latter 0 for a free toe.
     top_load: float
-    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
-    #: latter 0 for a free toe.
     toe_hold: float
-    #: Vertical force per span by which the skirt pulls its floats down [N/m].
     top_pull: float
-    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     drag_coefficient: float
-    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     blockage: float
-    #: Miss of the top over the length [-].
     residual: float
 
     @property
@@ -380,15 +301,11 @@ class _Problem:
         """Return the steps of a solution, from the toe."""
         return _nodes(self.skirt, drag * self.largest)
 
-    def data(self, drag: float) -> Array:
-        """Return the numbers of the kernel."""
-        skirt = self.skirt
-        return np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.law, self.friction])
-
     def solve(self, drag: float, hold: float) -> tuple[Array, float]:
         """Return the path (n+1, 4) from the toe up and the miss of the top [m]."""
         skirt, pressure = self.skirt, self.pressure
-        data, nodes = self.data(drag), self.nodes(drag)
+        data = np.array([drag, skirt.submerged_weight, 1.0 / skirt.stiffness, self.law, self.friction])
+        nodes = self.nodes(drag)
         path = np.empty((nodes.size, 4))
         most = math.hypot(
             skirt.toe_load + abs(skirt.submerged_weight) * skirt.length,
@@ -418,24 +335,6 @@ class _Problem:
         z = np.linspace(self.top - self.skirt.length, self.top, 200)
         values = np.interp(z, self.pressure.low + self.pressure.step * np.arange(_SAMPLES), self.pressure.values)
         straight = hold = drag * float(np.mean(values * (self.top - z)))
-        data, nodes = self.data(drag), self.nodes(drag)
-        path, pressure = np.empty((nodes.size, 4)), self.pressure
-        miss, found = _hold(
-            self.top,
-            straight,
-            limit,
-            self.skirt.toe_load,
-            nodes,
-            pressure.low,
-            pressure.step,
-            pressure.values,
-            data,
-            path,
-        )
-        # the load of the normal velocity has one shape, others only while the skirt is steep: more are sought in bounds
-        steep = math.inf if self.law == LAW_CODES["normal_velocity"] else _STEEP
-        if abs(found - straight) <= limit and np.all(np.abs(path[:, 2]) < steep * path[:, 3]):
-            return path, miss, found
         a, b, lean_a, lean_b = straight - limit, straight + limit, math.nan, math.nan
         for _ in range(100):
             path, miss = self.solve(drag, hold)
