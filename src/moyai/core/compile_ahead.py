@@ -8,6 +8,7 @@ of date costs time, never a number: what it lacks is compiled by the run.
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 import subprocess
@@ -166,6 +167,7 @@ def compiling_ahead(kind: str) -> Iterator[None]:
 
 
 if __name__ == "__main__":
+    gc.set_threshold(100_000, 50, 50)
     place, count, *kinds = sys.argv[1:]
     lists = parts_of(listed_kernels(*kinds), int(count))
     # who is done early goes on with the parts behind his own

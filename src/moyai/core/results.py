@@ -132,6 +132,8 @@ def write_result(result: Result, path: Path) -> Path:
     """Write a result; see :meth:`Result.write`."""
     import xarray as xr
 
+    from moyai.core.netcdf_writer import can_write, write_tree
+
     header = {
         "Conventions": "CF-1.10",
         "title": str(result.provenance.get("title", "moyai result")),
@@ -154,7 +156,10 @@ def write_result(result: Result, path: Path) -> Path:
     groups["/"] = root
     tree = xr.DataTree.from_dict(groups)
     with partial_file(path, size=sum(node.nbytes for node in tree.subtree)) as partial:
-        tree.to_netcdf(partial, engine="h5netcdf")
+        if can_write(tree):
+            write_tree(tree, partial)
+        else:
+            tree.to_netcdf(partial, engine="h5netcdf")
     return path
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -88,7 +89,12 @@ def encode_track(values: Array, tolerance: float, *, everywhere: bool = True) ->
             break
     kept, basis = coefficients[:, :count], vectors[:, :count]
     # half the tolerance is left for the rounding of the coefficients; roundings of several columns add as squares
-    rounding = 0.5 * np.sqrt(((np.ptp(kept, axis=0) / QUANTA[8] * np.abs(basis).max(axis=0)) ** 2).sum())
+    steps = np.ptp(kept, axis=0) / QUANTA[8]
+    if everywhere:
+        rounding = 0.5 * np.sqrt(((steps * np.abs(basis).max(axis=0)) ** 2).sum())
+    else:
+        # evenly spread within half a step, over columns of unit length
+        rounding = np.sqrt((steps**2).sum() / 12.0 / len(mean))
     return {
         "mean": encode_array(mean),
         "basis": [encode_array(column) for column in basis.T],
@@ -107,7 +113,12 @@ def plain_track(values: Array) -> dict[str, Any]:
 
 
 def frame_times(
-    time: Array, window: tuple[float, float], period: float, moments: Sequence[float] = (), budget: int = 12000
+    time: Array,
+    window: tuple[float, float],
+    period: float,
+    moments: Sequence[float] = (),
+    budget: int = 12000,
+    around: float = math.inf,
 ) -> Array:
     """Return the times of the frames: dense in the window, coarse elsewhere, with ``moments`` hit exactly.
 
@@ -123,6 +134,8 @@ def frame_times(
         Times to hit exactly, such as that of the maximum [s].
     budget : int
         Frames outside the window at most.
+    around : float
+        Periods before and after the window beyond which there are no frames.
 
     Returns
     -------
@@ -132,6 +145,7 @@ def frame_times(
     first, last = float(time[0]), float(time[-1])
     if not period > 0.0:
         period = max((last - first) / 50.0, 1e-9)
+    first, last = max(first, window[0] - around * period), min(last, window[1] + around * period)
     fine = np.arange(window[0], window[1], period / FRAMES_PER_PERIOD_FINE)
     outside = (last - first) - (window[1] - window[0])
     coarse_step = max(period / FRAMES_PER_PERIOD_COARSE, outside / budget)

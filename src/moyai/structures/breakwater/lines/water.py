@@ -14,7 +14,7 @@ from moyai.core.errors import InputError
 from moyai.core.options import checks_words
 from moyai.flexible.flow import Flow
 from moyai.sea.components import WaveComponents
-from moyai.sea.time_sum import sum_over_time
+from moyai.sea.time_sum import sum_rows_over_time
 
 if TYPE_CHECKING:
     from moyai.flexible.flow import Current
@@ -132,5 +132,5 @@ def _table(waves: WaveComponents, nodes: Array, count: int, step: float) -> NDAr
         flow = intrinsic * turn * along
         rows = np.stack([flow * cosine, flow * sine, -1j * intrinsic * turn * up])
         rows = np.concatenate([rows, -1j * intrinsic * rows, turn[None]])
-        out[:, number] = np.moveaxis(sum_over_time(waves.omega, rows, time, waves.frequency_step), -1, 0)
+        out[:, number] = sum_rows_over_time(waves.omega, rows, time, waves.frequency_step)
     return out

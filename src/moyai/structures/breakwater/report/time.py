@@ -30,6 +30,8 @@ from moyai.structures.breakwater.report.lines import in_motion, line_blocks, mov
 from moyai.structures.breakwater.report.reading import MODES, Level, Sea, attribute_number
 
 WINDOW_PERIODS = 12.0
+#: Periods before and after the window that the player shows: a storm of hours would fill the page with them.
+WAVES_AROUND = 30.0
 
 
 @dataclass(frozen=True)
@@ -282,7 +284,7 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     pivot_x, pivot_z = centre_of_gravity(level)
     pivot = (pivot_x if math.isfinite(pivot_x) else 0.0, pivot_z if math.isfinite(pivot_z) else 0.0)
     window, moment = window_of(record), float(record.time[record.at])
-    times = frame_times(record.time, window, record.period, (moment,))
+    times = frame_times(record.time, window, record.period, (moment,), around=WAVES_AROUND)
     pose = np.column_stack([np.interp(times, record.time, record.pose[:, n]) for n in range(3)])
     bed = -level.depth if math.isfinite(level.depth) else None
     lines = _moving_lines(level, record, times, pose, pivot, bed)
@@ -315,6 +317,8 @@ def animation(level: Level, sea: Sea, record: Record) -> Animation | None:
     caption = (
         f"To scale; opened at the governing maximum, t = {moment:.2f} s. The cross is the centre of gravity at rest."
     )
+    if times[0] > record.time[0] or times[-1] < record.time[-1]:
+        caption += f" Shown from {times[0]:.0f} s to {times[-1]:.0f} s."
     if moving:
         caption += " Lines: in motion, as their nodes were."
     elif lines and level.group.child("statics").variable("line_shape_x") is None:

@@ -113,13 +113,15 @@ def section_load(
     angle = np.linspace(-_WIDEST, _WIDEST, count)
 
     def loads(turns: Array) -> Array:
-        settings = {"law": law, "toe": toe, "top_depth": top_depth, "below_bed": below_bed, "friction": friction}
-        return np.array(
-            [
-                solve_section(skirt, current, flow_heading - turn, water, drag, **settings).load  # type: ignore[arg-type]
-                for turn in turns
-            ]
-        )
+        found: list[float] = []
+        near = None
+        for turn in turns:
+            near = solve_section(
+                skirt, current, flow_heading - turn, water, drag, law=law, toe=toe, top_depth=top_depth,
+                below_bed=below_bed, friction=friction, near=near,
+            )  # fmt: skip
+            found.append(near.load)
+        return np.array(found)
 
     heights = np.linspace(-min(water.depth, top_depth + 2.0 * skirt.length), -top_depth, 60)
     if np.max(np.abs(current.component(heights, flow_heading + 0.5 * math.pi))) <= 1e-12 * np.max(
