@@ -37,20 +37,13 @@ _SHORT = re.compile(r"\b([feizb])(\d)([CFA])(r?)\b")
 
 @dataclass(frozen=True)
 class ListedKernel:
-    """A kernel for arguments of given types.
+    """A kernel for arguments of given types."""
 
-    Parameters
-    ----------
-    seconds : float
-        What it took on the machine that wrote the list, without the kernels that it calls [s].
-    module, name : str
-    signature : str
-        Types of the arguments, see :func:`signature_text`.
-    """
-
+    #: What it took on the machine that wrote the list, without the kernels that it calls [s].
     seconds: float
     module: str
     name: str
+    #: Types of the arguments, see :func:`signature_text`.
     signature: str
 
 

@@ -24,33 +24,22 @@ _LEAF = 4
 
 @dataclass(frozen=True, eq=False)
 class SparsePlan:
-    """How the matrix of a network is stored, filled and eliminated.
+    """How the matrix of a network is stored, filled and eliminated."""
 
-    Parameters
-    ----------
-    order : ndarray of int, shape (n,)
-        Nodes in the order of their elimination.
-    fronts : ndarray of int, shape (f, 6)
-        First pivot node (place in ``order``), pivot nodes, later nodes touched, where its list of later nodes begins,
-        where its numbers begin, front that takes its rest (-1: none).
-    later : ndarray of int
-        Places (in ``order``) of the later nodes of every front, rising.
-    target : ndarray of int
-        For each entry of ``later``: its local place in the front that takes the rest.
-    size : int
-        Numbers in all fronts.
-    own : ndarray of int, shape (n, 2)
-        Where the diagonal block of a node begins, and the length of a row there.
-    pairs : tuple of ndarray of int, shape (e, k, k, 2)
-        The same for every pair of nodes of every element, one array per family of elements.
-    """
-
+    #: Nodes in the order of their elimination; shape (n,).
     order: IntArray
+    #: First pivot node (place in ``order``), pivot nodes, later nodes touched, where its list of later nodes begins,
+    #: where its numbers begin, front that takes its rest (-1: none); shape (f, 6).
     fronts: IntArray
+    #: Places (in ``order``) of the later nodes of every front, rising.
     later: IntArray
+    #: For each entry of ``later``: its local place in the front that takes the rest.
     target: IntArray
+    #: Numbers in all fronts.
     size: int
+    #: Where the diagonal block of a node begins, and the length of a row there; shape (n, 2).
     own: IntArray
+    #: The same for every pair of nodes of every element, one array per family of elements; shape (e, k, k, 2).
     pairs: tuple[IntArray, ...]
 
 

@@ -20,46 +20,29 @@ FRAMES_PER_PERIOD_COARSE = 8
 
 @dataclass(frozen=True)
 class MovingBody:
-    """A rigid body of the scene.
-
-    Parameters
-    ----------
-    name : str
-    outlines : tuple of ndarray, shape (points, 2)
-        Closed outlines at rest, x and z in site axes [m].
-    pivot : tuple of float
-        Point that ``pose`` moves and turns about [m].
-    pose : ndarray, shape (frames, 3)
-        Sway and heave [m], roll [rad], relative to rest.
-    """
+    """A rigid body of the scene."""
 
     name: str
+    #: Closed outlines at rest, x and z in site axes [m]; shape (points, 2).
     outlines: tuple[Array, ...]
+    #: Point that ``pose`` moves and turns about [m].
     pivot: tuple[float, float]
+    #: Sway and heave [m], roll [rad], relative to rest; shape (frames, 3).
     pose: Array
 
 
 @dataclass(frozen=True)
 class MovingLine:
-    """A line of the scene.
-
-    Parameters
-    ----------
-    name : str
-    path : ndarray, shape (frames, points, 2)
-        x and z from the anchor to the fairlead [m].
-    tension : ndarray, shape (frames,)
-        Tension at the fairlead [N].
-    maximum : float
-        Largest tension of the whole record [N].
-    breaking_load : float
-        NaN where not known [N].
-    """
+    """A line of the scene."""
 
     name: str
+    #: x and z from the anchor to the fairlead [m]; shape (frames, points, 2).
     path: Array
+    #: Tension at the fairlead [N]; shape (frames,).
     tension: Array
+    #: Largest tension of the whole record [N].
     maximum: float
+    #: NaN where not known [N].
     breaking_load: float = float("nan")
 
 
@@ -280,7 +263,8 @@ def displaced_line(rest: Array, fairlead_shift: Array, bed: float | None) -> Arr
         if lying.size and lying[0] == 0:
             touchdown = float(along[lying[-1]])
     weight = np.clip((along - touchdown) / max(along[-1] - touchdown, 1e-12), 0.0, 1.0)
-    return rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+    values: Array = rest[None, :, :] + weight[None, :, None] * fairlead_shift[:, None, :]
+    return values
 
 
 def _distance(points: Array) -> Array:
@@ -322,7 +306,8 @@ def tabulated_line(shift_x: Array, shift_z: Array, shapes: Array, fairlead_shift
     origin = shapes[:, :, -1, :] - np.stack(np.meshgrid(shift_x, shift_z, indexing="ij"), axis=-1)
     missing = origin.reshape(-1, 2).mean(axis=0) + fairlead_shift - path[:, -1, :]
     weight = np.linspace(0.0, 1.0, shapes.shape[2])
-    return path + weight[None, :, None] * missing[:, None, :]
+    values: Array = path + weight[None, :, None] * missing[:, None, :]
+    return values
 
 
 def fairlead_motion(pose: Array, arm: tuple[float, float]) -> Array:

@@ -33,16 +33,11 @@ class TabulatedFlow(Flow):
 
     The lines of a breakwater move by metres where the waves are tens of metres long: k times the motion is the error of
     the phase.
-
-    Parameters
-    ----------
-    table : ndarray (7, nodes, times)
-        Velocity, acceleration and elevation of the waves.
-    table_step : float
-        [s].
     """
 
+    #: Velocity, acceleration and elevation of the waves; shape (7, nodes, times).
     table: NDArray[np.float32] | None = None
+    #: [s].
     table_step: float = 1.0
 
     @property

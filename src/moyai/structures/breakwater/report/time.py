@@ -36,39 +36,25 @@ WAVES_AROUND = 30.0
 
 @dataclass(frozen=True)
 class Record:
-    """A run as arrays.
-
-    Parameters
-    ----------
-    run : Group
-    time : ndarray, shape (samples,)
-        [s].
-    pose : ndarray, shape (samples, 3)
-        Sway, heave [m], roll [rad].
-    tension : ndarray, shape (samples, lines)
-        [N]; no columns where tensions are absent.
-    lines : tuple of str
-    elevation : ndarray or None
-        Incident wave at x = 0 [m].
-    period : float
-        Wave period of the run or mean crossing period [s].
-    begin : int
-        First sample that counts in statistics.
-    at : int
-        Sample of the governing maximum.
-    governing_line : int
-        Line of it, -1 where there are no tensions.
-    """
+    """A run as arrays."""
 
     run: Group
+    #: [s]; shape (samples,).
     time: Array
+    #: Sway, heave [m], roll [rad]; shape (samples, 3).
     pose: Array
+    #: [N]; no columns where tensions are absent; shape (samples, lines).
     tension: Array
     lines: tuple[str, ...]
+    #: Incident wave at x = 0 [m].
     elevation: Array | None
+    #: Wave period of the run or mean crossing period [s].
     period: float
+    #: First sample that counts in statistics.
     begin: int
+    #: Sample of the governing maximum.
     at: int
+    #: Line of it, -1 where there are no tensions.
     governing_line: int
 
 

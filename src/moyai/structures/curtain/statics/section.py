@@ -161,23 +161,15 @@ def _hang(
 
 @dataclass(frozen=True)
 class Skirt:
-    """The sheet of a curtain per length of span.
+    """The sheet of a curtain per length of span."""
 
-    Parameters
-    ----------
-    length : float
-        Unstretched, from the top load line to the toe [m].
-    submerged_weight : float
-        Per area of sheet in water [N/m2]; may be negative (buoyant film).
-    toe_load : float
-        Submerged weight of chain, ballast and lower cable per span [N/m].
-    stiffness : float
-        Modulus times thickness per span [N/m]; infinite for a sheet that does not stretch.
-    """
-
+    #: Unstretched, from the top load line to the toe [m].
     length: float
+    #: Per area of sheet in water [N/m2]; may be negative (buoyant film).
     submerged_weight: float
+    #: Submerged weight of chain, ballast and lower cable per span [N/m].
     toe_load: float
+    #: Modulus times thickness per span [N/m]; infinite for a sheet that does not stretch.
     stiffness: float
 
     def __post_init__(self) -> None:
@@ -205,44 +197,35 @@ class Skirt:
 
 @dataclass(frozen=True, eq=False)
 class SectionShape:
-    """A section at rest; arrays run from the top to the toe.
+    """A section at rest; arrays run from the top to the toe."""
 
-    Parameters
-    ----------
-    skirt : Skirt
-        What hangs.
-    arc : ndarray
-        Unstretched length of skirt from the top [m].
-    x, z : ndarray
-        Downstream of the top and height above still water [m].
-    tension : ndarray
-        Along the skirt per span [N/m].
-    angle : ndarray
-        Of the skirt from the vertical [rad], positive where it leads downstream.
-    top_load, toe_hold : float
-        Horizontal force per span of the current on the top and on the lower cable [N/m]; the latter 0 for a free toe.
-    top_pull : float
-        Vertical force per span by which the skirt pulls its floats down [N/m].
-    drag_coefficient, blockage : float
-        In use [-]; no blockage in infinite depth.
-    residual : float
-        Miss of the top over the length [-].
-    hold_share : float
-        Hold of the toe over that of a straight sheet [-], NaN for a free toe.
-    """
-
+    #: What hangs.
     skirt: Skirt
+    #: Unstretched length of skirt from the top [m].
     arc: Array
+    #: ``x``, ``z``: Downstream of the top and height above still water [m].
     x: Array
+    #: ``x``, ``z``: Downstream of the top and height above still water [m].
     z: Array
+    #: Along the skirt per span [N/m].
     tension: Array
+    #: Of the skirt from the vertical [rad], positive where it leads downstream.
     angle: Array
+    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
+    #: latter 0 for a free toe.
     top_load: float
+    #: ``top_load``, ``toe_hold``: Horizontal force per span of the current on the top and on the lower cable [N/m]; the
+    #: latter 0 for a free toe.
     toe_hold: float
+    #: Vertical force per span by which the skirt pulls its floats down [N/m].
     top_pull: float
+    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     drag_coefficient: float
+    #: ``drag_coefficient``, ``blockage``: In use [-]; no blockage in infinite depth.
     blockage: float
+    #: Miss of the top over the length [-].
     residual: float
+    #: Hold of the toe over that of a straight sheet [-], NaN for a free toe.
     hold_share: float = math.nan
 
     @property
