@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 
 from moyai.core.arrays import Array
 from moyai.core.errors import InputError
+from moyai.core.validity import Notice
 from moyai.interop.coefficients import LONG_NAMES
+from moyai.sea.dispersion import wave_number
+from moyai.sea.water import Water
 
 # Estimates are taken where both the low end and the cut-off of the band are far
 _LOWEST, _HIGHEST = 0.15, 0.6
@@ -99,3 +102,56 @@ def _tail(omega: Array, damping: Array) -> Array:
     ratio = begin / np.where(end == 0.0, np.inf, end)
     power = np.log(np.where(ratio > 0.0, ratio, 1.0)) / math.log(omega[-1] / omega[last][0])
     return np.asarray(end / ((np.clip(power, 1.0, 8.0) + 1.0) * omega[-1]))
+
+
+def match_site(dataset: xr.Dataset, water: Water) -> tuple[xr.Dataset, tuple[Notice, ...]]:
+    """Return the coefficients for the density of the site, with a notice where depth or gravity differ.
+
+    All coefficients are proportional to the density. Depth and gravity change them in ways that a file cannot undo: a
+    file for another depth is accepted where both are deep for all its frequencies, reported where they are not.
+
+    Raises
+    ------
+    InputError
+        When the depth differs by more than a tenth and the waves feel it.
+    """
+    density = float(dataset["rho"])
+    scaled = dataset.copy()
+    for name in dataset.data_vars:
+        scaled[name] = dataset[name].copy(data=dataset[name].values * (water.density / density))
+        scaled[name].attrs = dict(dataset[name].attrs)
+    scaled = scaled.assign_coords(rho=dataset["rho"].copy(data=water.density))
+    notices = []
+    gravity, depth = float(dataset["g"]), float(dataset["water_depth"])
+    if abs(gravity - water.gravity) > 1e-3 * water.gravity:
+        notices.append(
+            Notice(
+                "coefficients-gravity",
+                f"the coefficients were computed with g = {gravity:g} m/s2, the site has {water.gravity:g} m/s2",
+                value=gravity,
+                limit=water.gravity,
+                remedy="run the program with the gravity of the site",
+            )
+        )
+    if depth != water.depth:
+        lowest = float(dataset["omega"][0])
+        own = float(wave_number(lowest, depth, gravity))
+        site = float(wave_number(lowest, water.depth, gravity))
+        if abs(own - site) > 1e-3 * site:
+            shift = abs(min(depth, 1e9) - min(water.depth, 1e9)) / min(depth, water.depth)
+            if shift > 0.1:
+                raise InputError(
+                    f"the coefficients hold for a depth of {depth:g} m, the water is {water.depth:g} m deep",
+                    path="coefficients",
+                    remedy="run the program at each water level, or leave the lowest frequencies out",
+                )
+            notices.append(
+                Notice(
+                    "coefficients-depth",
+                    f"the coefficients hold for a depth of {depth:g} m, the water is {water.depth:g} m deep",
+                    value=depth,
+                    limit=water.depth,
+                    remedy="run the program at this depth",
+                )
+            )
+    return scaled, tuple(notices)

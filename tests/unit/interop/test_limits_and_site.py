@@ -7,7 +7,8 @@ import pytest
 
 from moyai.core.errors import InputError
 from moyai.interop.coefficients import assemble
-from moyai.interop.limits import complete_limits
+from moyai.interop.limits import complete_limits, match_site
+from moyai.sea.water import Water
 
 
 def causal_dataset(rng, count=200, highest=12.0, depth=math.inf):
@@ -58,3 +59,19 @@ def test_too_few_frequencies_are_refused():
         complete_limits(dataset.isel(omega=slice(5)))
     given = dataset.assign(infinite_frequency_added_mass=dataset["added_mass"].isel(omega=-1, drop=True))
     assert complete_limits(given) is given
+
+
+def test_density_of_the_site_and_its_depth():
+    dataset, _ = causal_dataset(np.random.default_rng(1), depth=20.0)
+    sea, notices = match_site(dataset, Water(20.0, density=1025.0, gravity=9.81))
+    assert notices == ()
+    for name in ("added_mass", "radiation_damping", "excitation_force"):
+        np.testing.assert_allclose(sea[name], 1.025 * dataset[name])
+    assert float(sea["rho"]) == 1025.0
+    _, notices = match_site(dataset, Water(21.0, density=1000.0, gravity=9.80))
+    assert [notice.code for notice in notices] == ["coefficients-gravity", "coefficients-depth"]
+    with pytest.raises(InputError, match="20 m"):
+        match_site(dataset, Water(10.0, density=1000.0, gravity=9.81))
+    # Only frequencies that do not feel either bottom
+    _, notices = match_site(dataset.sel(omega=slice(3.0, None)), Water(10.0, density=1000.0, gravity=9.81))
+    assert notices == ()
