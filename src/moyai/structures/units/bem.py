@@ -189,7 +189,7 @@ def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array)
     k = float(wave_number(omega, water.depth, water.gravity))
     _check_depth(k, water, omega)
     incident, incident_normal = incident_on(mesh, water, omega, k, headings)
-    given = _given_flow(panels, water, omega, k, headings)
+    given = given_flow(panels, water, omega, k, headings)
     surface = _solved(panels, water, omega, k, given, incident)
     count = len(panels.modes)
     wet = mesh.part != GAP
@@ -211,7 +211,7 @@ def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array)
     )  # fmt: skip
 
 
-def _given_flow(panels: Panels, water: Water, omega: float, k: float, headings: Array) -> ComplexArray:
+def given_flow(panels: Panels, water: Water, omega: float, k: float, headings: Array) -> ComplexArray:
     """Return the normal velocities (n, r) of all unit motions and of all scattered waves; zero on lids."""
     incident_normal = incident_on(panels.mesh, water, omega, k, headings)[1]
     hull = (panels.mesh.part == HULL)[:, None]

@@ -83,7 +83,9 @@ class RowHydrodynamics:
 
     def phase(self, k: Array) -> ComplexArray:
         """Return the phase of the incident waves at the centres (f, h, m) for wave numbers (f,) [1/m]."""
-        along = np.cos(self.headings)[:, None] * self.centres[:, 0] + np.sin(self.headings)[:, None] * self.centres[:, 1]
+        along = (
+            np.cos(self.headings)[:, None] * self.centres[:, 0] + np.sin(self.headings)[:, None] * self.centres[:, 1]
+        )
         return np.repeat(np.exp(1j * k[:, None, None] * along), 6, axis=2)
 
     def at(self, omega: Array, k: Array) -> tuple[Array, Array, ComplexArray]:
@@ -157,7 +159,9 @@ def solve_row(
                 store.put(key, _to_dataset(found))
         solutions.append(found)
     progress("coefficients of the row", len(omega), len(omega))
-    return RowHydrodynamics(panels, water, centres, headings, tuple(solutions), _checks(tuple(solutions), panels, water))
+    return RowHydrodynamics(
+        panels, water, centres, headings, tuple(solutions), _checks(tuple(solutions), panels, water)
+    )
 
 
 _FIELDS = {
