@@ -13,7 +13,7 @@ from moyai.structures.units.assembly import RowAtLevel, steady_position
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
-from moyai.structures.units.model import COMPONENTS, DOFS, MapArea
+from moyai.structures.units.model import DOFS, MapArea
 from moyai.structures.units.seas import SeaAnswer, cell_weights, columns_of
 from moyai.structures.units.section import PLANAR, SectionAnswer
 from moyai.structures.units.variables import labelled
@@ -27,7 +27,7 @@ def _coords(at: RowAtLevel) -> dict[str, Any]:
         "unit": np.arange(1, at.row.count + 1),
         "dof": list(DOFS),
         "connector": [joint.name for joint in at.joints],
-        "component": list(COMPONENTS[:3]),
+        "component": ["x", "y", "z"],
         "line": list(at.line_names),
     }
 

@@ -99,7 +99,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Datas
     if moment is not None and moment[0] > 0.0:
         yield Headline("connector_moment", "Largest moment in a connector", moment[0], "N m", moment[1], MODEL)
     opening = _greatest(
-        [(place, item.assign(opening=item["relative_motion_largest"].sel(component="along"))) for place, item in seas],
+        [(place, item.assign(opening=item["relative_motion_largest"].sel(component="y"))) for place, item in seas],
         "opening",
     )
     if opening is not None and opening[0] > 1e-9:

@@ -27,7 +27,7 @@ from moyai.structures.units.bem import (
 )
 
 #: Accepted errors of the mesh, over the largest coefficient of the band
-SYMMETRY, HASKIND, ENERGY = 0.05, 0.05, 0.05
+SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,10 +20,10 @@ from moyai.structures.units.model import Placement
 
 HULL, LID, GAP = 0, 1, 2
 #: Share of cosine spacing in the cuts; the rest is even
-REFINEMENT = 0.6
-#: Least number of steps on a straight edge of the section that takes a fifth of the girth or more: roll needs them
+REFINEMENT = 0.8
+#: Least number of steps on a straight edge of the section that takes a twelfth of the girth or more: roll needs them
 LEAST_STEPS = 6
-_LONG_EDGE = 0.2
+_LONG_EDGE = 0.08
 #: Least width of a gap over the size of a panel
 LEAST_GAP = 0.1
 

@@ -22,9 +22,6 @@ from moyai.sea.environment import Environment
 
 #: Along x, y, z and about x, y, z of the unit.
 DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
-#: The same of a connector: loads along x, y, z and about x, y, z of the unit before it.
-COMPONENTS = ("across", "along", "vertical", "about x", "about y", "about z")
-
 ConnectorKind = Literal["rigid", "hinge", "ball", "spring", "rubber", "chain", "fender"]
 Analysis = Literal["statics", "frequency", "map"]
 
@@ -258,6 +255,6 @@ def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]
 
 
 __all__ = [
-    "COMPONENTS", "DOFS", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
+    "DOFS", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
     "Settings", "UnitLine", "UnitsProblem", "straight_row",
 ]  # fmt: skip

@@ -76,7 +76,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
 LABELS: dict[str, str] = {
     "unit": "unit, counted from 1",
     "connector": "connector",
-    "component": "component along or about an axis of the unit before the connector",
+    "component": "component along or about x (across), y (along), z (up) of the unit before the connector",
     "influenced_dof": "motion that is pushed",
     "radiating_dof": "motion that moves",
     "direction": "direction of the mean drift",
