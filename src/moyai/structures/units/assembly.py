@@ -1,10 +1,11 @@
-"""From the case to the row at one water level: draught, masses, stiffness, lines in row axes, place under steady loads."""
+"""From the case to the row at one water level: draught, masses, stiffness, lines in row axes, steady loads."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -122,7 +123,7 @@ class RowAtLevel:
             out[part, part] = turn @ block @ turn.T
         return out
 
-    def in_unit_axes(self, motion: Array) -> Array:
+    def in_unit_axes(self, motion: Any) -> Any:
         """Return motions (..., m) in row axes as (..., u, 6) in axes of each unit."""
         shaped = np.asarray(motion).reshape(*np.shape(motion)[:-1], self.row.count, 6)
         turns = np.array([np.kron(np.eye(2), place.rotation.T) for place in self.row.placements])
@@ -456,8 +457,8 @@ def level_notices(at: RowAtLevel) -> tuple[Notice, ...]:
         notices.append(
             Notice(
                 "imbalance",
-                f"{at.name}: unit {worst + 1} would float {share[worst]:+.2f} % of its displacement off the draught that "
-                "all units are given",
+                f"{at.name}: unit {worst + 1} would float {share[worst]:+.2f} % of its displacement off the draught "
+                "that all units are given",
                 float(abs(share[worst])), IMBALANCE_LIMIT,
             )
         )  # fmt: skip

@@ -1,7 +1,8 @@
 """Connectors between units: what they hold, what they give way to, and the loads in them.
 
-The relative motion of a connector is that of the unit after it less that of the unit before it, at its place, in axes of
-the unit before it [eq:units-relative]. Held components are constraints; the others bear by springs, dashpots, curves.
+The relative motion of a connector is that of the unit after it less that of the unit before it, at its place, in axes
+of the unit before it [eq:units-relative]. Held components are constraints; the others bear by springs, dashpots,
+curves.
 """
 
 from __future__ import annotations

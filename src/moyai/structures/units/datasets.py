@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from moyai.core.arrays import Array
+from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.assembly import RowAtLevel, steady_position
@@ -171,7 +171,7 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -
     return data
 
 
-def _harmonic_resultant(force: Array, mean: Array) -> Array:
+def _harmonic_resultant(force: ComplexArray, mean: Array) -> Array:
     """Return the largest resultant over a period (joints,)."""
     angle = np.linspace(0.0, 2.0 * np.pi, 73)
     over = np.real(force[:, None, :] * np.exp(-1j * angle)[None, :, None]) + mean[:, None, :]
@@ -199,7 +199,7 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
     omega, density, fine = answer.fine.omega, answer.density, answer.fine
     duration = sea.duration
 
-    def largest(transfer: Array) -> Array:
+    def largest(transfer: ComplexArray) -> Array:
         return response_statistics(omega, transfer, density).most_probable_maximum(duration)
 
     motion = response_statistics(omega, at.in_unit_axes(fine.motion), density)

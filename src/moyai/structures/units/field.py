@@ -6,8 +6,10 @@ Incident, scattered and radiated waves of all units are summed before their heig
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from moyai.core.arrays import Array, ComplexArray
 from moyai.core.progress import Progress, silent
@@ -17,6 +19,9 @@ from moyai.structures.units.bem import elevation_at, engine_version, given_flow
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
 from moyai.structures.units.model import MapArea
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 LINE_POINTS = 41
 
@@ -40,7 +45,7 @@ class MapPoints:
     x: Array
     y: Array
     points: Array
-    wet: Array
+    wet: NDArray[np.bool_]
     named: slice
     line: slice
 
@@ -61,11 +66,11 @@ def map_points(area: MapArea, at: RowAtLevel) -> MapPoints:
     points = np.concatenate(parts)
     wet = np.ones(len(points), dtype=bool)
     for place in at.row.placements:
-        wet &= ~_inside(points, waterplane(at.section, at.row.length, place))
+        wet[_inside(points, waterplane(at.section, at.row.length, place))] = False
     return MapPoints(x, y, points, wet, slice(counts[1], counts[2]), slice(counts[2], counts[3]))
 
 
-def _inside(points: Array, corners: Array) -> Array:
+def _inside(points: Array, corners: Array) -> NDArray[np.bool_]:
     inside = np.ones(len(points), dtype=bool)
     for a, b in zip(corners, np.roll(corners, -1, axis=0)):
         inside &= (b[0] - a[0]) * (points[:, 1] - a[1]) - (b[1] - a[1]) * (points[:, 0] - a[0]) >= 0.0
@@ -120,13 +125,13 @@ def wave_field(
     return WaveField(tuple(radiated), tuple(diffracted))
 
 
-def _kept(waves: ComplexArray):  # type: ignore[no-untyped-def]
+def _kept(waves: ComplexArray) -> xr.Dataset:
     import xarray as xr
 
     return xr.Dataset({"field": (("point", "wave"), waves)})
 
 
-def _spread(values: ComplexArray, wet: Array) -> ComplexArray:
+def _spread(values: ComplexArray, wet: NDArray[np.bool_]) -> ComplexArray:
     out = np.full((len(wet), values.shape[1]), complex(np.nan, np.nan))
     out[wet] = values
     return out

@@ -13,6 +13,7 @@ import numpy as np
 
 from moyai.core.arrays import Array
 from moyai.core.headline import Headline
+from moyai.core.wording import spoken
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,8 +41,8 @@ def headlines_of(groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
     found.append(
         Headline(
             "not_judged", "Not judged", math.nan, "1",
-            text="snap and impact in time, slow drift about the mean, lines in motion, fatigue of connectors",
-            detail="a row of units is computed in the frequency domain; lines are at rest at every instant",
+            text="time domain, slow drift, fatigue",
+            detail="no impacts and snaps in time, no slow drift about the mean, no lines in motion, no fatigue",
         )
     )  # fmt: skip
     return tuple(found)
@@ -79,7 +80,7 @@ def _connectors(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Datas
     found = _greatest(seas, "connector_resultant_largest")
     if found is None:
         return
-    value, where, (path, data, index) = found
+    value, where, (path, _, _) = found
     words = "mean and waves together, along the direction that bears most"
     yield Headline("connector_force", "Largest force in a connector", value, "N", where, MODEL, detail=words)
     rest = groups[f"/{path.split('/')[1]}/statics"]
@@ -115,7 +116,8 @@ def _lines(groups: Mapping[str, xr.Dataset], seas: list[tuple[str, xr.Dataset]])
     value, where, (path, data, index) = found
     mean = float(data["line_tension_mean"].values[index])
     yield Headline(
-        "line_tension", "Largest tension of a line", value, "N", where, AT_REST, detail=f"mean {mean:.4g} N", mean=mean,
+        "line_tension", "Largest tension of a line", value, "N", where, AT_REST, mean=mean,
+        detail=f"mean {spoken(mean, 'N', 3)}",
         analysis="quasi_static",
     )  # fmt: skip
     load = np.asarray(groups[f"/{path.split('/')[1]}/statics"]["breaking_load"].values, dtype=float)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -25,6 +26,9 @@ from moyai.structures.units.bem import (
     engine_version,
     solve_frequency,
 )
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Accepted errors of the mesh, over the largest coefficient of the band
 SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
@@ -176,7 +180,7 @@ _FIELDS = {
 }
 
 
-def _to_dataset(found: Solution):  # type: ignore[no-untyped-def]
+def _to_dataset(found: Solution) -> xr.Dataset:
     import xarray as xr
 
     data = {name: (dims, getattr(found, name)) for name, dims in _FIELDS.items()}
@@ -184,10 +188,10 @@ def _to_dataset(found: Solution):  # type: ignore[no-untyped-def]
     return xr.Dataset(data, attrs=numbers)
 
 
-def _from_dataset(data) -> Solution | None:  # type: ignore[no-untyped-def]
+def _from_dataset(data: xr.Dataset) -> Solution | None:
     try:
-        arrays = {name: data[name].transpose(*dims).values for name, dims in _FIELDS.items()}
-        numbers = {name: float(data.attrs[name]) for name in ("omega", "wave_number")}
+        arrays: dict[str, Any] = {name: data[name].transpose(*dims).values for name, dims in _FIELDS.items()}
+        numbers: dict[str, Any] = {name: float(data.attrs[name]) for name in ("omega", "wave_number")}
     except (KeyError, ValueError):
         return None
     return Solution(**numbers, **arrays)

@@ -91,7 +91,7 @@ class PanelMesh:
 
 
 def cuts(length: float, size: float, *, even: bool = False, refined: bool = True) -> Array:
-    """Return stations from 0 to ``length`` [m], closer at both ends, none farther apart than ``size`` [eq:units-cosine].
+    """Return stations from 0 to ``length`` [m], closer at both ends, at most ``size`` apart [eq:units-cosine].
 
     Parameters
     ----------

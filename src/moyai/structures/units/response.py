@@ -99,11 +99,11 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     tension = motion @ at.tension_gradient(model.position).T
     velocity = -1j * omega[:, None, None] * motion
     power = 0.5 * np.real(np.einsum("nhi,nij,nhj->nh", velocity.conj(), own, velocity))
-    return RowResponse(omega, motion, relative, load, tension, power)
+    return RowResponse(omega, motion, relative, load, np.asarray(tension), np.asarray(power, dtype=float))
 
 
 def _own_damping(at: RowAtLevel, added: Array, stiffness: Array) -> Array:
-    """Return the damping (n, m, m) beyond waves and connectors: given, and a fraction of critical [eq:units-critical]."""
+    """Return the damping (n, m, m) beyond waves and connectors [eq:units-critical]."""
     row = at.row
     turn = np.zeros((at.size, at.size))
     for number, place in enumerate(row.placements):

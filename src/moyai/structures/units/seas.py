@@ -78,7 +78,7 @@ def spread_of(sea: SeaState, omega: Array) -> tuple[Array, Array]:
     share = np.diff(below, axis=1)
     share = share / share.sum(axis=1, keepdims=True)
     middle = sea.heading + 0.5 * (edges[1:] + edges[:-1])
-    return np.round(np.arctan2(np.sin(middle), np.cos(middle)), 12), share
+    return np.asarray(np.round(np.arctan2(np.sin(middle), np.cos(middle)), 12), dtype=float), share
 
 
 def columns_of(hydro: RowHydrodynamics, headings: Array) -> Array:
@@ -192,7 +192,7 @@ def regular_answer(
 
 
 def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
-    where = np.ix_([row], columns)
+    where = np.ix_(np.array([row]), columns)
     return RowResponse(
         response.omega[[row]], response.motion[where], response.relative[where], response.load[where],
         response.tension[where], response.dissipated[where],

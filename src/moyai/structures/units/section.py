@@ -1,9 +1,10 @@
-"""The two-dimensional answer of the same section, to be compared with the row: an endless unit, held by its own lines."""
+"""The two-dimensional answer of the same section, to be compared with the row: an endless unit on its own lines."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from moyai.floating.frequency import solve_motions
 from moyai.potential.modes import rigid_modes
 from moyai.potential.solver import solve
 from moyai.structures.units.assembly import RowAtLevel
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 LARGEST_HEADING = math.radians(75.0)
 #: Motions of the section among those of a unit
@@ -82,7 +86,7 @@ def section_answer(at: RowAtLevel, omega: Array, headings: Array, progress: Prog
     return SectionAnswer(transmission, motion, drift)
 
 
-def _headings(data, length: float) -> tuple[Hydrodynamics, ...]:  # type: ignore[no-untyped-def]
+def _headings(data: xr.Dataset, length: float) -> tuple[Hydrodynamics, ...]:
     """Return the coefficients of each heading, with the radiation that belongs to it."""
     out = []
     for index in range(data.sizes["wave_direction"]):

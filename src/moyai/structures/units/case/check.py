@@ -1,4 +1,4 @@
-"""Checks of a row of units: do they float apart, do connectors and lines make sense, do the panels resolve the waves."""
+"""Checks of a row of units: do they float apart, do connectors make sense, do the panels resolve the waves."""
 
 from __future__ import annotations
 
@@ -256,8 +256,11 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
                 panels = row_panels(at, problem.settings, float(omega.max()))
                 check_memory(panels)
                 notices += check_resolution(at, panels, omega)
-        except (InputError, ConvergenceError) as error:
+        except InputError as error:
             findings.raised(error, ("structure",))
+            return
+        except ConvergenceError as error:
+            findings.fault(("structure",), error.fault.message, remedy=error.fault.remedy)
             return
         for notice in notices:
             if notice.code in said or notice.severity == "information":

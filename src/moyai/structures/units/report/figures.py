@@ -209,8 +209,8 @@ def points_table(level: Group, sea: Group) -> Table | None:
         columns = [Column("What", rows), Column("Value", numbers)]
     return Table(
         slug(level.name, "waves", sea.name), f"Wave heights over the incident one: {sea.name}", tuple(columns),
-        note="Transmission: root mean square of K along the line behind. The section alone is the two-dimensional answer, "
-        "without ends, gaps and connectors.",
+        note="Transmission: root mean square of K along the line behind. The section alone is the two-dimensional "
+        "answer, without ends, gaps and connectors.",
     )  # fmt: skip
 
 
@@ -251,8 +251,8 @@ def connector_table(level: Group, sea: Group, period: int | None) -> Table | Non
     return Table(
         slug(level.name, "connectors", sea.name, "" if period is None else str(period + 1)),
         f"Connectors: {sea.name}{when}", tuple(columns),
-        note="Most loaded first. Largest values: mean and waves together, in an irregular sea the most probable largest "
-        "in its duration. Axes of the unit before the connector: x across, y along, z up.",
+        note="Most loaded first. Largest values: mean and waves together, in an irregular sea the most probable "
+        "largest in its duration. Axes of the unit before the connector: x across, y along, z up.",
     )  # fmt: skip
 
 
@@ -294,7 +294,7 @@ def line_table(level: Group, sea: Group, period: int | None) -> Table | None:
     when = "" if period is None else f", T = {float(sea.require('period', 'period')[period]):g} s"
     return Table(
         slug(level.name, "tensions", sea.name, "" if period is None else str(period + 1)),
-        f"Lines: {sea.name}{when}", tuple(columns), note="Lines at rest at every instant, linear about the mean position.",
+        f"Lines: {sea.name}{when}", tuple(columns), note="At rest at every instant, linear about the mean position.",
     )  # fmt: skip
 
 
