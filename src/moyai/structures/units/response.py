@@ -79,8 +79,9 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     added, radiation, excitation = model.hydro.at(omega, k)
     joints, free = at.joints, at.free
     along = np.array([joint.along for joint in joints]).reshape(len(joints), at.size)
-    stiffness = at.hydrostatic + at.springs[0] + at.line_stiffness(model.position)
-    own = _own_damping(at, added, stiffness) + at.springs[1]
+    restoring = at.hydrostatic + at.line_stiffness(model.position)
+    stiffness = restoring + at.springs[0]
+    own = _own_damping(at, added, restoring) + at.springs[1]
     headings = excitation.shape[1]
     given = np.broadcast_to(np.asarray(curve_stiffness, dtype=float), (len(omega), headings, len(joints)))
     motion = np.empty(excitation.shape, dtype=complex)
