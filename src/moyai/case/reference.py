@@ -19,6 +19,8 @@ from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, QuantityOf
 from moyai.core.kinds import further_files, structure_kinds
 
+#: Kinds whose name is no word for one of them
+_WORDS = {"units": "row of units"}
 #: Files on the pages that are not about cases
 _FILES = {
     "record_files.md": {
@@ -36,7 +38,7 @@ def _mark(page: str) -> str:
 def reference_markdown(page: str = "case_file.md") -> str:
     """Return the tables of every block: of every kind of structure, or of the files that a page is about."""
     lines: list[str] = []
-    roots = {f"Case of a {kind}": root_schema(kind) for kind in structure_kinds()}
+    roots = {f"Case of a {_WORDS.get(kind, kind)}": root_schema(kind) for kind in structure_kinds()}
     if page in _FILES:
         known = further_files()
         roots = {f"Keys: {title.lower()}": known[name].file_schema(name) for name, title in _FILES[page].items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,9 @@ from moyai.structures.units.connectors import Joint, constraints, joints_of, nul
 from moyai.structures.units.model import FloatingRow, Placement, UnitLine
 
 IMBALANCE_LIMIT = 1.0  # per cent of the displacement of a unit
+#: Half width that corners of curves are rounded over at rest, over the length of a unit; wider ones lead the way there
+ROUNDING = 1e-4
+_WIDER = (100.0, 10.0, 1.0)
 _LEVELS = 41  # Simpson points over the draught for the current
 
 
@@ -147,13 +150,18 @@ class RowAtLevel:
                 out[part] = system.forces(position[part])
         return out
 
-    def curve_force(self, position: Array) -> Array:
-        """Return the force (m,) of connectors with a curve."""
+    def curve_force(self, position: Array, width: float) -> Array:
+        """Return the force (m,) of connectors with a curve, its corners rounded over ``width`` [m]."""
         out = np.zeros(self.size)
         for joint in self.joints:
             if joint.connector.curve is not None:
-                out -= float(joint.connector.curve.at(joint.along @ position)) * joint.along
+                out -= joint.connector.curve.rounded(float(joint.along @ position), width)[0] * joint.along
         return out
+
+    @property
+    def rounding(self) -> float:
+        """Half width [m] that the corners of curves are rounded over when the row comes to rest."""
+        return ROUNDING * self.row.length
 
     @property
     def line_names(self) -> tuple[str, ...]:
@@ -348,22 +356,32 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
     balanced[2::6] = rest[2::6]
     linear = at.hydrostatic + at.springs[0]
 
-    def imbalance(position: Array) -> Array:
-        return at.line_force(position) - balanced + at.curve_force(position) + load - linear @ position
+    def imbalance(position: Array, width: float) -> Array:
+        curves = at.curve_force(position, width)
+        return at.line_force(position) - balanced + curves + load - linear @ position
 
-    def tangent(position: Array) -> Array:
-        return -(at.line_stiffness(position) + linear + _curve_stiffness(at, position))
+    def tangent(position: Array, width: float) -> Array:
+        return -(at.line_stiffness(position) + linear + _curve_stiffness(at, position, width))
 
     free = at.free
+
+    def forces(reduced: Array, width: float) -> Array:
+        return free.T @ imbalance(free @ reduced, width)
+
+    def slopes(reduced: Array, width: float) -> Array:
+        return free.T @ tangent(free @ reduced, width) @ free
+
     weight = float(at.masses.max()) * at.water.gravity
     size = np.tile([1.0, 1.0, 1.0, *([at.row.length] * 3)], at.row.count)
     scale = weight * np.sqrt(((free * size[:, None]) ** 2).sum(axis=0))
-    if at.row.lines or np.any(load):
+    reduced = np.zeros(free.shape[1])
+    curved = any(joint.connector.curve is not None for joint in at.joints)
+    for factor in (_WIDER if curved else (1.0,)) if at.row.lines or np.any(load) else ():
+        width = factor * at.rounding
         try:
             reduced, _, _ = newton_with_line_search(
-                lambda q: free.T @ imbalance(free @ q),
-                lambda q: free.T @ tangent(free @ q) @ free,
-                np.zeros(free.shape[1]), scale, list(range(free.shape[1])), 1e-9,
+                partial(forces, width=width), partial(slopes, width=width),
+                reduced, scale, list(range(free.shape[1])), 1e-9,
             )  # fmt: skip
         except ConvergenceError as error:
             raise InputError(
@@ -371,10 +389,8 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
                 path="lines",
                 remedy="use stronger or more lines",
             ) from error
-        position = free @ reduced
-    else:
-        position = np.zeros(at.size)
-    return RowPosition(position, load, held_load(at, imbalance(position)))
+    position = free @ reduced
+    return RowPosition(position, load, held_load(at, imbalance(position, at.rounding)))
 
 
 def held_load(at: RowAtLevel, force: Array) -> Array:
@@ -387,15 +403,12 @@ def held_load(at: RowAtLevel, force: Array) -> Array:
     ))  # fmt: skip
 
 
-def _curve_stiffness(at: RowAtLevel, position: Array) -> Array:
+def _curve_stiffness(at: RowAtLevel, position: Array, width: float) -> Array:
     out = np.zeros((at.size, at.size))
     for joint in at.joints:
         curve = joint.connector.curve
         if curve is not None:
-            e = float(joint.along @ position)
-            step = 1e-6 * max(1e-3, float(np.ptp(curve.elongation)))
-            slope = float(curve.at(np.array(e + step)) - curve.at(np.array(e - step))) / (2.0 * step)
-            out += slope * np.outer(joint.along, joint.along)
+            out += curve.rounded(float(joint.along @ position), width)[1] * np.outer(joint.along, joint.along)
     return out
 
 

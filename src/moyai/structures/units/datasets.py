@@ -117,7 +117,7 @@ def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
         if connector.stiffness is not None:
             out[number] += connector.stiffness @ (joint.relative @ position)
         if connector.curve is not None:
-            force = float(connector.curve.at(np.asarray(joint.along @ position)))
+            force = connector.curve.rounded(float(joint.along @ position), at.rounding)[0]
             out[number, :3] += force * np.asarray(connector.axis)
     return out
 

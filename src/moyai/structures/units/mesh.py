@@ -286,7 +286,7 @@ def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...]
         near = one.to_row(np.array([(x, 0.5 * length, 0.0) for x in across]))
         far = other.to_row(np.array([(x, -0.5 * length, 0.0) for x in across]))
         width = float(np.linalg.norm(far - near, axis=1).max())
-        t = cuts(1.0, min(1.0, size / width), even=width > size, refined=False)
+        t = cuts(1.0, min(1.0, size / width), even=True, refined=False)
         nodes = near[:, None] + t[None, :, None] * (far - near)[:, None]
         panels = [
             [nodes[i, j], nodes[i, j + 1], nodes[i + 1, j + 1], nodes[i + 1, j]]

@@ -63,6 +63,14 @@ class Curve:
         inside = np.interp(e, x, f)
         return np.where(e < x[0], f[0] + first * (e - x[0]), np.where(e > x[-1], f[-1] + last * (e - x[-1]), inside))
 
+    def rounded(self, elongation: float, width: float) -> tuple[float, float]:
+        """Return force [N] and slope [N/m], the mean over ``width`` [m] to either side: a curve without corners."""
+        nodes = np.array(self.elongation)
+        low, high = elongation - width, elongation + width
+        e = np.concatenate([[low], nodes[(nodes > low) & (nodes < high)], [high]])
+        force = self.at(e)
+        return float(np.trapezoid(force, e)) / (2.0 * width), float(force[-1] - force[0]) / (2.0 * width)
+
 
 @checks_words
 @dataclass(frozen=True)

@@ -34,10 +34,12 @@ from moyai.structures.units.model import Settings, UnitsProblem
 from moyai.structures.units.seas import (
     ENERGY_LEFT_OUT,
     SeaAnswer,
+    columns_of,
     frequencies_of,
     headings_of,
     irregular_answer,
     regular_answer,
+    spread_of,
 )
 from moyai.structures.units.section import SectionAnswer, comparable, section_answer
 from moyai.structures.units.variables import VOCABULARY
@@ -205,9 +207,15 @@ def _level_steps(
 def _section(
     problem: UnitsProblem, at: RowAtLevel, hydro: RowHydrodynamics, progress: Progress
 ) -> SectionAnswer | None:
-    if not (problem.settings.section_compare and comparable(at, hydro.headings)):
+    """Return the section in the headings of all seas that it stands for, NaN in others."""
+    if not problem.settings.section_compare:
         return None
-    return section_answer(at, hydro.omega, hydro.headings, progress)
+    each = [spread_of(sea, np.ones(1))[0] for sea in problem.environment.sea_states]
+    wanted = [headings for headings in each if comparable(at, headings)]
+    if not wanted:
+        return None
+    headings = np.unique(np.concatenate(wanted))
+    return section_answer(at, hydro.omega, headings, progress).placed(columns_of(hydro, headings), len(hydro.headings))
 
 
 def _balance(

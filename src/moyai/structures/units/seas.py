@@ -31,8 +31,8 @@ ENERGY_LEFT_OUT = 0.02
 FINE = 161
 #: Headings of a spread sea
 HEADINGS = 13
-_TURNS = 40
-_SETTLED = 1e-4
+_TURNS = 100
+_SETTLED = 1e-3
 
 
 def band_of(sea: IrregularSea) -> tuple[float, float]:
@@ -155,7 +155,7 @@ def regular_answer(
         row = int(np.argmin(np.abs(hydro.omega - omega[0])))
         drift = np.zeros(3)
         rest = steady_position(at, steady)
-        curves, converged = np.zeros(len(at.joints)), False
+        curves, converged, relaxed = np.zeros(len(at.joints)), False, _Relaxed(len(at.joints))
         for _ in range(_TURNS):
             model = RowModel(at, hydro, rest.position)
             found = respond(model, hydro.omega[[row]], curves)
@@ -174,7 +174,7 @@ def regular_answer(
                 coarse = respond(model, hydro.omega, curves)
                 moved = amplitude**2 * far_waves(model, coarse).drift[row, column[0]]
             settled = _near(new, curves) and _near(moved, drift)
-            curves, drift = 0.5 * (curves + new), moved
+            curves, drift = relaxed.towards(curves, new), moved
             if settled:
                 converged = True
                 break
@@ -197,6 +197,21 @@ def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
         response.omega[[row]], response.motion[where], response.relative[where], response.load[where],
         response.tension[where], response.dissipated[where],
     )  # fmt: skip
+
+
+class _Relaxed:
+    """Steps of a fixed-point iteration, each entry by itself: shorter when it turns back, longer when it goes on."""
+
+    def __init__(self, count: int) -> None:
+        self._factor, self._last = np.full(count, 0.5), np.zeros(count)
+
+    def towards(self, old: Array, new: Array) -> Array:
+        """Return the next value between the old one and what it leads to."""
+        step = new - old
+        back = step * self._last < 0.0
+        self._factor = np.where(back, 0.5 * self._factor, np.minimum(1.2 * self._factor, 1.0))
+        self._last = step
+        return np.asarray(old + self._factor * step)
 
 
 def _near(new: Array, old: Array) -> bool:
@@ -225,6 +240,7 @@ def irregular_answer(
     weights = cell_weights(hydro.omega, low, high)
     one = _of_headings(hydro, columns)
     drift, curves, converged = np.zeros(3), np.zeros(len(at.joints)), False
+    relaxed = _Relaxed(len(at.joints))
     rest = steady_position(at, steady)
     for _ in range(_TURNS):
         model = RowModel(at, one, rest.position)
@@ -243,7 +259,7 @@ def irregular_answer(
             coefficient = far_waves(model, respond(model, hydro.omega, curves)).drift
             moved = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, coefficient)
         settled = _near(new, curves) and _near(moved, drift)
-        curves, drift = 0.5 * (curves + new), moved
+        curves, drift = relaxed.towards(curves, new), moved
         if settled:
             converged = True
             break

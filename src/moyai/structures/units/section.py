@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -43,6 +43,16 @@ class SectionAnswer:
     transmission: Array
     motion: ComplexArray
     drift: Array
+
+    def placed(self, columns: Array, count: int) -> SectionAnswer:
+        """Return it among ``count`` headings, at ``columns``; NaN elsewhere."""
+
+        def among(values: Any) -> Any:
+            out = np.full((len(values), count, *values.shape[2:]), np.nan, dtype=values.dtype)
+            out[:, columns] = values
+            return out
+
+        return SectionAnswer(among(self.transmission), among(self.motion), among(self.drift))
 
 
 def comparable(at: RowAtLevel, headings: Array) -> bool:
