@@ -20,7 +20,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.core.errors import InputError
 from moyai.sea.dispersion import wave_number
 from moyai.sea.water import Water
-from moyai.structures.units.mesh import GAP, HULL, PanelMesh
+from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
 from moyai.structures.units.symmetry import Symmetry, symmetry_of
 
 #: Bytes of a complex number
@@ -278,10 +278,8 @@ def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, 
     for element, (over_x, over_y) in enumerate(group.mirrors):
         corners = mesh.corners[group.part] * np.array([-1.0 if over_x else 1.0, -1.0 if over_y else 1.0, 1.0])
         if over_x != over_y:
-            # a mirror turns the corners round; the first stays, so that triangles repeat it
-            corners = corners[:, [0, 3, 2, 1]]
-            three = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1) < 1e-12
-            corners[three] = corners[three][:, [0, 2, 3, 0]]
+            # a mirror turns the corners round
+            corners = turned_round(corners)
         blocks.append(
             engine.evaluate(
                 part, _capytaine_mesh(corners), free_surface=0.0, water_depth=water.depth, wavenumber=k,

@@ -24,6 +24,10 @@ REFINEMENT = 0.8
 #: Least number of steps on a straight edge of the section that takes a twelfth of the girth or more: roll needs them
 LEAST_STEPS = 6
 _LONG_EDGE = 0.08
+#: Largest turn of the chords of an arc [deg]: 0.7 % of the area of a circle
+_LARGEST_TURN = 12.0
+#: Most panels of a row
+MOST_PANELS = 50_000
 #: Least width of a gap over the size of a panel
 LEAST_GAP = 0.1
 
@@ -123,9 +127,9 @@ def _girth(section: Section, chain: int, size: float) -> Array:
         length = float(one.lengths[0])
         straight = abs(float(edges.bulge[number])) < 1e-12
         level = straight and abs(float(edges.start[number, 1] - edges.end[number, 1])) < 1e-9
-        # chords of an arc turn by at most 22.5 degrees
+        # chords of an arc turn little
         turn = abs(4.0 * math.atan(float(edges.bulge[number])))
-        step = size if straight else min(size, length / max(2.0, turn / math.radians(22.5)))
+        step = size if straight else min(size, length / max(2.0, turn / math.radians(_LARGEST_TURN)))
         if straight and length >= _LONG_EDGE * whole:
             step = min(size, length / LEAST_STEPS * (1.0 - REFINEMENT + REFINEMENT * 0.5 * math.pi))
         fractions = cuts(length, step, even=level or not straight, refined=straight) / length
@@ -177,35 +181,27 @@ def _shell(girth: Array, along: Array) -> Array:
 
 
 def _ends(girth: Array, size: float, length: float) -> Array:
-    """Panels of both ends (n, 4, 3): from the girth up to the waterline."""
-    left, right = girth[0], girth[-1]
-    fraction = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(girth, axis=0).T))])
-    box = len(girth) > 3 and bool(
-        np.all((np.abs(girth[:, 0] - left[0]) < 1e-9) | (np.abs(girth[:, 0] - right[0]) < 1e-9)
-               | (np.abs(girth[:, 1] - girth[:, 1].min()) < 1e-9))
-    )  # fmt: skip
-    if box:
-        # a rectangle: the stations of the bottom and of the side
-        low = float(girth[:, 1].min())
-        across = np.unique(np.round(girth[np.abs(girth[:, 1] - low) < 1e-9, 0], 12))
-        down = np.unique(np.round(girth[np.abs(girth[:, 0] - left[0]) < 1e-9, 1], 12))
-        grid_x, grid_z = np.meshgrid(across, down, indexing="ij")
-        planes = np.stack([grid_x, grid_z], axis=-1)
-    else:
-        top = left[None, :] + (fraction / fraction[-1])[:, None] * (right - left)[None, :]
-        depth = float(-girth[:, 1].min())
-        t = cuts(1.0, min(1.0, size / depth), refined=True)
-        planes = girth[:, None, :] + t[None, :, None] * (top - girth)[:, None, :]
+    """Panels of both ends (n, 4, 3): level bands between the heights of the girth, each cut across."""
+    low, high = girth[:-1], girth[1:]
+    levels = np.unique(np.round(girth[:, 1], 9))
     panels = []
-    for i in range(planes.shape[0] - 1):
-        for j in range(planes.shape[1] - 1):
-            quad = [planes[i, j], planes[i + 1, j], planes[i + 1, j + 1], planes[i, j + 1]]
-            distinct = [point for k, point in enumerate(quad) if np.hypot(*(point - quad[k - 1])) > 1e-9]
-            if len(distinct) < 3:
-                continue
-            if len(distinct) == 3:
-                distinct = [*distinct, distinct[0]]
-            panels.append(distinct)
+    for bottom, top in pairwise(levels):
+        middle = 0.5 * (bottom + top)
+        crossing = np.flatnonzero((low[:, 1] - middle) * (high[:, 1] - middle) < 0.0)
+        sides = [
+            [low[n, 0] + (z - low[n, 1]) * (high[n, 0] - low[n, 0]) / (high[n, 1] - low[n, 1]) for z in (bottom, top)]
+            for n in crossing
+        ]
+        sides.sort(key=sum)
+        for left, right in zip(sides[::2], sides[1::2]):
+            width = max(right[0] - left[0], right[1] - left[1])
+            t = cuts(1.0, min(1.0, size / width), even=True)
+            for s0, s1 in pairwise(t):
+                quad = [
+                    (left[k] + s * (right[k] - left[k]), z)
+                    for s, k, z in ((s0, 0, bottom), (s1, 0, bottom), (s1, 1, top), (s0, 1, top))
+                ]
+                panels.append(_closed(np.array(quad)))
     flat = np.array(panels)
     out = []
     for y, direction in ((-0.5 * length, -1.0), (0.5 * length, 1.0)):
@@ -214,12 +210,29 @@ def _ends(girth: Array, size: float, length: float) -> Array:
     return np.concatenate(out)
 
 
+def _closed(quad: Array) -> Array:
+    """Return four corners; a triangle repeats its first."""
+    apart = np.hypot(*(quad - np.roll(quad, 1, axis=0)).T) > 1e-9
+    if apart.all():
+        return quad
+    three = quad[apart]
+    return np.concatenate([three, three[:1]])
+
+
+def turned_round(corners: Array) -> Array:
+    """Return panels (n, 4, 3) with their corners the other way round; triangles go on to repeat their first."""
+    out = corners[:, [0, 3, 2, 1]]
+    three = np.linalg.norm(out[:, 1] - out[:, 0], axis=1) < 1e-12
+    out[three] = out[three][:, [0, 2, 3, 0]]
+    return out
+
+
 def _outward(corners: Array, direction: Array) -> Array:
     """Turn panels round whose normal points against a direction."""
     first, second = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     wrong = np.cross(first, second) @ direction < 0.0
     out = corners.copy()
-    out[wrong] = corners[wrong][:, [0, 3, 2, 1]]
+    out[wrong] = turned_round(corners[wrong])
     return out
 
 
@@ -265,6 +278,7 @@ def row_mesh(
         Where two units overlap or a gap is narrower than a tenth of a panel.
     """
     check_gaps(section, length, placements, size)
+    _check_count(section, length, len(placements), size)
     one = unit_mesh(section, length, size, lid=lid)
     parts = [
         PanelMesh(place.to_row(one.corners), np.full(one.count, number), one.part)
@@ -276,6 +290,19 @@ def row_mesh(
     for part in parts[1:]:
         mesh = mesh.joined(part)
     return mesh
+
+
+def _check_count(section: Section, length: float, units: int, size: float) -> None:
+    """Refuse panels by the hundred thousand before they are drawn."""
+    girth = sum(float(chain.edges.lengths.sum()) for chain in section.chains)
+    count = units * girth * length / size**2
+    if count > MOST_PANELS:
+        raise InputError(
+            f"panels of {size:.3g} m would be about {count:.2g}",
+            path="settings.panel_size",
+            allowed=f"at least {math.sqrt(units * girth * length / MOST_PANELS):.3g} m",
+            remedy="give larger panels",
+        )
 
 
 def _gap_lids(section: Section, length: float, placements: tuple[Placement, ...], size: float) -> list[PanelMesh]:
