@@ -41,12 +41,12 @@ SLIPS = {
         (UNITS, "units: {length: 20 m, places: [{y: 0 m}, {x: 8 m, y: 8 m, heading_deg: -60}]}"),
         "units 1 and 2 overlap", "structure.units",
     ),
-    "gap under a tenth of a panel": (("gap: 1 m", "gap: 0.1 m"), "under a tenth of a panel (2.5 m)", "structure.units"),
+    "gap under a tenth of a panel": (("gap: 1 m", "gap: 0.1 m"), "under a tenth of a panel (2 m)", "structure.units"),
     "count and places": ((UNITS, "units: {count: 2, length: 20 m, places: [{y: 0 m}]}"), "exclude each other", ""),
     "draught below the bed": (("water_depth: 10 m", "water_depth: 2 m"), "2.4 m deep in 2 m of water", "structure.draught"),
     "draught over the deck": (("draught: 2.4 m", "draught: 3.6 m"), "not less than the height", "structure.draught"),
-    "panels too coarse": (("panel_size: 2.5 m", "panel_size: 6 m"), "panels long", "settings.panel_size"),
-    "panels without number": (("panel_size: 2.5 m", "panel_size: 0.01 m"), "would be about", "settings.panel_size"),
+    "panels too coarse": (("panel_size: 2 m", "panel_size: 6 m"), "panels long", "settings.panel_size"),
+    "panels without number": (("panel_size: 2 m", "panel_size: 0.1 m"), "would be about", "settings.panel_size"),
     "two pins": ((PIN, PIN + "\n    " + PIN.replace("name: pin", "name: second")),
                  "connector 'second 1-2' holds", "structure.connectors"),
     "no such unit": ((PIN, PIN.replace("kind: hinge", "between: [[1, 4]], kind: hinge")), "there is no unit 4", "between"),
@@ -109,5 +109,5 @@ def test_check_tells_panels_and_cost():
 
 
 def test_automatic_panels_resolve_the_shortest_wave():
-    names = {n.label: n.value for n in derived_numbers(case(("panel_size: 2.5 m", "panel_size: auto")))}
+    names = {n.label: n.value for n in derived_numbers(case(("panel_size: 2 m", "panel_size: auto")))}
     assert names["panels a shortest wave"] >= 8.0 * 0.99

@@ -18,7 +18,7 @@ from moyai.structures.units.run import run
 
 SMALL = (
     ("points_across: 15", "points_across: 5"), ("points_along: 15", "points_along: 5"), ("count: 3,", "count: 2,"),
-    ("count: 10}", "count: 5}"), ("panel_size: 2.5 m", "panel_size: 3 m"),
+    ("count: 8}", "count: 5}"), ("panel_size: 2 m", "panel_size: 3 m"),
 )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from moyai.core.arrays import Array, ComplexArray
 from moyai.floating.irregular import response_statistics
 from moyai.sea.states import IrregularSea, RegularSea
 from moyai.structures.units.assembly import RowAtLevel, steady_position
+from moyai.structures.units.connectors import Joint
 from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
 from moyai.structures.units.hydrodynamics import RowHydrodynamics
 from moyai.structures.units.mesh import waterplane
@@ -140,9 +142,11 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -
         [_harmonic_resultant(amplitude * item.fine.load[0, 0, :, :3], mean[:, :3])
          for item, mean in zip(answers, mean_load)]
     ).reshape(len(answers), -1)  # fmt: skip
-    largest, resultant = _by_curve(at, answers, relative_of=lambda item, joint: amplitude * float(
-        np.abs(item.fine.motion[0, 0] @ joint.along)
-    ), largest=largest, resultant=resultant)  # fmt: skip
+
+    def reach(item: SeaAnswer, joint: Joint) -> float:
+        return amplitude * float(np.abs(item.fine.motion[0, 0] @ joint.along))
+
+    low, high = _by_curve(at, answers, reach, largest, resultant)
     dims = ("period", "connector", "component")
     out: dict[str, Any] = {
         "wave_height": ((), sea.height),
@@ -159,6 +163,8 @@ def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -
         "connector_moment_largest": (dims, largest[..., 3:]),
         "connector_resultant_largest": (("period", "connector"), resultant),
         "connector_stiffness_of_curve": (("period", "connector"), np.array([item.curve_stiffness for item in answers])),
+        "elongation_lowest": (("period", "connector"), low),
+        "elongation_highest": (("period", "connector"), high),
         "relative_motion_largest": (dims, relative[..., :3]),
         "relative_turn_largest": (dims, relative[..., 3:]),
         "line_tension_mean": (("period", "line"), mean_tension),
@@ -178,18 +184,29 @@ def _harmonic_resultant(force: ComplexArray, mean: Array) -> Array:
     return np.linalg.norm(over, axis=2).max(axis=1) if len(force) else np.zeros(0)
 
 
-def _by_curve(at: RowAtLevel, answers: list[SeaAnswer], relative_of: Any, largest: Array, resultant: Array) -> Any:
-    """Take the largest loads of connectors with a curve from the curve itself."""
+def _by_curve(
+    at: RowAtLevel,
+    answers: list[SeaAnswer],
+    reach_of: Callable[[SeaAnswer, Joint], float],
+    largest: Array,
+    resultant: Array,
+) -> tuple[Array, Array]:
+    """Take the largest loads (n, joints, 6), (n, joints) of connectors with a curve from the curve itself, in place.
+
+    Return their lowest and highest elongations (n, joints); NaN of other connectors.
+    """
+    low, high = np.full_like(resultant, np.nan), np.full_like(resultant, np.nan)
     for row, item in enumerate(answers):
         for number, joint in enumerate(at.joints):
             curve = joint.connector.curve
             if curve is None:
                 continue
-            mean, reach = float(joint.along @ item.rest.position), relative_of(item, joint)
+            mean, reach = float(joint.along @ item.rest.position), reach_of(item, joint)
+            low[row, number], high[row, number] = mean - reach, mean + reach
             force = float(np.abs(curve.at(np.array([mean - reach, mean, mean + reach]))).max())
             largest[row, number, :3] = force * np.abs(np.asarray(joint.connector.axis))
             resultant[row, number] = force
-    return largest, resultant
+    return low, high
 
 
 def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> xr.Dataset:
@@ -210,20 +227,22 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
     resultant = np.linalg.norm(mean_load[:, :3], axis=1) + _gaussian_resultant(answer, duration)
     relative = largest(fine.relative)
     top, resultant = top[None], resultant[None]
-    top, resultant = _by_curve(
-        at, [answer], lambda item, joint: float(largest(item.fine.motion @ joint.along)), top, resultant
-    )
+
+    def reach(item: SeaAnswer, joint: Joint) -> float:
+        return float(largest(item.fine.motion @ joint.along))
+
+    low, high = _by_curve(at, [answer], reach, top, resultant)
     mean_tension = at.tensions(answer.rest.position)
     waves = response_statistics(omega, np.ones(density.shape), density)
     dims = ("connector", "component")
-    reach = motion.most_probable_maximum(duration)
+    most = motion.most_probable_maximum(duration)
     out: dict[str, Any] = {
         "significant_height": ((), float(waves.significant)),
         "peak_period": ((), float(sea.spectrum.peak_period)),
         "significant_motion": (("unit", "dof"), motion.significant),
-        "most_probable_maximum_motion": (("unit", "dof"), reach),
+        "most_probable_maximum_motion": (("unit", "dof"), most),
         "mean_offset": (("unit", "dof"), offset),
-        "largest_offset": ("unit", np.abs(offset[:, 0]) + reach[:, 0]),
+        "largest_offset": ("unit", np.abs(offset[:, 0]) + most[:, 0]),
         "mean_drift": ("direction", answer.drift),
         "connector_force_mean": (dims, mean_load[:, :3]),
         "connector_moment_mean": (dims, mean_load[:, 3:]),
@@ -233,6 +252,8 @@ def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> x
         "connector_moment_largest": (dims, top[0, :, 3:]),
         "connector_resultant_largest": ("connector", resultant[0]),
         "connector_stiffness_of_curve": ("connector", answer.curve_stiffness),
+        "elongation_lowest": ("connector", low[0]),
+        "elongation_highest": ("connector", high[0]),
         "relative_motion_largest": (dims, relative[:, :3]),
         "relative_turn_largest": (dims, relative[:, 3:]),
         "line_tension_mean": ("line", mean_tension),

@@ -137,7 +137,9 @@ def _girth(section: Section, chain: int, size: float) -> Array:
     return np.concatenate(points)
 
 
-def unit_mesh(section: Section, length: float, size: float, *, lid: bool, even: bool = True) -> PanelMesh:
+def unit_mesh(
+    section: Section, length: float, size: float, *, lid: bool, even: bool = True, end_size: float | None = None
+) -> PanelMesh:
     """Return the panels of one unit in its own axes: middle of its length at y = 0.
 
     Parameters
@@ -152,6 +154,8 @@ def unit_mesh(section: Section, length: float, size: float, *, lid: bool, even: 
         Whether the still water inside of the hull gets a lid.
     even : bool
         Whether the middle of the unit falls on a station.
+    end_size : float or None
+        Of the panels on the ends across, where a gap asks for smaller ones [m].
     """
     along = cuts(length, size, even=even) - 0.5 * length
     pieces: list[Array] = []
@@ -159,7 +163,7 @@ def unit_mesh(section: Section, length: float, size: float, *, lid: bool, even: 
     for chain in range(len(section.chains)):
         girth = _girth(section, chain, size)
         pieces.append(_shell(girth, along))
-        pieces.append(_ends(girth, size, length))
+        pieces.append(_ends(girth, end_size or size, length))
         if lid:
             left, right = float(girth[0, 0]), float(girth[-1, 0])
             across = left + cuts(right - left, 1.5 * size, even=True, refined=False)
@@ -279,17 +283,25 @@ def row_mesh(
     """
     check_gaps(section, length, placements, size)
     _check_count(section, length, len(placements), size)
-    one = unit_mesh(section, length, size, lid=lid)
+    narrow = gap_size(section, length, placements, size)
+    one = unit_mesh(section, length, size, lid=lid, end_size=narrow)
     parts = [
         PanelMesh(place.to_row(one.corners), np.full(one.count, number), one.part)
         for number, place in enumerate(placements)
     ]
     if gap_lid:
-        parts += _gap_lids(section, length, placements, size)
+        parts += _gap_lids(section, length, placements, narrow)
     mesh = parts[0]
     for part in parts[1:]:
         mesh = mesh.joined(part)
     return mesh
+
+
+def gap_size(section: Section, length: float, placements: tuple[Placement, ...], size: float) -> float:
+    """Return the size of panels that face each other in a gap [m]: its width, a quarter of the others at least."""
+    plans = [waterplane(section, length, place) for place in placements]
+    narrowest = min((clearance(one, other) for one, other in pairwise(plans)), default=size)
+    return min(size, max(narrowest, 0.25 * size))
 
 
 def _check_count(section: Section, length: float, units: int, size: float) -> None:

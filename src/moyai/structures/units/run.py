@@ -45,7 +45,7 @@ from moyai.structures.units.section import SectionAnswer, comparable, section_an
 from moyai.structures.units.variables import VOCABULARY
 
 if TYPE_CHECKING:
-    pass
+    import xarray as xr
 
 #: Least wave length over the longest side of a panel: less is refused; below the second a notice is given
 LEAST_PANELS, FEW_PANELS = 4.0, 6.0
@@ -190,7 +190,7 @@ def _level_steps(
         if data.attrs["status"] != "converged":
             collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
         collected.checks.extend(_balance(at, sea, answers[sea.name], hydro))
-        collected.notices.extend(_curve_notices(at))
+        collected.notices.extend((*_curve_notices(at), *_beyond_curves(at, sea.name, data)))
         yield
     progress("seas", len(answers), len(environment.sea_states))
     if "map" in settings.analyses:
@@ -245,6 +245,28 @@ def _curve_notices(at: RowAtLevel) -> list[Notice]:
             severity="information",
         )
     ]
+
+
+def _beyond_curves(at: RowAtLevel, sea: str, data: xr.Dataset) -> list[Notice]:
+    """Say which rubber is stretched or pressed beyond its curve, which then goes on straight."""
+    out = []
+    for number, joint in enumerate(at.joints):
+        curve = joint.connector.curve
+        if curve is None or joint.connector.kind != "rubber":
+            continue
+        low = float(np.min(data["elongation_lowest"].values[..., number]))
+        high = float(np.max(data["elongation_highest"].values[..., number]))
+        if low < curve.elongation[0] or high > curve.elongation[-1]:
+            out.append(
+                Notice(
+                    "beyond-curve",
+                    f"{at.name}, {sea}: connector '{joint.name}' is worked from {low:.3g} to {high:.3g} m, its curve "
+                    f"ends at {curve.elongation[0]:.3g} and {curve.elongation[-1]:.3g} m and is drawn out straight",
+                    value=max(-low, high), limit=max(-curve.elongation[0], curve.elongation[-1]),
+                    remedy="give the curve farther, or a stiffer connector",
+                )
+            )  # fmt: skip
+    return out
 
 
 def _notices(problem: UnitsProblem, at: RowAtLevel, panels: Panels) -> list[Notice]:

@@ -49,6 +49,8 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "connector_significant_force": ("N", "significant amplitude of the force in a connector, twice its deviation"),
     "connector_significant_moment": ("N m", "significant amplitude of the moment in a connector"),
     "connector_stiffness_of_curve": ("N/m", "linear stiffness that stands for the curve of a connector"),
+    "elongation_lowest": ("m", "lowest elongation of a connector with a curve, mean and waves"),
+    "elongation_highest": ("m", "highest elongation of a connector with a curve, mean and waves"),
     "relative_motion_largest": ("m", "largest relative motion of the ends of a connector"),
     "relative_turn_largest": ("rad", "largest relative turn of the ends of a connector"),
     "tension_amplitude": ("N", "amplitude of the tension at the fairlead, linear"),
