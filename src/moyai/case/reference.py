@@ -31,6 +31,11 @@ _FILES = {
 }  # fmt: skip
 
 
+def case_title(kind: str) -> str:
+    """Return the heading of the keys of a kind of structure."""
+    return f"Case of a {_WORDS.get(kind, kind)}"
+
+
 def _mark(page: str) -> str:
     return f"<!-- made by: python -m moyai.case.reference docs/{page} -->"
 
@@ -38,7 +43,7 @@ def _mark(page: str) -> str:
 def reference_markdown(page: str = "case_file.md") -> str:
     """Return the tables of every block: of every kind of structure, or of the files that a page is about."""
     lines: list[str] = []
-    roots = {f"Case of a {_WORDS.get(kind, kind)}": root_schema(kind) for kind in structure_kinds()}
+    roots = {case_title(kind): root_schema(kind) for kind in structure_kinds()}
     if page in _FILES:
         known = further_files()
         roots = {f"Keys: {title.lower()}": known[name].file_schema(name) for name, title in _FILES[page].items()}

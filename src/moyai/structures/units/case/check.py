@@ -15,6 +15,7 @@ from moyai.structures.units.case import schema
 
 if TYPE_CHECKING:
     from moyai.potential.sections import Hull
+    from moyai.structures.units.assembly import RowAtLevel
     from moyai.structures.units.model import UnitsProblem
 
 #: A section counts as symmetric when its centre of buoyancy lies within this share of the beam of the centre line
@@ -237,6 +238,40 @@ def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path
         _check_problem(problem, findings)
 
 
+_LINE_PLACES = {
+    "mooring-line-breaks": "segments",
+    "mooring-line-heap": "segments",
+    "mooring-line-unreachable": "segments",
+    "mooring-touches-between": "segments",
+    "mooring-anchor-in-body": "anchor",
+    "mooring-anchor-above-bed": "anchor",
+    "mooring-fairlead-below-bed": "fairlead",
+}
+
+
+def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findings) -> bool:
+    """Hold the lines of every unit against their strength and slack; return whether any is impossible."""
+    from moyai.mooring.checks import check_line_system
+
+    places = {line.name: index for index, line in enumerate(problem.row.lines)}
+    said: set[tuple[str, str]] = set()
+    for number, system in enumerate(at.systems):
+        for notice in check_line_system(system) if system.lines else ():
+            label, _, message = notice.message.partition(": ")
+            name = label.removeprefix("lines.")
+            line = name if name in places else name.removesuffix(f" {number + 1}")
+            known = ("mooring-anchor-above-bed", "mooring-fairlead-dry", "mooring-anchor-uplift")
+            if line not in places or notice.code in known or (line, notice.code) in said:
+                continue
+            said.add((line, notice.code))
+            path: KeyPath = ("lines", places[line])
+            if notice.code in _LINE_PLACES and (*path, _LINE_PLACES[notice.code]) in findings.document.values:
+                path = (*path, _LINE_PLACES[notice.code])
+            record = findings.fault if notice.severity == "error" else findings.warn
+            record(path, f"line '{line}' of unit {number + 1}: {message}", remedy=notice.remedy)
+    return bool(findings.faults)
+
+
 def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
     from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
     from moyai.structures.units.bem import check_memory
@@ -250,6 +285,8 @@ def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
         try:
             at = assemble(problem.row, environment, name, level)
             notices = list(level_notices(at))
+            if _check_lines_at_rest(problem, at, findings):
+                return
             wind, current = steady_load(at, environment)
             steady_position(at, wind + current)
             if {"frequency", "map"} & set(problem.settings.analyses) and omega.size:
