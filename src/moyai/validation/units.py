@@ -6,6 +6,7 @@ They need Capytaine; without it there are none of them.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from importlib.util import find_spec
@@ -225,6 +226,14 @@ def column() -> float:
     return float(np.max(np.abs(ratio - column_waves(1.0, 1.0, points))))
 
 
+def _long(name: str) -> Callable[[], float]:
+    return lambda: float(long_unit()[name])
+
+
+def _behind(index: int) -> Callable[[], float]:
+    return lambda: float(barrier()[0][index] - barrier()[1][index])
+
+
 _MESH = "first order in the size of the panels"
 _CASES: tuple[ValidationCase, ...] = (
     ValidationCase(
@@ -258,14 +267,14 @@ _CASES: tuple[ValidationCase, ...] = (
         ValidationCase(
             f"units: {name} of a unit of five wave lengths in beam seas over the section",
             "boundary elements of the section, by another program of our own, recomputed",
-            lambda name=name: long_unit()[name], 1.0, 0.04, note="ends of the unit, " + _MESH,
+            _long(name), 1.0, 0.04, note="ends of the unit, " + _MESH,
         )
         for name in ("sway", "heave", "roll", "drift", "transmission")
     ),
     *(
         ValidationCase(
             f"units: K behind a thin barrier of six wave lengths, {place}", "Sommerfeld 1896, two half planes",
-            lambda index=index: float(barrier()[0][index] - barrier()[1][index]), 0.0, 0.02, False,
+            _behind(index), 0.0, 0.02, False,
             "thickness of a fortieth of a wave length; waves between the ends are left out by the two half planes",
         )
         for index, place in enumerate(

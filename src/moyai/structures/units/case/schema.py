@@ -153,7 +153,7 @@ UnitLineEntry = Annotated[
 ]
 
 
-class NamedPoint(Block):
+class MapPoint(Block):
     """A point that K is given at, such as a berth."""
 
     name: Name = Field(description="Name of the point in results.")
@@ -178,7 +178,7 @@ class MapBlock(Block):
     y: tuple[Length, Length] = Field(description="From and to, along the row.", examples=[["-80 m", "80 m"]])
     points_across: Cells = Field(default=33, description="Points of the map along x. Default: 33.")
     points_along: Cells = Field(default=33, description="Points of the map along y. Default: 33.")
-    points: Annotated[tuple[NamedPoint, ...], Field(max_length=200)] = Field(
+    points: Annotated[tuple[MapPoint, ...], Field(max_length=200)] = Field(
         default=(), description="Named points, for instance berths."
     )
     line: LineBehind | None = Field(

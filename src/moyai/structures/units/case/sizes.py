@@ -45,7 +45,5 @@ def _line(line: Any, base: KeyPath, draught: float, site: Any, sizes: Sizes) -> 
     across, along = line.anchor.x - line.fairlead.x, line.anchor.y - line.fairlead.y
     ends = tuple((*base, end, key) for end in ("anchor", "fairlead") for key in ("x", "y"))
     sizes[(*base, "@chord")] = math.sqrt(across**2 + along**2 + rise**2), (*ends, ("site", "water_depth"))
-    lengths = [
-        (part.length, (*base, "segments", n, "length")) for n, part in enumerate(segments) if hasattr(part, "length")
-    ]
+    parts = [(part, (*base, "segments", n, "length")) for n, part in enumerate(segments) if hasattr(part, "length")]
     sizes[(*base, "@length")] = sum(part.length for part, _ in parts), tuple(path for _, path in parts)
