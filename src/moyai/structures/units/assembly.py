@@ -393,14 +393,12 @@ def steady_position(at: RowAtLevel, load: Array) -> RowPosition:
     return RowPosition(position, load, held_load(at, imbalance(position, at.rounding)))
 
 
-def held_load(at: RowAtLevel, force: Array) -> Array:
+def held_load(at: RowAtLevel, force: Any) -> Any:
     """Return the loads (..., c) of the constraints that balance forces (..., m) [eq:units-held]."""
     g = at.constraint
     if not len(g):
         return np.zeros((*np.shape(force)[:-1], 0))
-    return np.asarray(np.linalg.solve(g @ g.T, g @ np.moveaxis(np.atleast_2d(force), -1, -2)).swapaxes(-1, -2).reshape(
-        *np.shape(force)[:-1], len(g)
-    ))  # fmt: skip
+    return np.asarray(force @ np.linalg.solve(g @ g.T, g).T)
 
 
 def _curve_stiffness(at: RowAtLevel, position: Array, width: float) -> Array:

@@ -84,22 +84,24 @@ def respond(model: RowModel, omega: Array, curve_stiffness: Array) -> RowRespons
     own = _own_damping(at, added, restoring) + at.springs[1]
     headings = excitation.shape[1]
     given = np.broadcast_to(np.asarray(curve_stiffness, dtype=float), (len(omega), headings, len(joints)))
+    w = omega[:, None, None]
+    base = -(w**2) * (at.inertia + added) - 1j * w * (radiation + own) + stiffness
     motion = np.empty(excitation.shape, dtype=complex)
     loads = np.zeros((len(omega), headings, len(at.constraint)), dtype=complex)
-    for n, w in enumerate(omega):
-        base = -(w**2) * (at.inertia + added[n]) - 1j * w * (radiation[n] + own[n]) + stiffness
-        alike = bool(np.all(given[n] == given[n, :1]))
-        for h in range(1 if alike else headings):
-            matrix = base + (along.T * given[n, h]) @ along
-            which = slice(None) if alike else slice(h, h + 1)
-            force = excitation[n, which].T
-            motion[n, which] = (free @ np.linalg.solve(free.T @ matrix @ free, free.T @ force)).T
-            loads[n, which] = held_load(at, (force - matrix @ motion[n, which].T).T)
+    # headings that curves meet alike share one factorisation
+    alike = bool(np.all(given == given[:, :1]))
+    for which in [slice(None)] if alike else [slice(h, h + 1) for h in range(headings)]:
+        curves = np.einsum("jm,nj,jk->nmk", along, given[:, which][:, 0], along)
+        matrix = base + curves
+        force = excitation[:, which].swapaxes(1, 2)
+        motion[:, which] = (free @ np.linalg.solve(free.T @ matrix @ free, free.T @ force)).swapaxes(1, 2)
+        left = force - matrix @ motion[:, which].swapaxes(1, 2)
+        loads[:, which] = held_load(at, left.swapaxes(1, 2))
     relative = _relative(at, motion)
     load = _joint_loads(at, omega, motion, relative, loads, given)
     tension = motion @ at.tension_gradient(model.position).T
-    velocity = -1j * omega[:, None, None] * motion
-    power = 0.5 * np.real(np.einsum("nhi,nij,nhj->nh", velocity.conj(), own, velocity))
+    velocity = -1j * w * motion
+    power = 0.5 * np.real(np.sum(velocity.conj() * (velocity @ own), axis=2))
     return RowResponse(omega, motion, relative, load, np.asarray(tension), np.asarray(power, dtype=float))
 
 
@@ -110,12 +112,12 @@ def _own_damping(at: RowAtLevel, added: Array, stiffness: Array) -> Array:
     for number, place in enumerate(row.placements):
         part = slice(6 * number, 6 * number + 6)
         turn[part, part] = np.kron(np.eye(2), place.rotation.T)
-    mass = np.einsum("ij,njk,ik->ni", turn, at.inertia + added, turn)
-    spring = np.einsum("ij,jk,ik->i", turn, stiffness, turn)
+    mass = np.sum((turn @ (at.inertia + added)) * turn, axis=2)
+    spring = np.sum((turn @ stiffness) * turn, axis=1)
     fraction = np.tile(row.damping_fraction, row.count)
     critical = 2.0 * np.sqrt(np.maximum(mass, 0.0) * np.maximum(spring, 0.0))
     diagonal = fraction * critical + np.tile(row.linear_damping, row.count)
-    return np.asarray(np.einsum("ji,nj,jk->nik", turn, diagonal, turn))
+    return np.asarray((turn.T * diagonal[:, None, :]) @ turn)
 
 
 def _relative(at: RowAtLevel, motion: ComplexArray) -> ComplexArray:

@@ -40,7 +40,7 @@ Mode = Literal["sway", "surge", "heave", "pitch", "roll", "yaw"]
 Analysis = Literal["statics", "frequency", "map"]
 
 
-class Place(Block):
+class UnitPlace(Block):
     """Where a unit lies."""
 
     x: Length = Field(default=0.0, description="Its middle, across the row. Default: 0.")
@@ -58,7 +58,7 @@ class Units(Block):
         default=None, description="Number of units one after the other along y, the middle of the row at the origin."
     )
     gap: PositiveLength | None = Field(default=None, description="Clear water between two units.")
-    places: Annotated[tuple[Place, ...], Field(max_length=60)] = Field(
+    places: Annotated[tuple[UnitPlace, ...], Field(max_length=60)] = Field(
         default=(), description="In place of count and gap: every unit with its place, for L, T and bent rows."
     )
 
