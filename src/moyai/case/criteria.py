@@ -15,7 +15,6 @@ from moyai.core.headline import Criterion, Sense
 from moyai.core.kinds import structure_kind
 
 CASE = "case file"
-UNCONFIRMED = "not confirmed against the standard"
 DEFAULT_CODE = "ISO 19901-7"
 """Of the lines of breakwaters and networks: the factors that are common to ISO 19901-7 and API RP 2SK."""
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from moyai.core.errors import InputError
-from moyai.core.headline import Criterion
+from moyai.core.headline import UNCONFIRMED, Criterion
 from moyai.tables.design_codes import CodeRule, applicable_rule, code_rules
 
 _WORDS = "factor of safety of the lines"
@@ -78,7 +78,7 @@ def code_criterion(given: Any, analysis: str, names: Iterable[str | None], *, as
         found.append((value, material))
     (limit, weight, used, words), material = min(found, key=lambda item: item[0][0])
     sure = all(rule.confirmed for rule in used) or bool(block and name in block.confirmed)
-    doubt = "" if sure else ", not confirmed against the standard"
+    doubt = "" if sure else f", {UNCONFIRMED}"
     said = f"{name} ({used[0].edition}), {words}, {material}, {chosen.replace('_', '-')} analysis{doubt}"
     return Criterion(
         "line_safety_factor" if assumed else "code",

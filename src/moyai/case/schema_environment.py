@@ -49,6 +49,9 @@ class Site(Block):
         description="Compass bearing that the x axis points to, clockwise from north; needed for bearings of waves, "
         "wind or current.",
     )
+    return_period_years: PositiveNumber | None = Field(
+        default=None, description="Return period of the seas and currents in years; stated with the results, not used."
+    )
 
 
 class _FromBearing(Block):

@@ -16,6 +16,8 @@ from moyai.core.wording import spoken
 Bound = Literal["", "at most", "at least"]
 Sense = Literal["at most", "at least"]
 Outcome = Literal["holds", "does not hold", "not judged"]
+UNCONFIRMED = "not confirmed against the standard"
+"""What the source of a criterion says of values that nobody has yet held against the standard itself."""
 NONE = "none"
 """Text of a headline whose number is zero."""
 
@@ -296,8 +298,20 @@ def judge(headlines: Iterable[Headline], criteria: Iterable[Criterion], *, compu
             reasons.setdefault(item.reason, []).append(item.criterion.words)
         message = "; ".join(f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
         return Verdict("not judged", message, judgements)
-    asked = len({(item.criterion.name, item.criterion.sea) for item in found})
-    return Verdict("holds", "the criterion holds" if asked == 1 else f"all {asked} criteria hold", judgements)
+    return Verdict("holds", _holding([item.criterion for item in found]), judgements)
+
+
+def _holding(criteria: list[Criterion]) -> str:
+    """Return the sentence of a design that holds: how many criteria, how many of them assumed, and on what word."""
+    kept = {(item.name, item.sea): item for item in criteria}
+    count, assumed = len(kept), sum(item.assumed for item in kept.values())
+    words = "the criterion holds" if count == 1 else f"all {count} criteria hold"
+    if assumed:
+        several = "all" if assumed == count else f"{assumed} of them"
+        words += ", a default of moyai" if count == 1 else f", {several} defaults of moyai"
+    if any(UNCONFIRMED in item.source for item in criteria):
+        words += "; factors of a standard that were not confirmed against it"
+    return words
 
 
 def without_computation(verdict: Verdict) -> Verdict:

@@ -23,6 +23,7 @@ from moyai.report.document import (
     in_one_unit,
 )
 from moyai.report.formatting import DASH, display_unit, format_number, format_percent
+from moyai.report.input_line import input_line
 from moyai.report.systems import UNITS_NOTES
 
 COMPUTATION: dict[str, tuple[str, Tone]] = {
@@ -78,7 +79,9 @@ def with_first_page(document: Document, result: Result) -> Document:
     notices = [block for block in first.blocks if isinstance(block, NoticeBlock)]
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
     table = criteria_table(result)
-    blocks: list[Block] = [*numbers, *([] if table is None else [table]), *notices, *rest]
+    conditions = input_line(result)
+    said_of = [Paragraph(conditions, quiet=True)] if conditions else []
+    blocks: list[Block] = [*numbers, *said_of, *([] if table is None else [table]), *notices, *rest]
     if said := UNITS_NOTES.get(units_of(result)):
         blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)
@@ -142,8 +145,8 @@ def without_limit(result: Result) -> str:
     judged |= {name.replace("utilisation", "tension") for name in judged}
     answers = [item for item in result.headlines if item.shown and not item.condition]
     left = [item for item in answers if item.name not in judged and math.isfinite(item.value)]
-    names = dict.fromkeys(_within_a_sentence(item.label) for item in left)
-    return f"No limit is given for: {', '.join(names)}." if names else ""
+    names = dict.fromkeys(_within_a_sentence(item.label) for item in left if not item.name.startswith("limit_"))
+    return f"No criterion is given for: {', '.join(names)}." if names else ""
 
 
 def largest_by_unit(result: Result) -> dict[str, float]:

@@ -16,7 +16,7 @@ waves: {kind: regular, name: waves, height: 0.5 m, period: 4 s, heading_deg: 0}
 structure:
   kind: network
   bed: {stiffness: 3e5 Pa/m, damping: 3e4 Pa s/m}
-  line_types: {chain: {catalogue: studless_chain_R3, diameter: 22 mm, damping_ratio: 0.3}}
+  line_types: {chain: {catalogue: studless_chain_U3, diameter: 22 mm, damping_ratio: 0.3}}
   bodies:
     box: {shape: box, size: [4 m, 6 m, 2 m], mass: 20 t, gyration_radii: [1.8 m, 1.3 m, 2.1 m], position: [0, 0, 0],
           drag: [1, 1, 1], added_mass: [0.5, 0.5, 1], points: {west: [-2 m, 0, -1 m]}}
@@ -35,7 +35,7 @@ SHEET = (
     SITE
     + """structure:
   kind: network
-  line_types: {chain: {catalogue: studless_chain_R3, diameter: 22 mm, damping_ratio: 0.3}}
+  line_types: {chain: {catalogue: studless_chain_U3, diameter: 22 mm, damping_ratio: 0.3}}
   sheets:
     cloth: {corners: [[0, -3, -1], [0, 3, -1], [0, 3, -4], [0, -3, -4]], rows: 4, columns: 5, warp_stiffness: 40 kN/m,
             weft_stiffness: 40 kN/m, shear_stiffness: 1 kN/m, mass: 1 kg/m2, thickness: 1 mm, drag_normal: 1.4,

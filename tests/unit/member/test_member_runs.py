@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from moyai.core.errors import InputError
 from moyai.morison import sections
@@ -129,7 +130,7 @@ def test_effective_inertia_is_the_ideal_one_less_the_law(section):
     """From the computed forces, not from the formula: projection on the acceleration."""
     case = problem(
         horizontal(section),
-        (RegularWaves("a", (0.015,), (PERIOD,)),),
+        (RegularWaves("a", (0.015,), (PERIOD,), theory="linear"),),
         circulation=CirculationLaw(purpose="response"),
         settings=Settings(("forces",), 6, stretching="constant"),
     )
@@ -245,7 +246,7 @@ def test_motion_with_the_water_leaves_the_froude_krylov_force():
     motion = Motion((reach, 0.0, reach), (math.radians(90.0), 0.0, 0.0))
     case = problem(
         member,
-        (RegularWaves("a", (0.5,), (5.0,)),),
+        (RegularWaves("a", (0.5,), (5.0,), theory="linear"),),
         water,
         rule=CoefficientRule((1.0, 1.0)),
         motion=motion,
@@ -481,7 +482,11 @@ def test_reynolds_numbers_out_of_a_law_are_reported_once_with_their_range():
     notices = [Notice("other", "x")]
     notices += [Notice("drag-reynolds", f"{sea}: here Re = {value:.2g}", value, 1e6) for sea, value in
                 (("calm", 5e4), ("storm", 3.7e5), ("swell", 9e4))]  # fmt: skip
-    kept = _one_reynolds(notices)
+    dry = (("wave", "strip"), [[1.0, 0.0]])
+    sea = xr.Dataset({"strip_reynolds": (("wave", "strip"), [[6e5, 9e9]]), "wet_share": dry})
+    calm = xr.Dataset({"strip_reynolds": (("wave", "strip"), [[4e4, 1.0]]), "wet_share": dry})
+    kept = _one_reynolds(notices, {"/SWL/waves/storm": sea, "/SWL/waves/calm": calm})
     assert [notice.code for notice in kept] == ["other", "drag-reynolds"]
-    assert kept[1].message == "storm: here Re = 3.7e+05; down to Re = 5e+04 in calmer waves"
-    assert kept[1].value == 3.7e5 and _one_reynolds(notices[:2]) == notices[:2]
+    # the farthest beyond the limit is kept; strips that are never wet do not count
+    assert kept[1].message == "calm: here Re = 5e+04; over all waves and strips 4e+04 to 6e+05"
+    assert kept[1].value == 5e4 and _one_reynolds(notices[:1], {}) == notices[:1]

@@ -20,7 +20,7 @@ structure:
   kind: network
   bed: {{stiffness: 3e5 Pa/m, damping: 3e4 Pa s/m, friction: 0.4}}
   line_types:
-    chain: {{catalogue: studless_chain_R3, diameter: 16 mm, damping_ratio: 0.3}}
+    chain: {{catalogue: studless_chain_U3, diameter: 16 mm, damping_ratio: 0.3}}
   bodies:
     box:
       shape: box

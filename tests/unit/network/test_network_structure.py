@@ -368,7 +368,7 @@ structure:
   kind: network
   bed: {stiffness: 3e5 Pa/m, damping: 3e4 Pa s/m, friction: 0.5}
   line_types:
-    chain: {catalogue: studless_chain_R3, diameter: 20 mm, damping_ratio: 0.3}
+    chain: {catalogue: studless_chain_U3, diameter: 20 mm, damping_ratio: 0.3}
     rope: {diameter: 24 mm, mass: 0.45 kg/m, axial_stiffness: 200 kN, viscosity: 1 kN s, drag_normal: 1.2,
            drag_tangential: 0.06, added_mass_normal: 1}
   points:

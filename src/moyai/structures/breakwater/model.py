@@ -205,8 +205,9 @@ class LineDynamics:
     sensitivity : bool
         Whether every run is repeated with twice the bars, half the step and twice the internal damping.
     mode : {"auto", "quasi_static", "dynamic"}
-        Whether lines that are not in motion from the start are set in motion where their peaks pass the range of lines
-        at rest (``auto``), never, or from the start.
+        Whether lines that are not in motion from the start are set in motion around the events of the line that
+        governs an irregular sea, and where their peaks pass the range of lines at rest (``auto``), never, or from the
+        start.
     """
 
     bars: int = 30

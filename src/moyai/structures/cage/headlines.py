@@ -18,6 +18,14 @@ from moyai.core.headline import Band, Headline
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.conditions import condition_headlines, runs_of, sea_words
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
+from moyai.structures.cage.flexible.sensitivity import (
+    COARSER,
+    DRAG_IN_CURRENT,
+    OFFSET,
+    STRESS,
+    VOLUME_IN_CURRENT,
+    tension_of,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,6 +33,10 @@ if TYPE_CHECKING:
 STATICS, DYNAMIC = "equilibrium in the current of the site", "run through time"
 RIGID = "rigid cage, run through time"
 Groups = Mapping[str, "xr.Dataset"]
+_NOT_JUDGED = Headline(
+    "not_judged", "Not judged", math.nan, "1",
+    text="one line or buoy lost, wear and fatigue, chafe of the net, soil of the anchors", condition=True,
+)  # fmt: skip
 _SAME_LAWS = "the same net laws as for the volume"
 
 
@@ -115,9 +127,43 @@ def flexible_headlines(problem: FlexibleCageProblem, groups: Groups) -> tuple[He
         *_offset(states, runs),
         *_anchor(states, runs),
         *_stress(states, runs),
-        *condition_headlines(groups),
     ]
-    return tuple(items)
+    factors = _mesh_factors(groups)
+    named = [_NOT_JUDGED] if runs else []
+    return (*(_with_mesh(item, factors) for item in items), *condition_headlines(groups), *named)
+
+
+def _mesh_factors(groups: Groups) -> dict[str, tuple[float, float]]:
+    """Return by which factors a finer mesh may move each number: what a coarser one changed, either way."""
+    found: dict[str, tuple[float, float]] = {}
+    for path, group in groups.items():
+        if "/sensitivity/" not in path or COARSER not in group["variant"].values:
+            continue
+        given, coarser = (group["value"].sel(variant=name).values for name in ("as given", COARSER))
+        for quantity, first, other in zip(group["quantity"].values, given, coarser, strict=True):
+            if first > 0.0 and math.isfinite(other):
+                change = min(abs(float(other) / float(first) - 1.0), 1.0)
+                low, high = found.get(str(quantity), (1.0, 1.0))
+                found[str(quantity)] = min(low, 1.0 - change), max(high, 1.0 + change)
+    return found
+
+
+def _with_mesh(item: Headline, factors: dict[str, tuple[float, float]]) -> Headline:
+    """Return a number whose band covers the mesh as well, where it was checked."""
+    kinds = ("anchor", "bridle", "frame", "buoy")
+    line = next((kind for kind in kinds if item.where.removeprefix("lower end of ").startswith(kind)), "")
+    quantity = {
+        "volume_left": VOLUME_IN_CURRENT, "drag": DRAG_IN_CURRENT, "line_tension": tension_of(line),
+        "line_utilisation": tension_of(line), "offset": OFFSET, "anchor_load": tension_of("anchor"),
+        "collar_stress": STRESS,
+    }.get(item.name, "")  # fmt: skip
+    if quantity not in factors:
+        return item
+    less, more = factors[quantity]
+    band = item.band or Band(item.value, item.value, "")
+    words = f"mesh ±{100.0 * (more - 1.0):.2g} %, the change of a coarser one"
+    words = "; ".join(filter(None, (band.of, words)))
+    return replace(item, band=replace(band, low=band.low * less, high=band.high * more, of=words))
 
 
 def _state(level: str, groups: Groups) -> _State | None:
@@ -159,7 +205,8 @@ def _volume(states: list[_State], runs: Runs) -> list[Headline]:
     built = float(worst.cage["rest_volume"].values[at])
     detail = f"{volume_text(value * built)} of {volume_text(built)} as built"
     if math.isfinite(least):
-        detail += f"; down to {least:.3g} for moments in the sea"
+        low, high, words = worst.moved("volume_share", least, least)
+        detail += f"; down to {least:.3g} for moments in the sea" + (f" ({low:.3g} to {high:.3g})" if words else "")
     return [
         Headline(
             "volume_left", "volume left", value, "1", worst.where, STATICS, worst.band("volume_share"), detail=detail,
@@ -181,7 +228,9 @@ def _drag(states: list[_State], runs: Runs) -> list[Headline]:
     detail = ", ".join(f"{part} {100.0 * share / value:.0f} %" for part, share in shares)
     largest = [float(np.linalg.norm(run["drag"].values.sum(axis=1), axis=1).max()) for _, _, run in runs]
     if largest:
-        detail += f"; up to {max(largest) / 1e3:.3g} kN for moments in the sea"
+        low, high, words = worst.moved("drag", max(largest), max(largest))
+        span = f" ({low / 1e3:.3g} to {high / 1e3:.3g} kN)" if words else ""
+        detail += f"; up to {max(largest) / 1e3:.3g} kN for moments in the sea{span}"
     band = worst.band("drag")
     return [Headline("drag", "drag in the current", value, "N", worst.where, STATICS, band, detail=detail)]
 
@@ -231,6 +280,9 @@ def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | Non
     if float(everything.max()) > 1.01 * value:
         name, most = str(run["line"].values[int(np.argmax(everything))]), float(everything.max()) / 1e3
         details.append(f"nearest to its breaking load; the largest tension of all is {most:.3g} kN, in {name}")
+    slack, snaps = float(run["slack_share"].values[line]), int(run["snaps"].values[line])
+    if slack > 0.0:
+        details.append(f"slack for {100.0 * slack:.2g} % of the time" + (f", {snaps} snaps" if snaps else ""))
     series = run["line_tension_peak_since_row"].values[:, line]
     band = _band_in_sea(state, "line_tension_maximum", run, value, series)
     name = str(run["line"].values[line])
@@ -277,7 +329,9 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             line = run["line_tension_peak_since_row"].values[:, anchors[at]]
             share = pull / max(float(run["line_tension_maximum"].values[anchors[at]]), 1e-300)
             band = _band_in_sea(by_level.get(level), "anchor_pull", run, pull, share * line)
-            found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, "", band))
+            up = float(run["line_uplift_lower"].values[anchors].max())
+            detail = f"upwards {up / 1e3:.3g} kN at most, of all anchors"
+            found.append((pull, f"lower end of {names[anchors[at]]}, {where}", DYNAMIC, detail, band))
     for state in [] if found else states:
         if "anchor_pull" in state.statics and state.statics["anchor_pull"].size:
             pulls = state.statics["anchor_pull"].values[state.row]

@@ -223,13 +223,16 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     levels = [name for name, _ in problem.environment.water_levels]
     found = curtain_headlines(collected.groups, levels, problem.criteria)
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
+    fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
+    if any(notice.code == "span-mesh" for notice in collected.notices):
+        fulfilled += "; peaks of the whole span move with the mesh, see the warning"
     return collected.close(
         VOCABULARY,
         attributes,
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
         notices=_placed(collected, len(levels)),
         headlines=found,
-        fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
+        fulfilled=fulfilled,
         criteria=(*problem.criteria, *more),
     )
 

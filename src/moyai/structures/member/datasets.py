@@ -97,6 +97,7 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
     data = {
         "wavelength": ("wave", np.array([2.0 * math.pi / wave.wave_number for wave in waves])),
         "keulegan_carpenter": ("wave", governing("keulegan_carpenter")),
+        "coefficient_keulegan_carpenter": ("wave", governing("coefficient_keulegan_carpenter")),
         "reynolds": ("wave", governing("reynolds")),
         "beta": ("wave", governing("beta")),
         "orbit_ratio": ("wave", np.array([orbit_ratio(found) for _, found in runs])),
@@ -118,6 +119,7 @@ def sea_dataset(problem: MemberProblem, member: StraightMember, runs: list[tuple
         "maximum_bending_moment_along": (("wave", "station"), held[:, 2:]),
         "maximum_strip_force": (("wave", "strip", "axis"), strips("force")),
         "strip_keulegan_carpenter": (("wave", "strip"), strips("keulegan_carpenter")),
+        "strip_reynolds": (("wave", "strip"), strips("reynolds")),
         "wet_share": (("wave", "strip"), strips("wet")),
     }
     out = labelled(
@@ -193,6 +195,6 @@ def time_dataset(wave: Wave, found: WaveForces) -> xr.Dataset:
                 "circulation": ("time", found.circulation),
             },
             coords={"time": found.time, "component": COMPONENTS, "axis": AXES},
-            attrs={"wave_height": wave.height, "period": wave.period, "wave": wave.name},
+            attrs={"wave_height": wave.height, "period": wave.period, "wave": wave.name, "theory": wave.theory},
         )
     )

@@ -29,6 +29,12 @@ if TYPE_CHECKING:
 #: Share of the largest force above which a cause counts as one that decides.
 DECIDES = 0.1
 _CAUSES = ("inertia", "drag", "lift")
+_NOT_JUDGED = Headline(
+    "not_judged", "Not judged", math.nan, "1",
+    text="strength and fatigue of the section, slamming and run-up, vibration by vortices, scour", condition=True,
+)  # fmt: skip
+#: Drag and inertia are read at the KC of waves and current together, the circulation at that of the waves
+_COEFFICIENTS, _CIRCULATION = "coefficient_keulegan_carpenter", "keulegan_carpenter"
 _Kind = Literal["force", "end_force", "bending_moment"]
 
 
@@ -47,6 +53,11 @@ class _Largest:
     sea: xr.Dataset
     wave: int
     scatter: Array
+    theory: str
+
+    def number(self, name: str) -> float:
+        """Return a number of the wave, at the strip of the largest KC."""
+        return float(self.sea[name].values[self.wave])
 
 
 def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Headline, ...]:
@@ -63,7 +74,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
         return ()
     shares = _shares(found)
     ranges = _ranges(problem)
-    model = f"Morison's equation, {ranges[1].name}, {ranges[0].name}"
+    model = f"Morison's equation, {found.theory}, {ranges[1].name}, {ranges[0].name}"
     if problem.circulation.counted:
         model += f", {CIRCULATION.name}"
     items = [
@@ -72,12 +83,14 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
             _band(problem, found, ranges), detail=_causes_text(shares) + _chance_text(found),
         )
     ]  # fmt: skip
-    number, reynolds = (float(found.sea[key].values[found.wave]) for key in ("keulegan_carpenter", "reynolds"))
+    number, of_waves, reynolds = (found.number(key) for key in (_COEFFICIENTS, _CIRCULATION, "reynolds"))
+    reported = [_range_text(item, found.number(_number_of(item)), reynolds) for item in ranges]
+    if number != of_waves:
+        reported.append(f"with the current, of the waves alone {of_waves:.3g}")
     items.append(
         Headline(
             "keulegan_carpenter", _number_label(found), number, "1", found.where,
-            detail="; ".join([*(_range_text(item, number, reynolds) for item in ranges), f"Re = {reynolds:.2g}"]),
-            condition=True,
+            detail="; ".join([*reported, f"Re = {reynolds:.2g}"]), condition=True,
         )
     )  # fmt: skip
     ends, bending = _largest(groups, "end_force"), _largest(groups, "bending_moment")
@@ -103,7 +116,7 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
                 detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
             )
         )  # fmt: skip
-    return tuple(items)
+    return (*items, _NOT_JUDGED)
 
 
 def _number_label(found: _Largest) -> str:
@@ -117,10 +130,10 @@ def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> t
     if found is None:
         return ()
     shares = dict(zip(_CAUSES, _shares(found), strict=True))
-    number = float(found.sea["keulegan_carpenter"].values[found.wave])
     notices = []
     for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem), strict=False):
         low, high = measured.keulegan_carpenter
+        number = found.number(_number_of(measured))
         if abs(shares[cause]) < DECIDES or low <= number <= high:
             continue
         limit = low if number < low else high
@@ -139,6 +152,10 @@ def _ranges(problem: MemberProblem) -> tuple[MeasuredRange, ...]:
     """Return the ranges of drag, inertia and, where it is counted, the circulation."""
     found = (drag_range(problem.rule), inertia_range(problem.rule))
     return (*found, CIRCULATION) if problem.circulation.counted else found
+
+
+def _number_of(item: MeasuredRange) -> str:
+    return _CIRCULATION if item is CIRCULATION else _COEFFICIENTS
 
 
 def _runs(groups: Mapping[str, xr.Dataset]) -> Iterator[tuple[str, str, int, xr.Dataset, xr.Dataset]]:
@@ -173,7 +190,7 @@ def _largest(groups: Mapping[str, xr.Dataset], kind: _Kind) -> _Largest | None:
         where = ", ".join(part for part in (sea_name, "" if label == "sea" else label, level) if part)
         each = f"{name}_of_realisation"
         scatter = np.asarray(sea[each].values, dtype=float) if each in sea else np.array([value])
-        best = _Largest(where, causes, row, value, sea, wave, scatter)
+        best = _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]))
     return best
 
 
@@ -232,7 +249,7 @@ def _band(problem: MemberProblem, found: _Largest, ranges: tuple[MeasuredRange, 
         return Band(min([found.value, *peaks]), max([found.value, *peaks]), ", ".join(words))
     low, high = min([own, *peaks]) / own, max([own, *peaks]) / own
     reach = reach_of_mean(scatter)
-    words.append(f"{scatter.size} realisations; criteria at the 95 % end of their mean")
+    words.append(f"{scatter.size} realisations; judged at the 95 % end of their mean")
     return Band(
         low * float(scatter.min()), high * float(scatter.max()), ", ".join(words), decides=False,
         judged=(low * (found.value - reach), high * (found.value + reach)),

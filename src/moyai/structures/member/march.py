@@ -40,9 +40,10 @@ class WaveForces:
     circulation : ndarray, shape (times,)
         At the governing strip [m2/s].
     strip : dict of str to ndarray, shape (strips, ...)
-        ``velocity_first``, ``velocity_second`` [m/s], ``keulegan_carpenter``, ``reynolds``, ``beta``, ``frequency``
-        [rad/s], ``orbit_ratio`` smaller over larger axis of the orbit, ``inertia``, ``effective_inertia`` and, without
-        the circulation, ``plain_inertia`` (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2)
+        ``velocity_first``, ``velocity_second`` [m/s], ``keulegan_carpenter`` of the waves and, with the current,
+        ``coefficient_keulegan_carpenter``, ``reynolds``, ``beta``, ``frequency`` [rad/s], ``orbit_ratio`` smaller over
+        larger axis of the orbit, ``inertia``, ``effective_inertia`` and, without the circulation, ``plain_inertia``
+        (strips, 2), ``drag`` (strips, 2), ``force`` (strips, 2)
         largest force per length along both axes [N/m], ``wet`` mean wetted share, ``circulation`` and
         ``settled_circulation`` mean [m2/s].
     governing : int
@@ -302,6 +303,8 @@ def _coefficients(
     large, small = (np.sqrt(np.mean(part**2, axis=0)) for part in axes)
     speed = major + np.linalg.norm(block.steady[0], axis=-1)
     number = major * 2.0 * math.pi / omega / width
+    # drag laws of steady and wave flow take the largest velocity in KC
+    whole_number = speed * 2.0 * math.pi / omega / width
     reynolds = speed * width / problem.kinematic_viscosity
     beta = width**2 * omega / (2.0 * math.pi * problem.kinematic_viscosity)
     count = relative.shape[1]
@@ -309,12 +312,8 @@ def _coefficients(
     reported: dict[str, Notice] = {}
     wet = block.wet.max(axis=0) > 0.0
     for strip in range(count):
-        # drag laws of steady and wave flow take the largest velocity in KC
         flow = Conditions(
-            float(speed[strip] * 2.0 * math.pi / omega[strip] / width),
-            float(reynolds[strip]),
-            float(beta[strip]),
-            problem.roughness / width,
+            float(whole_number[strip]), float(reynolds[strip]), float(beta[strip]), problem.roughness / width
         )
         found = problem.rule.at(section, flow)
         drag[strip], inertia[strip] = found.drag, found.inertia
@@ -327,6 +326,7 @@ def _coefficients(
         "velocity_second": second,
         "orbit_ratio": np.divide(small, large, out=np.full_like(large, math.nan), where=large > 0.0),
         "keulegan_carpenter": number,
+        "coefficient_keulegan_carpenter": whole_number,
         "reynolds": reynolds,
         "beta": beta,
         "frequency": omega,

@@ -21,7 +21,7 @@ from moyai.sea.states import IrregularSea
 from moyai.structures.member.supports import Support
 
 Analysis = Literal["sweep", "forces", "surface"]
-WaveTheory = Literal["linear", "stokes", "stream_function"]
+WaveTheory = Literal["automatic", "linear", "stokes", "stream_function"]
 
 
 @checks_words
@@ -37,14 +37,15 @@ class RegularWaves:
         Wave heights H [m], periods T in the fixed frame [s].
     heading : float
         Direction of travel [rad].
-    theory : {"linear", "stokes", "stream_function"}
+    theory : {"automatic", "linear", "stokes", "stream_function"}
+        ``automatic``: linear where it neglects harmonics below one per cent of the first, else the stream function.
     """
 
     name: str
     heights: tuple[float, ...]
     periods: tuple[float, ...]
     heading: float = 0.0
-    theory: WaveTheory = "linear"
+    theory: WaveTheory = "automatic"
 
     def waves(self) -> tuple[tuple[float, float], ...]:
         """Return every height with every period."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ from moyai.morison.members import StraightMember
 from moyai.sea.irregular import realisation_seed
 from moyai.sea.states import IrregularSea
 from moyai.sea.water import Water
-from moyai.structures.member.checks import member_notices, require_in_water, wave_notices
+from moyai.structures.member.checks import member_notices, require_in_water, theory_notices, wave_notices
 from moyai.structures.member.datasets import gathered, member_dataset, sea_dataset, time_dataset
 from moyai.structures.member.headlines import headlines_of, range_notices
 from moyai.structures.member.march import WaveForces, march
@@ -123,7 +123,7 @@ def _sea_steps(
         runs.append((wave, found))
         collected.groups[f"{root}/time/{sea.name}/wave {number + 1}"] = time_dataset(wave, found)
         collected.groups[f"{root}/waves/{sea.name}"] = sea_dataset(problem, member, runs)
-        reported.extend(wave_notices(problem, member, wave, found))
+        reported.extend([*wave_notices(problem, member, wave, found), *theory_notices(problem, wave, water)])
         collected.checks.append(_periodicity(sea.name, wave, found))
         yield
     collected.notices.extend(
@@ -244,7 +244,7 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
         "purpose": problem.circulation.purpose,
     }
     collected.notices.extend(range_notices(problem, collected.groups))
-    collected.notices[:] = _one_reynolds(collected.notices)
+    collected.notices[:] = _one_reynolds(collected.notices, collected.groups)
     return collected.close(
         VOCABULARY,
         attributes,
@@ -254,14 +254,16 @@ def _result(problem: MemberProblem, collected: Collected) -> Result:
     )
 
 
-def _one_reynolds(notices: Sequence[Notice]) -> list[Notice]:
-    """Keep of the notices of Reynolds numbers out of a drag law's range that of the fastest flow, with the slowest."""
+def _one_reynolds(notices: Sequence[Notice], groups: Mapping[str, xr.Dataset]) -> list[Notice]:
+    """Keep of the notices of Reynolds numbers out of a drag law's range the worst, with the range of the whole run."""
     mine = [notice for notice in notices if notice.code == "drag-reynolds"]
-    if len(mine) < 2:
+    if not mine:
         return list(notices)
-    first, last = min(mine, key=lambda notice: notice.value), max(mine, key=lambda notice: notice.value)
-    said = replace(last, message=f"{last.message}; down to Re = {first.value:.2g} in calmer waves")
-    return [said if notice is last else notice for notice in notices if notice is last or notice not in mine]
+    seas = [group for group in groups.values() if "strip_reynolds" in group]
+    every = np.concatenate([sea["strip_reynolds"].values[sea["wet_share"].values > 0.0] for sea in seas])
+    worst = most_severe(mine)[0]
+    said = replace(worst, message=f"{worst.message}; over all waves and strips {every.min():.2g} to {every.max():.2g}")
+    return [said if notice is worst else notice for notice in notices if notice is worst or notice not in mine]
 
 
 __all__ = ["run"]

@@ -25,6 +25,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "wave_height": ("m", "wave height H, or significant height"),
     "period": ("s", "wave period T, or peak period"),
     "keulegan_carpenter": ("1", "Keulegan-Carpenter number u T / B"),
+    "coefficient_keulegan_carpenter": ("1", "Keulegan-Carpenter number with the current, for drag and inertia"),
     "reynolds": ("1", "Reynolds number u B / nu"),
     "beta": ("1", "frequency parameter B2 f / nu"),
     "orbit_ratio": ("1", "smaller over larger axis of the orbit across the member"),
@@ -81,6 +82,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "radiation_ratio": ("1", "wave damping over omega rho A"),
     "phase": ("rad", "phase of the orbit"),
     "strip_keulegan_carpenter": ("1", "Keulegan-Carpenter number along the member"),
+    "strip_reynolds": ("1", "Reynolds number along the member"),
 }
 
 # Texts, and numbers that count the entries along a dimension

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -14,7 +15,9 @@ from moyai.sea.current import CurrentProfile
 from moyai.sea.dispersion import wave_number_in_current
 from moyai.sea.irregular import synthesise
 from moyai.sea.nonlinear import nonlinear_wave
+from moyai.sea.permanent_wave import Theory
 from moyai.sea.states import IrregularSea
+from moyai.sea.validity import recommended_theory
 from moyai.sea.water import Water
 from moyai.structures.member.model import MemberProblem, RegularWaves
 
@@ -39,6 +42,8 @@ class Wave:
     regular : bool
     current : CurrentProfile or None
         That of the case at the water level of the wave.
+    theory : str
+        In words.
     """
 
     name: str
@@ -50,6 +55,7 @@ class Wave:
     time: Array
     regular: bool
     current: CurrentProfile | None = None
+    theory: str = "linear waves"
 
 
 def mean_current(problem: MemberProblem, water: Water) -> tuple[float, float]:
@@ -99,6 +105,15 @@ def _wave_number(period: float, water: Water, current: tuple[float, float], head
     return float(wave_number_in_current(2.0 * math.pi / period, water.depth, water.gravity, along))
 
 
+def _theory_of(
+    sea: RegularWaves, height: float, period: float, water: Water, along: float
+) -> Theory | Literal["linear"]:
+    """Return the theory of one wave; linear and the stream function are the two that ``automatic`` takes."""
+    if sea.theory != "automatic":
+        return sea.theory
+    return "linear" if recommended_theory(height, period, water, along).theory == "airy" else "stream_function"
+
+
 def _regular(
     problem: MemberProblem, sea: RegularWaves, height: float, period: float, water: Water, current: tuple[float, float]
 ) -> Wave:
@@ -106,9 +121,10 @@ def _regular(
     along = current[0] * math.cos(sea.heading) + current[1] * math.sin(sea.heading)
     time: Array = np.linspace(0.0, period, problem.settings.steps_per_period + 1)
     name = f"H {height:.4g} m, T {period:.4g} s"
-    if sea.theory != "linear":
+    theory = _theory_of(sea, height, period, water, along)
+    if theory != "linear":
         wave = nonlinear_wave(
-            sea.theory,
+            theory,
             height=height,
             water=water,
             period=period,
@@ -116,7 +132,8 @@ def _regular(
             current_along_wave=along,
         )
         flow: Flow = NonlinearFlow(wave)
-        return Wave(name, flow, height, period, wave.wave_number, sea.heading, time, True)
+        words = {"stokes": "Stokes waves of fifth order", "stream_function": "stream function"}[theory]
+        return Wave(name, flow, height, period, wave.wave_number, sea.heading, time, True, theory=words)
     number = _wave_number(period, water, current, sea.heading)
     parts = WaveComponents(
         omega=np.array([omega]),

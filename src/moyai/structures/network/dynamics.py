@@ -18,7 +18,7 @@ from moyai.series.snaps import SnapRecord
 from moyai.structures.network.assembly import Assembly
 from moyai.structures.network.bodies import CoupledRest, CoupledRun, coupled_sensitivity, run_coupled
 from moyai.structures.network.model import NetworkProblem
-from moyai.structures.network.refinement import affordable, check_peak, doubt, not_converged, unchecked
+from moyai.structures.network.refinement import affordable, check_event, check_peak, doubt, not_converged, unchecked
 from moyai.structures.network.resume import Earlier, joined, last_good_state, with_ends
 from moyai.structures.network.run_notices import capsized, peak_inside, realised_low, run_notices
 from moyai.structures.network.runs import RunPlan, motions_of
@@ -189,12 +189,13 @@ def _worth(
         if asked:
             found = _sensitivity(problem, assembly, plan, starts, made, worst, reported)
             return found, list(found.notices()), history
-        if problem.settings.mesh_check == "off" or coupled is not None or not affordable(history, bool(why)):
+        if problem.settings.mesh_check == "off" or coupled is not None:
             return None, [unchecked(why)] if why else [], history
-        motions = motions_of(problem, plan.duration)
-        checked = check_peak(
-            assembly, history, motions, governing, starts[0], plan.skip, options_of(problem, plan), reported
-        )
+        motions, options = motions_of(problem, plan.duration), options_of(problem, plan)
+        if affordable(history, bool(why)):
+            checked = check_peak(assembly, history, motions, governing, starts[0], plan.skip, options, reported)
+        else:
+            checked = check_event(assembly, history, motions, governing, plan.skip, plan.period, options, reported)
         return checked, [unchecked(why)] if checked is None and why else [], history
     except (ConvergenceError, InputError) as error:
         return None, [Notice("sensitivity-failed", error.fault.message, remedy=error.fault.remedy)], history

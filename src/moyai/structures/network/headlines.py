@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 #: Highest tension over that at the ends of its line above which both are reported.
 INSIDE = 1.2
 DYNAMIC, REST = "run through time", "at rest"
+_NOT_JUDGED = Headline(
+    "not_judged", "Not judged", math.nan, "1", text="one line lost, wear and fatigue, shackles, soil of the anchors",
+    condition=True,
+)  # fmt: skip
 _MESH = "mesh: twice the segments, and their change continued"
 
 
@@ -60,7 +64,8 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     items += _anchor(groups)
     items += _offsets(groups)
     items += _mode(groups)
-    return tuple(items[:8])
+    left = [_NOT_JUDGED] if problem.lines and peaks else []
+    return (*items[:8], *left)
 
 
 def _levels(groups: Mapping[str, xr.Dataset], part: str) -> Iterator[tuple[str, xr.Dataset]]:
@@ -292,8 +297,32 @@ def _mode(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
                 finer = float(modes["longest_period_double_mesh"])
                 ends = [value, finer, max(2.0 * finer - value, 0.0)]
                 band = Band(min(ends), max(ends), _MESH) if math.isfinite(finer) else None
+                detail = "; ".join(filter(None, (_motion_of(groups[f"/{level}/network"], modes), "added mass counted")))
                 return [
-                    Headline("natural_period", "longest natural period", value, "s", level, band=band,
-                             detail="added mass counted")
-                ]  # fmt: skip
+                    Headline("natural_period", "longest natural period", value, "s", level, band=band, detail=detail)
+                ]
     return []
+
+
+def _motion_of(network: xr.Dataset, modes: xr.Dataset) -> str:
+    """Say which point or line moves most in the longest mode, and along which axis."""
+    shape = np.asarray(modes["mode_shape"].values[0])
+    size = np.linalg.norm(shape, axis=1)
+    node = int(np.argmax(size))
+    if not size[node] > 0.0:
+        return ""
+    along = "xyz"[int(np.argmax(np.abs(shape[node])))]
+    points = dict(zip(network["point_node"].values.astype(int), network["point"].values, strict=True))
+    # a point that moves nearly as much as the farthest node is what a reader looks for
+    near = [(float(size[place]), str(name)) for place, name in points.items() if size[place] > 0.7 * size[node]]
+    if near:
+        name = max(near)[1]
+        return f"'{name}' moves most, along {along}"
+    owners = [
+        str(line)
+        for line, start, end in zip(
+            network["bar_line"].values, network["bar_start"].values, network["bar_end"].values, strict=True
+        )
+        if node in (int(start), int(end))
+    ]
+    return f"'{owners[0]}' moves most, along {along}" if owners else f"moves most along {along}"

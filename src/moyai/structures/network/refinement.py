@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,8 @@ from moyai.structures.network.assembly import Assembly
 WORK, DOUBTFUL_WORK, IMPLICIT = 3e8, 1e9, 30.0
 #: Part of the critical damping of one bar that calms fronts on the mesh, and bars of the line that they then need.
 DAMPING, DAMPED_BARS = 0.3, 32
+#: Periods before and after the highest tension that an event by itself takes, and how well it gives the peak again.
+LEAD, AFTER, SAME_EVENT = 3.0, 0.25, 0.02
 #: Bars of a line up to which its peak is doubtful whatever the run shows.
 FEW_BARS = 5
 _FRONTS = ("wave-front", "landing-front")
@@ -62,11 +64,114 @@ def doubt(assembly: Assembly, history: History, snaps: Mapping[str, SnapRecord],
     return ""
 
 
-def affordable(history: History, doubtful: bool) -> bool:
-    """Whether half the step and twice the bars can be run as well."""
+def affordable(history: History, doubtful: bool, share: float = 1.0) -> bool:
+    """Whether half the step and twice the bars can be run as well, over a share of the run."""
     network = history.network
-    work = 10.0 * len(network.bars) * history.steps * (1.0 if history.method == "explicit" else IMPLICIT)
+    work = 10.0 * len(network.bars) * share * history.steps * (1.0 if history.method == "explicit" else IMPLICIT)
     return work <= (DOUBTFUL_WORK if doubtful else WORK)
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """The part of a run that holds its highest tension, from a state of the run itself.
+
+    Parameters
+    ----------
+    begin : State
+    duration : float
+        [s].
+    lead : float
+        Time before the peak in which the start fades [s].
+    """
+
+    begin: State
+    duration: float
+    lead: float
+
+
+def window_of(history: History, bars: np.ndarray, skip: float, period: float) -> Window | None:
+    """Return the window around the highest tension of some bars; ``None`` where the places of nodes were not all kept.
+
+    Parameters
+    ----------
+    history : History
+    bars : ndarray of int
+    skip : float
+        Start-up that does not count [s].
+    period : float
+        Of the waves or motions [s].
+    """
+    if history.nodes.size != len(history.network.nodes) or not math.isfinite(period):
+        return None
+    columns = np.flatnonzero(np.isin(history.bars, bars))
+    peaks = np.nan_to_num(history.tension_peak[:, columns], nan=-math.inf).max(axis=1)
+    peaks[history.time < history.time[0] + skip] = -math.inf
+    top = float(history.time[int(np.argmax(peaks))])
+    row = int(np.searchsorted(history.time, top - LEAD * period))
+    if not 0 < row < len(history.time) - 1:
+        return None
+    time, place = history.time, history.position
+    velocity = (place[row + 1] - place[row - 1]) / (time[row + 1] - time[row - 1])
+    begin = State(float(time[row]), np.array(place[row]), np.asarray(velocity))
+    end = min(top + AFTER * period, float(time[-1]))
+    return Window(begin, end - begin.time, 0.5 * (top - begin.time))
+
+
+def check_event(
+    assembly: Assembly,
+    history: History,
+    motions: Mapping[str, Motion],
+    line: str,
+    skip: float,
+    period: float,
+    options: Mapping[str, Any],
+    progress: Progress,
+) -> PeakSensitivity | None:
+    """Run only the event of the highest tension again, with half the step and with every bar cut in two.
+
+    The event is run first on the mesh and step of the run: where that does not give its peak again within
+    :data:`SAME_EVENT` the start has not faded, and nothing is known. What finer runs change is taken in proportion.
+
+    Returns
+    -------
+    PeakSensitivity or None
+        ``None`` where the event cannot be run by itself.
+    """
+    bars = _bars_of(assembly, line)
+    window = window_of(history, bars, skip, period)
+    if window is None:
+        return None
+    share = window.duration / float(history.time[-1] - history.time[0])
+    if not affordable(history, True, share):
+        return None
+    chosen = {**options, "duration": window.duration}
+    columns = np.flatnonzero(np.isin(history.bars, bars))
+    counted = history.time >= history.time[0] + skip
+    peak = float(np.nanmax(history.tension_peak[counted][:, columns]))
+    same = simulate(
+        history.network, motions, start=window.begin, progress=progress,
+        **{**chosen, "step": history.step, "keep_nodes": [0], "keep_bars": bars},
+    )  # fmt: skip
+    if same.status == "interrupted":
+        raise KeyboardInterrupt
+    if same.status != "converged":
+        return None
+    again = float(np.max(same.tension_peak[same.time >= same.time[0] + window.lead]))
+    if abs(again / peak - 1.0) > SAME_EVENT:
+        return None
+    found = check_peak(assembly, same, motions, line, window.begin, window.lead, chosen, progress)
+    if found is None:
+        return None
+    scale = peak / again
+    return replace(
+        found, peak=peak, half_step=scale * found.half_step, double_mesh=scale * found.double_mesh,
+        damped=scale * found.damped,
+    )  # fmt: skip
+
+
+def _bars_of(assembly: Assembly, line: str) -> np.ndarray:
+    strand = assembly.lines.get(line)
+    return strand.bars if strand is not None else assembly.net_bars.get(line, np.zeros(0, dtype=np.int64))
 
 
 def check_peak(
@@ -103,8 +208,7 @@ def check_peak(
     PeakSensitivity or None
         Without what the viscosity changes; ``None`` for networks that cannot be refined, or a run that had to stop.
     """
-    strand = assembly.lines.get(line)
-    bars = strand.bars if strand is not None else assembly.net_bars.get(line, np.zeros(0, dtype=np.int64))
+    bars = _bars_of(assembly, line)
     columns = np.flatnonzero(np.isin(history.bars, bars))
     counted = history.time >= history.time[0] + skip
     if not columns.size or not counted.any():
@@ -185,8 +289,8 @@ def not_converged(found: PeakSensitivity, goal: float, line: str, why: str, segm
     half, mesh, calm = (spoken(v, "N", like=found.peak) for v in (found.half_step, found.double_mesh, found.damped))
     damped = f", {calm} where bars are damped as well" if math.isfinite(found.damped) else ""
     remedy = (
-        f"at least {4 * segments} segments, an internal damping of a tenth of critical or more "
-        "(damping_ratio: 0.1), or a line that does not go slack"
+        f"{2 * segments} to {4 * segments} segments, more internal damping (damping_ratio: {DAMPING:g} of critical), "
+        "or a line that does not go slack"
         if by_mesh >= by_step
         else "a shorter settings.step, or the internal damping that the line has"
     )

@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from moyai.case.check_catalogue import check_catalogue
 from moyai.case.check_sea import check_file, check_surroundings, check_waves
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
@@ -294,26 +295,10 @@ def _check_anchor(model: BreakwaterCase, line: Any, index: int, hull: Hull, drau
 
 
 def _check_catalogue(model: BreakwaterCase, findings: Findings) -> None:
-    from moyai.tables.lines import check_line_properties, line_type
-
-    said: set[str] = set()
     for index, line in enumerate(model.lines):
         for number, part in enumerate(getattr(line, "segments", ())):
-            if not isinstance(part, CatalogueSegment):
-                continue
-            path: KeyPath = ("lines", index, "segments", number)
-            try:
-                properties = line_type(part.catalogue, part.diameter)
-            except InputError as error:
-                key = "diameter" if error.fault.path == "diameter" else "catalogue"
-                findings.fault(
-                    (*path, key), error.fault.message, allowed=error.fault.allowed, remedy=error.fault.remedy
-                )
-                continue
-            for notice in check_line_properties(properties):
-                if notice.code == "line-diameter-range" and notice.message not in said:
-                    said.add(notice.message)
-                    findings.warn((*path, "diameter"), notice.message, remedy=notice.remedy)
+            if isinstance(part, CatalogueSegment):
+                check_catalogue(("lines", index, "segments", number), part.catalogue, part.diameter, findings)
 
 
 def _check_by_statics(model: BreakwaterCase, findings: Findings, folder: Path) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from moyai.case.criteria import CASE, DEFAULT_CODE, UNCONFIRMED, given_criteria, line_criteria, plain_criterion
+from moyai.case.criteria import CASE, DEFAULT_CODE, given_criteria, line_criteria, plain_criterion
 from moyai.case.schema_criteria import (
     OFF,
     GreatestAngle,
@@ -22,12 +22,17 @@ from moyai.case.schema_criteria import (
     word_or_block,
 )
 from moyai.case.schema_types import Name
-from moyai.core.headline import Criterion
+from moyai.core.headline import UNCONFIRMED, Criterion
 
 UPLIFT_SOURCE = (
     f"default of moyai: drag anchors bear no uplift (API RP 2SK, {UNCONFIRMED}); give 'greatest_uplift' for others"
 )
 AFLOAT_SOURCE = "default of moyai: upright and afloat"
+#: Metacentric height over draught that Japanese practice asks of caissons afloat.
+STABLE_SHARE = 0.05
+STABLE_SOURCE = (
+    f"default of moyai: 5 % of the draught, as Japanese port practice asks of caissons afloat, {UNCONFIRMED}"
+)
 
 
 class BreakwaterCriteria(LineCriteria):
@@ -38,7 +43,8 @@ class BreakwaterCriteria(LineCriteria):
         Discriminator(sea_form),
     ] = Field(
         default=None,
-        description="Largest K_T: of the governing sea, or of named ones {name: K_T}" + OFF + ".",
+        description="Largest K_T: of the irregular seas, of the regular ones where there are no others, or of named "
+        "ones {name: K_T}" + OFF + ".",
         examples=[{"storm": 0.5}],
     )
     greatest_offset: GreatestLength = Field(default=None, description="Largest offset from rest" + OFF + ".")
@@ -71,13 +77,22 @@ def criteria(model: Any, given: Any) -> Iterator[Criterion]:
     if given.greatest_uplift is None and moored:
         yield plain_criterion("greatest_uplift", 0.0, UPLIFT_SOURCE)
     yield from given_criteria(given, {"greatest_anchor_load": "anchor_horizontal_load"})
-    yield from _transmission(given.greatest_transmission)
-    for key in ("least_metacentric_height", "least_freeboard"):
-        if getattr(given, key) is None and "statics" in model.analyses:
-            yield plain_criterion(key, 0.0, AFLOAT_SOURCE)
+    yield from _transmission(given.greatest_transmission, model.waves)
+    if "statics" not in model.analyses:
+        return
+    draught = model.structure.draught
+    if given.least_metacentric_height is None and draught is not None:
+        yield plain_criterion("least_metacentric_height", STABLE_SHARE * draught, STABLE_SOURCE)
+    elif given.least_metacentric_height is None:
+        yield plain_criterion("least_metacentric_height", 0.0, AFLOAT_SOURCE)
+    if given.least_freeboard is None:
+        yield plain_criterion("least_freeboard", 0.0, AFLOAT_SOURCE)
 
 
-def _transmission(limit: Any) -> Iterator[Criterion]:
+def _transmission(limit: Any, waves: tuple[Any, ...]) -> Iterator[Criterion]:
+    """Yield the limits on K_T; one without a sea is for the irregular seas where there are any, and says so."""
     seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
+    kinds = {wave.kind == "regular" for wave in waves}
+    label = "transmission K_T of the irregular seas" if len(kinds) > 1 and "" in seas else "transmission K_T"
     for sea, value in seas.items():
-        yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission K_T", sea=sea)
+        yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, label, sea=sea)

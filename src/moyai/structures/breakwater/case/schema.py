@@ -228,8 +228,9 @@ class LineDynamics(Block):
     mode: Literal["auto", "quasi_static", "dynamic"] = Field(
         default="auto",
         description=(
-            "Lines without 'dynamic: true': in motion around the largest events where their peaks pass five times the "
-            "mean (auto), at rest at every instant (quasi_static), in motion from the start (dynamic)."
+            "Lines without 'dynamic: true': in motion around the largest events of the line that governs an irregular "
+            "sea, and where peaks pass five times the mean (auto), at rest at every instant (quasi_static), "
+            "in motion from the start (dynamic)."
         ),
     )
     bars: Annotated[int, Field(strict=True, ge=4, le=2000)] = Field(

@@ -264,15 +264,19 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
     )
     lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
     bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
-    fit = "" if hardest.vertical <= 0.0 else ": not for a drag anchor"
+    sinker = (
+        f"a concrete sinker of {kilonewton(weight)} in water (friction {friction.value:g} on {SINKER[1]}, factors "
+        f"{level_factor.value:g} and {up_factor.value:g})"
+    )
+    asked = f"{drag.value:g} times the pull of one line ({drag.source}, {_confirmed(drag.confirmed)})"
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
         drag.value * hardest.horizontal, "N", hardest.where, hardest.model,
         band=seeds(drag.value * hardest.horizontal_scatter),
         detail=(
-            f"{drag.value:g} times the pull of one line ({drag.source}, {_confirmed(drag.confirmed)}); {bed} at the "
-            f"peak{fit}; or a concrete sinker of {kilonewton(weight)} in water (friction {friction.value:g} on "
-            f"{SINKER[1]}, factors {level_factor.value:g} and {up_factor.value:g})"
+            f"{asked}; {bed} at the peak; or {sinker}"
+            if hardest.vertical <= 0.0
+            else f"not a drag anchor, {bed} at the peak: {sinker}, or a pile; {asked}"
         ),
     )  # fmt: skip
     pull = Headline(
@@ -340,7 +344,7 @@ def seeds(scatter: Array, bound: Array | None = None) -> Band | None:
     if scatter.size < 2 or not np.isfinite(scatter).all():
         return None
     upper = scatter if bound is None or bound.size != scatter.size else np.fmax(bound, scatter)
-    of = f"{scatter.size} realisations; criteria at the 95 % end of their mean"
+    of = f"{scatter.size} realisations; judged at the 95 % end of their mean"
     ends = (float(scatter.mean()) - reach_of_mean(scatter), float(upper.mean()) + reach_of_mean(upper))
     return Band(float(scatter.min()), float(scatter.max()), of, decides=False, judged=ends)
 

@@ -24,12 +24,13 @@ from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import SECTOR
-from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range
+from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range, with_lines_in_motion
 from moyai.structures.breakwater.lines.motion import has_dynamic_lines
+from moyai.structures.breakwater.lines.network import resolved
 from moyai.structures.breakwater.lines.search import MOST_EVENTS, EventsInMotion, Realisation, events_in_motion
 from moyai.structures.breakwater.memory_model import UnitMemory
 from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, MODES, IrregularSea, TimeSettings
-from moyai.structures.breakwater.responses import SNAP_RATIO, anchor_loads, snap_notices
+from moyai.structures.breakwater.responses import anchor_loads, snap_notices
 from moyai.structures.breakwater.slow_drift import LEAST_CYCLES
 from moyai.structures.breakwater.time.lines import STATISTICS, lines_at_rest, motion_summary
 from moyai.structures.breakwater.time.model import SeaOfRun, TimeResult, TimeRun, linear_damping, run_with_lines
@@ -210,19 +211,27 @@ def _lines_in_motion(
     unit, moved = shared.model.unit, np.zeros(len(shared.model.unit.lines), dtype=bool)
     tension = np.array([one.summary.line_tension_maximum.values for one in members])
     passing = out_of_range(unit, tension, np.array([one.summary.line_tension_mean.values for one in members]))
-    if not (passing & movable(unit)).any() or shared.settings.lines.mode != "auto":
+    loads = np.array([line.breaking_load for line in unit.lines])
+    rank = tension.mean(axis=0) / np.where(np.isfinite(loads), loads, 1.0)
+    # The number of the first page comes from lines in motion, also where lines at rest are in their range
+    passing = (passing | (rank == rank.max(initial=-math.inf))) & movable(unit)
+    if not passing.any() or shared.settings.lines.mode != "auto":
         return members, [], moved, ()
     if not isinstance(shared.cummins.memory, StateSpaceMemory):
         reported = f"{unit.name}, {shared.sea.name}: lines in motion need the memory of the water as states"
         remedy = "give structure.gap_damping_lid where water resonates between hulls, or memory: state_space"
         return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=remedy),)
     period = float(frequency.slow_sway_period) if "slow_sway_period" in frequency else 0.0
-    given = EventSettings(shared.model, shared.cummins, shared.expected, shared.settings, shared.peak_period, period)
-    loads = np.array([line.breaking_load for line in unit.lines])
-    rank = tension.mean(axis=0) / np.where(np.isfinite(loads), loads, 1.0)
+    try:
+        lines = resolved(with_lines_in_motion(shared.model).unit, shared.settings.lines)
+    except (InputError, ConvergenceError) as error:
+        reported = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
+        return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=error.fault.remedy),)
+    settings = replace(shared.settings, lines=lines)
+    given = EventSettings(shared.model, shared.cummins, shared.expected, settings, shared.peak_period, period)
     shown: list[TimeRun] = []
     best, counts, still_open = -math.inf, [], 0
-    for line in sorted(np.flatnonzero(passing & movable(unit)), key=lambda number: -rank[number]):
+    for line in sorted(np.flatnonzero(passing), key=lambda number: -rank[number]):
         load = float(loads[line]) if math.isfinite(loads[line]) else 1.0
         try:
             found = events_in_motion(given, members, int(line), max(best, 0.0) * load, progress)
@@ -244,9 +253,8 @@ def _lines_in_motion(
             ]
     names = ", ".join(line.name for line, there in zip(unit.lines, moved, strict=True) if there)
     reported = (
-        f"{unit.name}, {shared.sea.name}: peaks of line {names} pass {SNAP_RATIO:g} times the mean with lines at rest "
-        f"at every instant; {min(counts)} to {max(counts)} events of each realisation were run in motion, over "
-        f"{given.lead:.0f} s up to each, until the next could not pass the largest"
+        f"{unit.name}, {shared.sea.name}: {min(counts)} to {max(counts)} events of each realisation were run with line "
+        f"{names} in motion, over {given.lead:.0f} s up to each, until the next could not pass the largest"
     )
     notices = [Notice("lines-set-in-motion", reported, severity="information")]
     if still_open:

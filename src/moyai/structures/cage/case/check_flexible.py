@@ -4,14 +4,27 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from moyai.case.check_catalogue import check_catalogue
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
+from moyai.case.yaml_reader import KeyPath
 from moyai.core.errors import InputError
 from moyai.structures.cage.case import schema
-from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure
+from moyai.structures.cage.case.schema_flexible import FlexibleCageStructure, GridEntry, RopeEntry
 
 #: Kinematic viscosity of water from boiling to freezing, salt included, with room [m2/s]
 _WATER_VISCOSITY = (2e-7, 3e-6)
+
+
+def _check_ropes(unit: FlexibleCageStructure, findings: Findings) -> None:
+    mooring = unit.mooring
+    if not isinstance(mooring, GridEntry):
+        return
+    ropes: dict[KeyPath, RopeEntry] = {("frame_rope",): mooring.frame_rope, ("bridle",): mooring.bridle}
+    ropes |= {("anchor_line", index): part for index, part in enumerate(mooring.anchor_line)}
+    for path, rope in ropes.items():
+        if rope.catalogue is not None:
+            check_catalogue(("structure", "mooring", *path), rope.catalogue, rope.diameter, findings)
 
 
 def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
@@ -49,6 +62,7 @@ def check(model: schema.CageCase, findings: Findings, folder: Path) -> None:
             "speeds of a current without a current",
             remedy="give 'current', whose profile and heading they scale",
         )
+    _check_ropes(unit, findings)
     if not findings.sound("structure", "settings", "analyses", "site"):
         return
     try:

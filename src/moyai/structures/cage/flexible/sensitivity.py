@@ -9,7 +9,7 @@ import numpy as np
 
 from moyai.core.progress import Progress, silent
 from moyai.structures.cage.flexible.build import build_cage
-from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, solve_rest
+from moyai.structures.cage.flexible.equilibrium import CageRest, collar_forces, horizontal_balance, solve_rest
 from moyai.structures.cage.flexible.model import CageMesh, FlexibleCage, GridMooring
 from moyai.structures.cage.flexible.problem import FlexibleSettings
 from moyai.structures.cage.flexible.time import CageRun, run_cage
@@ -19,7 +19,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: What is changed, in the order of the result.
-VARIANTS = ("as given", "half the step", "coarser mesh", "twice the damping of the mesh")
+COARSER = "coarser mesh"
+VARIANTS = ("as given", "half the step", COARSER, "twice the damping of the mesh")
+#: Quantities that the first page moves with the mesh; tensions are those of each kind of line.
+OFFSET, LEAST_VOLUME, STRESS = (
+    "largest offset of a collar [m]", "smallest volume share [-]", "highest stress of the collar [Pa]",
+)  # fmt: skip
+VOLUME_IN_CURRENT, DRAG_IN_CURRENT = "volume share in the current [-]", "drag in the current [N]"
 
 
 def _coarser(mesh: CageMesh) -> CageMesh:
@@ -37,6 +43,11 @@ def _damped(model: FlexibleCage) -> FlexibleCage:
     return replace(model, design=replace(model.design, net=net), mooring=mooring)
 
 
+def tension_of(kind: str) -> str:
+    """Return the quantity of a kind of line: anchor, bridle, frame or buoy."""
+    return f"highest tension, {kind} [N]"
+
+
 def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
     """Return the highest tension of each kind of line, the smallest volume and the highest stress."""
     history, built = run.history, run.rest.built
@@ -45,12 +56,22 @@ def _numbers(model: FlexibleCage, run: CageRun) -> dict[str, float]:
     for kind in ("anchor", "bridle", "frame", "buoy"):
         bars = [built.network.strands[part.strand].bars for part in built.lines if part.kind == kind]
         if bars:
-            out[f"highest tension, {kind} [N]"] = float(history.tension_peak[steady][:, np.concatenate(bars)].max())
+            out[tension_of(kind)] = float(history.tension_peak[steady][:, np.concatenate(bars)].max())
     volume = [cage.volume(history.position[steady]) / cage.rest_volume for cage in built.cages]
-    out["smallest volume share [-]"] = float(np.min(volume))
+    out[LEAST_VOLUME] = float(np.min(volume))
+    calm = built.network.nodes.position
+    moved = [
+        np.linalg.norm((history.position[steady][:, cage.collar[0]] - calm[cage.collar[0]]).mean(axis=1)[:, :2], axis=1)
+        for cage in built.cages
+    ]
+    out[OFFSET] = float(np.max(moved))
+    out[VOLUME_IN_CURRENT] = float(
+        np.min([cage.volume(run.rest.state.position) / cage.rest_volume for cage in built.cages])
+    )
+    out[DRAG_IN_CURRENT] = float(np.linalg.norm(horizontal_balance(run.rest)[0].sum(axis=0)[:2]))
     if built.cages[0].collar_bars and not model.design.collar.rigid:
         rows = np.flatnonzero(steady)[:: max(1, int(steady.sum()) // 100)]
-        out["highest stress of the collar [Pa]"] = float(
+        out[STRESS] = float(
             max(
                 ring["stress"].max()
                 for row in rows
@@ -75,8 +96,6 @@ def sensitivity_dataset(
     settings : FlexibleSettings
     progress : Progress
     """
-    import xarray as xr
-
     short = replace(settings, ramp_periods=min(settings.ramp_periods, 2.0))
     found: list[dict[str, float]] = []
     first = run_cage(model, rest, wave, short)
@@ -88,10 +107,42 @@ def sensitivity_dataset(
         start = solve_rest(other, build_cage(other), rest.current)
         found.append(_numbers(other, run_cage(other, start, wave, short)))
     progress("sensitivity", len(VARIANTS), len(VARIANTS))
+    return _dataset(VARIANTS, found, first)
+
+
+def mesh_dataset(
+    model: FlexibleCage, run: CageRun, settings: FlexibleSettings, progress: Progress = silent
+) -> xr.Dataset:
+    """Run the wave of a run on a mesh that is coarser by a third; return the numbers of both.
+
+    Of an irregular sea both are run over its first six periods.
+
+    Parameters
+    ----------
+    model : FlexibleCage
+    run : CageRun
+        As the case gives it.
+    settings : FlexibleSettings
+    progress : Progress
+    """
+    wave = run.wave
+    if not wave.regular:
+        wave = replace(wave, duration=min(wave.duration, 6.0 * wave.period))
+        run = run_cage(model, run.rest, wave, settings)
+    progress("coarser mesh", 0.5, 1.0)
+    other = replace(model, mesh=_coarser(model.mesh))
+    again = run_cage(other, solve_rest(other, build_cage(other), run.rest.current), wave, settings)
+    progress("coarser mesh", 1.0, 1.0)
+    return _dataset((VARIANTS[0], COARSER), [_numbers(model, run), _numbers(other, again)], run)
+
+
+def _dataset(variants: tuple[str, ...], found: list[dict[str, float]], first: CageRun) -> xr.Dataset:
+    import xarray as xr
+
     names = list(found[0])
     values = np.array([[numbers[name] for name in names] for numbers in found])
     return xr.Dataset(
         {"value": (("variant", "quantity"), values, {"units": "1", "long_name": "see the quantity"})},
-        coords={"variant": list(VARIANTS), "quantity": names},
-        attrs={"wave": wave.name, "step": first.history.step},
+        coords={"variant": list(variants), "quantity": names},
+        attrs={"wave": first.wave.name, "step": first.history.step},
     )

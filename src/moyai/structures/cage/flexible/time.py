@@ -221,6 +221,11 @@ def _line_series(
     bars = [run.rest.network.strands[part.strand].bars for part in built.lines]
     upper = np.stack([history.tension[:, own[-1]] for own in bars], axis=1)
     lower = np.stack([history.tension[:, own[0]] for own in bars], axis=1)
+    nodes = run.rest.network.bars
+    first = [own[0] for own in bars]
+    along = history.position[:, nodes.end[first]] - history.position[:, nodes.start[first]]
+    # anchor lines run upwards from the anchor: what pulls it up is the upward part of the tension of their first bar
+    uplift = np.maximum(along[..., 2] / np.maximum(np.linalg.norm(along, axis=2), 1e-300) * lower, 0.0)
     lower_peak = np.stack([history.tension_peak[:, own[0]] for own in bars], axis=1)
     peak = np.stack([history.tension_peak[:, own].max(axis=1) for own in bars], axis=1)
     mean = upper[steady].mean(axis=0)
@@ -241,6 +246,7 @@ def _line_series(
         "line_tension_lower": (("time", "line"), lower),
         "line_tension_peak_since_row": (("time", "line"), peak),
         "line_tension_maximum_lower": ("line", lower_peak[steady].max(axis=0)),
+        "line_uplift_lower": ("line", uplift[steady].max(axis=0)),
         "line_tension_mean": ("line", mean),
         "line_tension_minimum": ("line", upper[steady].min(axis=0)),
         "line_tension_maximum": ("line", largest),

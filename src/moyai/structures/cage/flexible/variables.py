@@ -70,6 +70,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "line_tension": ("N", "tension at the upper end of the line"),
     "line_tension_lower": ("N", "tension at the lower end of the line: of anchor lines at the anchor"),
     "line_tension_maximum_lower": ("N", "highest tension at the lower end of the line: of anchor lines at the anchor"),
+    "line_uplift_lower": ("N", "largest upward part of the tension at the lower end of the line"),
     "line_tension_peak_since_row": ("N", "highest tension in the line since the row before"),
     "line_tension_mean": ("N", "mean tension at the upper end"),
     "line_tension_minimum": ("N", "smallest tension at the upper end"),

@@ -266,8 +266,10 @@ class MemberRegularWaves(RegularWaves):
     periods: Periods | None = Field(
         default=None, description="Wave periods: a list, or evenly spaced {from, to, count}; each is run."
     )
-    theory: Literal["linear", "stokes", "stream_function"] = Field(  # type: ignore[assignment]
-        default="linear", description="Wave theory: linear, Stokes of fifth order, or stream function."
+    theory: Literal["automatic", "linear", "stokes", "stream_function"] = Field(  # type: ignore[assignment]
+        default="automatic",
+        description="Wave theory: linear, Stokes of fifth order, or stream function; automatic takes linear waves "
+        "where their second harmonic is below 1 % of the first, else the stream function.",
     )
 
     def all_heights(self) -> tuple[float, ...]:

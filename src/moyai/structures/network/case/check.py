@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from moyai.case.check_catalogue import check_catalogue
 from moyai.case.check_sea import check_file, check_surroundings, check_waves
 from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings, duplicates
@@ -138,6 +139,9 @@ def _check_names(model: NetworkCase, findings: Findings) -> None:
 
 def _check_lines(model: NetworkCase, findings: Findings) -> None:
     unit = model.structure
+    for name, entry in unit.line_types.items():
+        if isinstance(entry, parts.CatalogueType):
+            check_catalogue(("structure", "line_types", name), entry.catalogue, entry.diameter, findings)
     grids: list[tuple[str, Any]] = [*unit.nets.items(), *unit.sheets.items()]
     knots = {f"{name}[{i},{j}]" for name, grid in grids for i in range(grid.rows) for j in range(grid.columns)}
     known = [*unit.points, *(point for body in unit.bodies.values() for point in body.points)]
