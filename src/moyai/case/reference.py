@@ -19,6 +19,8 @@ from moyai.case.schema import root_schema
 from moyai.case.schema_types import Block, QuantityOf
 from moyai.core.kinds import further_files, structure_kinds
 
+#: Kinds whose name is no word for one of them
+_WORDS = {"units": "row of units"}
 #: Files on the pages that are not about cases
 _FILES = {
     "record_files.md": {
@@ -40,6 +42,11 @@ def pages() -> tuple[str, ...]:
     return (*(f"case_file/{kind}.md" for kind in structure_kinds()), *_FILES)
 
 
+def called(kind: str) -> str:
+    """Return the word for one structure of a kind."""
+    return _WORDS.get(kind, kind)
+
+
 def _mark(page: str) -> str:
     return f"<!-- made by: python -m moyai.case.reference docs, page {page} -->"
 
@@ -52,7 +59,7 @@ def reference_markdown(page: str) -> str:
         roots = {f"Keys: {title.lower()}": known[name].file_schema(name) for name, title in _FILES[page].items()}
     else:
         kind = Path(page).stem
-        roots = {f"Case of a {kind}": root_schema(kind)}
+        roots = {f"Case of a {called(kind)}": root_schema(kind)}
     for title, root in roots.items():
         lines += [f"## {title}", ""]
         for name, model in _blocks(root):
@@ -190,7 +197,7 @@ def _default(field: FieldInfo, grouped: bool) -> str:
 def renew(text: str, page: str) -> str:
     """Return the text of a page with everything below the mark made again; a new page begins with its mark."""
     mark = _mark(page)
-    head = text[: text.index(mark)] if mark in text else _HEAD.format(kind=Path(page).stem)
+    head = text[: text.index(mark)] if mark in text else _HEAD.format(kind=called(Path(page).stem))
     return f"{head}{mark}\n\n{reference_markdown(page)}"
 
 

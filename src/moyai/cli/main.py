@@ -114,7 +114,8 @@ def new(
 ) -> None:
     """Print a commented file to start from.
 
-    Kinds: breakwater, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces, snaps; study, fit.
+    Kinds: breakwater, units, curtain, cage, rigid_cage, network, member; records, nets, streaks, forces, snaps;
+    study, fit.
     """
     with guard(as_json):
         from moyai.case.templates import kinds_of_files, next_command, template

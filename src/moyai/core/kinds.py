@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 GROUP = "moyai.structures"
 
-_STRUCTURES = ("breakwater", "curtain", "cage", "network", "member")
+_STRUCTURES = ("breakwater", "curtain", "cage", "network", "member", "units")
 _FURTHER = {
     "records": "moyai.records.survey",
     "nets": "moyai.records.nets",

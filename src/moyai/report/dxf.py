@@ -18,7 +18,7 @@ _INSUNITS = {"m": 6, "mm": 4}
 
 #: Layer and colour of the AutoCAD index by the style of a stroke; an empty layer is left out (areas of water and bed).
 _LAYERS: dict[str, tuple[str, int]] = {
-    "water": ("", 0), "bed": ("", 0),
+    "water": ("", 0), "bed": ("", 0), **{f"ratio-{number}": ("", 0) for number in range(9)},
     "surface": ("WATER-LEVEL", 5), "bed-line": ("BED", 32), "hull": ("BODY", 7), "mooring": ("MOORING", 150),
     "anchor": ("ANCHORS", 7), "sheet": ("SHEET", 30), "ghost": ("SHEET-RANGE", 31), "buoy": ("FLOATS", 40),
     "chord": ("REFERENCE", 8), "flow": ("CURRENT", 140), "flow-head": ("CURRENT", 140), "axis": ("AXES", 1),

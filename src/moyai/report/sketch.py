@@ -26,6 +26,8 @@ _PAPER = """
 .flow{stroke:#1f7ab0;fill:none;stroke-width:1.2}.flow-head{fill:#1f7ab0}
 .chord{stroke:#5b6775;fill:none;stroke-width:.8;stroke-dasharray:2 3}
 .dimension{stroke:#5b6775;fill:none;stroke-width:.8}.dimension-head{fill:#5b6775}
+.ratio-0{fill:#08519c;stroke:none;shape-rendering:crispEdges}.ratio-1{fill:#3182bd;stroke:none;shape-rendering:crispEdges}.ratio-2{fill:#6baed6;stroke:none;shape-rendering:crispEdges}.ratio-3{fill:#9ecae1;stroke:none;shape-rendering:crispEdges}.ratio-4{fill:#deebf7;stroke:none;shape-rendering:crispEdges}
+.ratio-5{fill:#fee6ce;stroke:none;shape-rendering:crispEdges}.ratio-6{fill:#fdae6b;stroke:none;shape-rendering:crispEdges}.ratio-7{fill:#e6550d;stroke:none;shape-rendering:crispEdges}.ratio-8{fill:#a63603;stroke:none;shape-rendering:crispEdges}
 .note{fill:#1b2430}.faint{fill:#5b6775}.marker{fill:#1b2430;stroke:none}.hollow{fill:#fff;stroke:#1b2430;stroke-width:1}
 """
 

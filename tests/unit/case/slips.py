@@ -26,7 +26,7 @@ ROOT = Path(__file__).parents[3]
 FACTORS = (1000, 0.001)
 #: Version, seeds and numbers that name something: no quantity that a unit could be mistaken for
 NO_QUANTITY = ("moyai", "seed", "record", "place", "frequency_column", "density_column")
-TEMPLATES = ("breakwater", "curtain", "cage", "rigid_cage", "member", "network")
+TEMPLATES = ("breakwater", "units", "curtain", "cage", "rigid_cage", "member", "network")
 _NUMBER = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 
 

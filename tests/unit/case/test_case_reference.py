@@ -6,7 +6,7 @@ import pytest
 from jsonschema import Draft7Validator
 from typer.testing import CliRunner
 
-from moyai.case.reference import pages, reference_markdown, renew
+from moyai.case.reference import called, pages, reference_markdown, renew
 from moyai.case.schema import file_json_schema
 from moyai.case.templates import template
 from moyai.case.yaml_reader import parse_yaml
@@ -42,7 +42,7 @@ def test_new_without_a_kind_lists_all_of_them():
 def test_every_kind_and_key_is_listed():
     text = "".join(reference_markdown(page) for page in pages())
     for kind in structure_kinds():
-        assert f"## Case of a {kind}" in text
+        assert f"## Case of a {called(kind)}" in text
     for key in ("water_depth", "peak_enhancement", "bilge_radius", "bed_friction", "line_slacks", "from_bearing_deg"):
         assert f"| `{key}` |" in text
     assert "| `draught` |" in text

@@ -6,13 +6,13 @@ import math
 from pathlib import Path
 from typing import Any
 
+from moyai.case.build_lines import line_parts
 from moyai.case.build_sea import environment_of
 from moyai.case.criteria import criteria_of
 from moyai.case.measured import read_points
 from moyai.case.schema_lines import CatalogueSegment, CatenaryLine, ClumpEntry, LineEntry, OwnSegment, SpringLine
 from moyai.core.errors import InputError
 from moyai.flexible.network import BarType
-from moyai.mooring.lines import Clump, LineType, Segment
 from moyai.sea.water import Water
 from moyai.structures.breakwater.case import schema
 from moyai.structures.breakwater.model import (
@@ -155,14 +155,7 @@ def line_of(entry: LineEntry, index: int, water: Water, *, in_motion: bool = Fal
     if isinstance(entry, SpringLine):
         anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.z)
         return MooringSpring(entry.name, entry.count, fairlead, anchor, entry.stiffness, entry.pretension)
-    segments: list[Segment] = []
-    clumps: list[Clump] = []
-    for number, part in enumerate(entry.segments):
-        if isinstance(part, ClumpEntry):
-            weight = (part.clump.mass - water.density * part.clump.volume) * water.gravity
-            clumps.append(Clump(len(segments) - 1, weight))
-        else:
-            segments.append(_segment(part, f"lines[{index}].segments[{number}]", number, entry, water))
+    segments, clumps = line_parts(entry, f"lines[{index}]", water)
     anchor = (entry.anchor.x, entry.anchor.y, entry.anchor.above_bed)
     moving = entry.dynamic or in_motion
     materials = tuple(
@@ -172,7 +165,7 @@ def line_of(entry: LineEntry, index: int, water: Water, *, in_motion: bool = Fal
     )
     bodies = tuple((part.clump.mass, part.clump.volume) for part in entry.segments if isinstance(part, ClumpEntry))
     return MooringLine(
-        entry.name, entry.count, fairlead, anchor, tuple(segments), tuple(clumps), entry.bed_friction, entry.drag_width,
+        entry.name, entry.count, fairlead, anchor, segments, clumps, entry.bed_friction, entry.drag_width,
         moving, tuple(kind for kind in materials if kind is not None) if None not in materials else (), bodies,
     )  # fmt: skip
 
@@ -229,23 +222,6 @@ def bar_type_of(
         drag_normal=float(part.drag_normal or 0.0), drag_tangential=float(part.drag_tangential or 0.0),
         added_mass_normal=float(part.added_mass_normal or 0.0), added_mass_tangential=part.added_mass_tangential,
     )  # fmt: skip
-
-
-def _segment(part: CatalogueSegment | OwnSegment, path: str, number: int, entry: CatenaryLine, water: Water) -> Segment:
-    if isinstance(part, CatalogueSegment):
-        try:
-            properties = line_type(part.catalogue, part.diameter)
-        except InputError as error:
-            fault = error.fault
-            key = "diameter" if fault.path == "diameter" else "catalogue"
-            raise InputError(fault.message, path=f"{path}.{key}", allowed=fault.allowed, remedy=fault.remedy) from None
-        return Segment(LineType.from_properties(properties, water.density, water.gravity), part.length)
-    weight = part.submerged_weight
-    if weight is None:
-        weight = (part.submerged_mass or 0.0) * water.gravity
-    name = part.name or f"{entry.name} {number + 1}"
-    breaking = math.inf if part.breaking_load is None else part.breaking_load
-    return Segment(LineType(name, weight, part.axial_stiffness, breaking), part.length)
 
 
 def settings_of(model: schema.BreakwaterCase) -> Settings:

@@ -11,6 +11,7 @@ from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
 from moyai.case.schema_lines import LineEntry
 from moyai.case.schema_measured import MEASURED, MeasuredSets
+from moyai.case.schema_sections import Section
 from moyai.case.schema_types import (
     AddedInertia,
     AddedMass,
@@ -38,7 +39,6 @@ from moyai.case.schema_types import (
     once_each,
 )
 from moyai.structures.breakwater.case.criteria import BreakwaterCriteria, BreakwaterKeeps
-from moyai.structures.breakwater.case.schema_sections import Section
 
 Mode = Literal["sway", "heave", "roll"]
 Analysis = Literal["statics", "mooring", "frequency", "time"]

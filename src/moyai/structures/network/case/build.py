@@ -249,7 +249,7 @@ def _place(position: Sequence[float | None]) -> tuple[float, float, float]:
 
 def _point(name: str, entry: Any) -> model.PointPlan:
     place = _place(entry.position)
-    if isinstance(entry, parts.FixedPoint):
+    if isinstance(entry, parts.HeldPoint):
         return model.PointPlan(name, "fixed", place, floats=entry.z_from == "still_water")
     if isinstance(entry, parts.DrivenPoint):
         return model.PointPlan(name, "driven", place, entry.motion or "", entry.z_from == "still_water")

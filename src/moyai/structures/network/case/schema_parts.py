@@ -207,7 +207,7 @@ ZFrom = Annotated[
 ]
 
 
-class FixedPoint(Block):
+class HeldPoint(Block):
     """A point that does not move."""
 
     kind: Literal["fixed"] = Field(description="An anchor or another fixed point.")
@@ -266,9 +266,7 @@ class CylinderFloat(_Moving):
     added_mass_coefficient: NonNegativeNumber = Field(description="On the volume.")
 
 
-NetworkPoint = Annotated[
-    FixedPoint | DrivenPoint | FreePoint | SphereFloat | CylinderFloat, Field(discriminator="kind")
-]
+NetworkPoint = Annotated[HeldPoint | DrivenPoint | FreePoint | SphereFloat | CylinderFloat, Field(discriminator="kind")]
 
 
 # ---- lines

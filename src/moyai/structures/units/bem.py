@@ -1,0 +1,371 @@
+"""Radiation and diffraction of all units together, by panels and Green's identity; Green function of Capytaine.
+
+Time factor e^{-i omega t}. The potential on the panels follows from its normal velocity [eq:units-green]: that of the
+hull, none on lids inside of hulls; the surface in a gap may be damped [eq:units-gap-lid]. All motions of all units and
+all headings are solved with one factorisation for each parity.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from moyai.core.arrays import Array, ComplexArray
+from moyai.core.errors import InputError
+from moyai.sea.dispersion import wave_number
+from moyai.sea.water import Water
+from moyai.structures.units.mesh import GAP, HULL, PanelMesh, turned_round
+from moyai.structures.units.symmetry import Symmetry, symmetry_of
+
+#: Bytes of a complex number
+_COMPLEX = 16
+#: Least kh of the Green function in finite depth
+LEAST_DEPTH = 0.1
+#: Directions of the far field
+DIRECTIONS = 180
+#: Points whose field is evaluated at once
+_BATCH = 500
+
+
+@lru_cache(maxsize=1)
+def green_function() -> Any:
+    """Return Capytaine's Green function of the free surface.
+
+    Raises
+    ------
+    InputError
+        When Capytaine 3 is not installed.
+    """
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
+    try:
+        from capytaine.green_functions.delhommeau import Delhommeau
+    except ImportError as error:
+        raise InputError(
+            "a row of units needs Capytaine 3, which is not installed",
+            path="structure.kind",
+            remedy='pip install "moyai[bem3d]"',
+        ) from error
+    # the Prony series of Nemoh: waves far away agree with the energy of the body three times better than with the other
+    return Delhommeau(finite_depth_prony_decomposition_method="fortran")
+
+
+def engine_version() -> str:
+    """Return the version of Capytaine."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("capytaine")
+    except PackageNotFoundError:
+        return "absent"
+
+
+@dataclass(frozen=True, eq=False)
+class Panels:
+    """A mesh with what a solution needs of it.
+
+    Parameters
+    ----------
+    mesh : PanelMesh
+    modes : ndarray (m, n)
+        Normal displacement of every panel in every motion; zero on lids.
+    symmetry : Symmetry
+    gap_damping : float
+        epsilon of the lids in the gaps.
+    """
+
+    mesh: PanelMesh
+    modes: Array
+    symmetry: Symmetry
+    gap_damping: float = 0.0
+
+
+def panels_of(mesh: PanelMesh, centres: Array, gap_damping: float = 0.0) -> Panels:
+    """Return the panels with six motions of every unit about its centre (u, 3) [m], in axes of the row."""
+    normal, point = mesh.normal, mesh.centre
+    modes = np.zeros((6 * len(centres), mesh.count))
+    for number, centre in enumerate(centres):
+        mine = (mesh.unit == number) & (mesh.part == HULL)
+        modes[6 * number : 6 * number + 3, mine] = normal[mine].T
+        modes[6 * number + 3 : 6 * number + 6, mine] = np.cross(point[mine] - centre, normal[mine]).T
+    return Panels(mesh, modes, symmetry_of(mesh), gap_damping)
+
+
+def memory_needed(count: int, group: int = 1) -> float:
+    """Return the memory [bytes] that one frequency takes with ``count`` panels and a group of mirrors."""
+    part = count / group
+    return _COMPLEX * part**2 * (2.0 * group + 4.0)
+
+
+def memory_of_machine() -> float:
+    """Return the memory that is free [bytes]; infinite where the system does not say."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as lines:
+            for line in lines:
+                if line.startswith("MemAvailable"):
+                    return 1024.0 * float(line.split()[1])
+    except OSError:
+        pass
+    return math.inf
+
+
+def check_memory(panels: Panels) -> None:
+    """Refuse a mesh that the machine cannot hold, before the work starts.
+
+    Raises
+    ------
+    InputError
+    """
+    needed, free = memory_needed(panels.mesh.count, len(panels.symmetry.mirrors)), memory_of_machine()
+    if needed > free:
+        raise InputError(
+            f"{panels.mesh.count} panels need {needed / 2**30:.1f} GiB, {free / 2**30:.1f} GiB are free",
+            path="settings.panel_size",
+            remedy="give larger panels, fewer units, or a machine with more memory",
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Everything at one frequency.
+
+    Parameters
+    ----------
+    omega, wave_number : float
+        [rad/s], [1/m].
+    added_mass, damping : ndarray (m, m)
+        Of all motions on all: force in row i by motion j.
+    excitation : ndarray (h, m)
+        Force of a wave of unit amplitude, phase at the origin of the row.
+    radiation, diffraction : ndarray (n, m), (n, h)
+        Potential on the panels per unit displacement and per unit wave amplitude, incident wave left out; in gaps the
+        sources of the damped surface.
+    radiated, scattered : ndarray (m, directions), (h, directions)
+        Amplitude A of the far waves A sqrt(2 / (pi k R)) e^{i (k R - pi/4)}, per unit displacement and amplitude.
+    haskind : ndarray (6,)
+        Largest departure of the excitation from that of the radiation alone, a kind of motion.
+    """
+
+    omega: float
+    wave_number: float
+    added_mass: Array
+    damping: Array
+    excitation: ComplexArray
+    radiation: ComplexArray
+    diffraction: ComplexArray
+    radiated: ComplexArray
+    scattered: ComplexArray
+    haskind: Array
+
+
+def directions() -> Array:
+    """Return the directions of the far field [rad]."""
+    return np.arange(DIRECTIONS) * 2.0 * math.pi / DIRECTIONS
+
+
+def solve_frequency(panels: Panels, water: Water, omega: float, headings: Array) -> Solution:
+    """Solve all motions and all headings at one frequency.
+
+    Parameters
+    ----------
+    panels : Panels
+    water : Water
+    omega : float
+        [rad/s].
+    headings : ndarray (h,)
+        Directions of travel [rad].
+
+    Raises
+    ------
+    InputError
+        For waves longer than 63 depths, which the Green function does not reach.
+    """
+    mesh = panels.mesh
+    k = float(wave_number(omega, water.depth, water.gravity))
+    _check_depth(k, water, omega)
+    incident, incident_normal = incident_on(mesh, water, omega, k, headings)
+    given = given_flow(panels, water, omega, k, headings)
+    surface = _solved(panels, water, omega, k, given, incident)
+    count = len(panels.modes)
+    wet = mesh.part != GAP
+    weights = panels.modes * mesh.area
+    force = -1j * omega * water.density * (weights[:, wet] @ surface[wet])
+    on_motion = force[:, :count]
+    froude_krylov = -1j * omega * water.density * (weights @ incident)
+    excitation = (froude_krylov + force[:, count:]).T
+    # the same from the radiation alone [eq:units-haskind]
+    hull = mesh.part == HULL
+    flow = (incident_normal[hull] * mesh.area[hull, None]).T
+    by_radiation = froude_krylov.T - water.density * flow @ surface[hull, :count]
+    damped = (incident[~wet] * mesh.area[~wet, None]).T
+    by_radiation = by_radiation + water.density * damped @ surface[~wet, :count]
+    far = far_amplitudes(panels, water, omega, k, surface, given)
+    return Solution(
+        omega, k, on_motion.real / omega**2, on_motion.imag / omega, excitation, surface[:, :count],
+        surface[:, count:], far[:count], far[count:], _departure(excitation, by_radiation),
+    )  # fmt: skip
+
+
+def given_flow(panels: Panels, water: Water, omega: float, k: float, headings: Array) -> ComplexArray:
+    """Return the normal velocities (n, r) of all unit motions and of all scattered waves; zero on lids."""
+    incident_normal = incident_on(panels.mesh, water, omega, k, headings)[1]
+    hull = (panels.mesh.part == HULL)[:, None]
+    return np.concatenate([-1j * omega * panels.modes.T, np.where(hull, -incident_normal, 0.0)], axis=1)
+
+
+def _departure(first: ComplexArray, second: ComplexArray) -> Array:
+    return np.asarray(np.abs(first - second).reshape(len(first), -1, 6).max(axis=(0, 1)))
+
+
+def _check_depth(k: float, water: Water, omega: float) -> None:
+    if k * water.depth < LEAST_DEPTH:
+        raise InputError(
+            f"waves of {2.0 * math.pi / omega:.4g} s are {2.0 * math.pi / (k * water.depth):.0f} depths long",
+            path="waves",
+            allowed=f"up to {2.0 * math.pi / LEAST_DEPTH:.0f} depths",
+            remedy="leave such long waves out: they pass the row as if it were not there",
+        )
+
+
+def _depth_profile(z: Array, k: float, depth: float) -> Array:
+    """Return cosh k(z + h) / cosh kh of [eq:units-far-field]."""
+    if math.isinf(depth):
+        return np.asarray(np.exp(k * z))
+    return np.asarray((np.exp(k * z) + np.exp(-k * (z + 2.0 * depth))) / (1.0 + math.exp(-2.0 * k * depth)))
+
+
+def incident_on(
+    mesh: PanelMesh, water: Water, omega: float, k: float, headings: Array
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return the potential of incident waves of unit amplitude and its normal derivative at the panels (n, h)."""
+    point, normal = mesh.centre, mesh.normal
+    cosine, sine = np.cos(headings), np.sin(headings)
+    phase = np.exp(1j * k * (point[:, [0]] * cosine + point[:, [1]] * sine))
+    profile = _depth_profile(point[:, 2], k, water.depth)[:, None]
+    rate = _sinh_profile(point[:, 2], k, water.depth)[:, None]
+    amplitude = -1j * water.gravity / omega
+    across = normal[:, [0]] * cosine + normal[:, [1]] * sine
+    return amplitude * profile * phase, amplitude * k * phase * (1j * across * profile + normal[:, [2]] * rate)
+
+
+def _sinh_profile(z: Array, k: float, depth: float) -> Array:
+    """Return sinh k(z + h) / cosh kh."""
+    if math.isinf(depth):
+        return np.asarray(np.exp(k * z))
+    return np.asarray((np.exp(k * z) - np.exp(-k * (z + 2.0 * depth))) / (1.0 + math.exp(-2.0 * k * depth)))
+
+
+def _capytaine_mesh(corners: Array) -> Any:
+    from capytaine.meshes.meshes import Mesh
+
+    count = len(corners)
+    faces = np.arange(4 * count).reshape(count, 4)
+    repeated = np.linalg.norm(corners[:, 3] - corners[:, 0], axis=1) < 1e-12
+    faces[repeated, 3] = faces[repeated, 0]
+    return Mesh(corners.reshape(-1, 3), faces, auto_clean=False, auto_check=False)
+
+
+def _blocks(panels: Panels, water: Water, k: float) -> list[tuple[ComplexArray, ComplexArray]]:
+    """Return single and double layer of every image of the part on the part."""
+    mesh, group, engine = panels.mesh, panels.symmetry, green_function()
+    part = _capytaine_mesh(mesh.corners[group.part])
+    blocks = []
+    for element, (over_x, over_y) in enumerate(group.mirrors):
+        corners = mesh.corners[group.part] * np.array([-1.0 if over_x else 1.0, -1.0 if over_y else 1.0, 1.0])
+        if over_x != over_y:
+            # a mirror turns the corners round
+            corners = turned_round(corners)
+        blocks.append(
+            engine.evaluate(
+                part, _capytaine_mesh(corners), free_surface=0.0, water_depth=water.depth, wavenumber=k,
+                adjoint_double_layer=False, diagonal_term_in_double_layer=element == 0,
+            )
+        )  # fmt: skip
+    return blocks
+
+
+def _solved(
+    panels: Panels, water: Water, omega: float, k: float, given: ComplexArray, incident: ComplexArray
+) -> ComplexArray:
+    """Return the potentials (n, r) of given normal velocities; in gaps the sources of the damped surface.
+
+    Parity by parity [eq:units-symmetry]: the double layer of the potential on hulls and lids equals the single layer of
+    the normal velocity [eq:units-green], and the surface in a gap is a source of its own [eq:units-gap-lid].
+    """
+    mesh, group = panels.mesh, panels.symmetry
+    blocks = _blocks(panels, water, k)
+    gap = mesh.part[group.part] == GAP
+    rate = 1j * panels.gap_damping * omega**2 / water.gravity
+    moved = np.zeros_like(given)
+    moved[:, given.shape[1] - incident.shape[1] :] = incident
+    flow, wave = group.split(given), group.split(moved)
+    found = np.empty_like(flow)
+    for number, parity in enumerate(group.parities):
+        single = sum(sign * block[0] for sign, block in zip(parity, blocks))
+        matrix = np.array(sum(sign * block[1] for sign, block in zip(parity, blocks)))
+        right = single @ flow[number]
+        if gap.any():
+            matrix[gap] *= -rate
+            matrix[np.ix_(~gap, gap)] = -single[np.ix_(~gap, gap)]
+            matrix[np.ix_(gap, gap)] = np.eye(int(gap.sum())) + rate * single[np.ix_(gap, gap)]
+            right[gap] = -rate * (right[gap] + wave[number][gap])
+        found[number] = lu_solve(lu_factor(matrix, check_finite=False), right, check_finite=False)
+    return group.joined(found)
+
+
+def _layers(panels: Panels, surface: ComplexArray, given: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+    """Return the densities of the single and of the double layer (n, r) of a solution."""
+    gap = (panels.mesh.part == GAP)[:, None]
+    return np.where(gap, surface, given), np.where(gap, 0.0, surface)
+
+
+def far_amplitudes(
+    panels: Panels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray,
+    angles: Array | None = None,
+) -> ComplexArray:  # fmt: skip
+    """Return the amplitudes (r, directions) of the far waves of solutions (n, r) [eq:units-far-field]."""
+    mesh = panels.mesh
+    angles = directions() if angles is None else angles
+    centre, normal, area = mesh.centre, mesh.normal, mesh.area[:, None]
+    cosine, sine = np.cos(angles), np.sin(angles)
+    phase = np.exp(-1j * k * (centre[:, [0]] * cosine + centre[:, [1]] * sine))
+    profile = _depth_profile(centre[:, 2], k, water.depth)[:, None]
+    rate = _sinh_profile(centre[:, 2], k, water.depth)[:, None]
+    across = normal[:, [0]] * cosine + normal[:, [1]] * sine
+    single, double = _layers(panels, surface, given)
+    slope = k * (normal[:, [2]] * rate - 1j * across * profile) * phase
+    total = single.T @ (area * profile * phase) - double.T @ (area * slope)
+    return np.asarray(0.5 * _far_factor(water, k) * omega / water.gravity * total)
+
+
+def _far_factor(water: Water, k: float) -> float:
+    """Return the factor of the outgoing wave in 4 pi G: (k^2 - K^2) cosh^2 kh / ((k^2 - K^2) h + K)."""
+    if math.isinf(water.depth):
+        return k
+    kh = k * water.depth
+    surface = k * math.tanh(kh)
+    # (k^2 - K^2) cosh^2 kh = k^2
+    return k**2 / (k**2 * water.depth / math.cosh(min(kh, 300.0)) ** 2 + surface)
+
+
+def elevation_at(
+    points: Array, panels: Panels, water: Water, omega: float, k: float, surface: ComplexArray, given: ComplexArray
+) -> ComplexArray:
+    """Return the surface elevation (p, r) [m] at points (p, 2) of the row that solutions (n, r) make."""
+    engine, full = green_function(), _capytaine_mesh(panels.mesh.corners)
+    single, double = _layers(panels, surface, given)
+    out = np.empty((len(points), surface.shape[1]), dtype=complex)
+    for start in range(0, len(points), _BATCH):
+        some = points[start : start + _BATCH]
+        level = np.concatenate([some, np.zeros((len(some), 1))], axis=1)
+        of_single, of_double = engine.evaluate(
+            level, full, free_surface=0.0, water_depth=water.depth, wavenumber=k,
+            adjoint_double_layer=False, diagonal_term_in_double_layer=False,
+        )  # fmt: skip
+        out[start : start + _BATCH] = of_single @ single - of_double @ double
+    return np.asarray(1j * omega / water.gravity * out)

@@ -1,0 +1,1 @@
+"""Case files of floating rows of units: schema, checks, and the problem that they state."""

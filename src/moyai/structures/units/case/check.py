@@ -1,0 +1,312 @@
+"""Checks of a row of units: do they float apart, do connectors make sense, do the panels resolve the waves."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from moyai.case.check_sea import check_surroundings, check_waves
+from moyai.case.faults import did_you_mean
+from moyai.case.findings import Findings, duplicates
+from moyai.case.yaml_reader import KeyPath
+from moyai.core.errors import ConvergenceError, InputError
+from moyai.structures.units.case import schema
+
+if TYPE_CHECKING:
+    from moyai.potential.sections import Hull
+    from moyai.structures.units.assembly import RowAtLevel
+    from moyai.structures.units.model import UnitsProblem
+
+#: A section counts as symmetric when its centre of buoyancy lies within this share of the beam of the centre line
+_UPRIGHT = 1e-6
+
+
+def check(model: schema.UnitsCase, findings: Findings, folder: Path) -> None:
+    """Record every fault and warning of a row of units in ``findings``."""
+    check_surroundings(model, findings, folder)
+    _check_needs(model, findings)
+    _check_levels(model, findings)
+    _check_numbers(model, findings)
+    _check_lines(model, findings)
+    _check_map(model, findings)
+    hull = _hull(model, findings)
+    if hull is not None:
+        _check_floating(model, hull, findings)
+    _check_by_building(model, findings, folder)
+
+
+def _check_needs(model: schema.UnitsCase, findings: Findings) -> None:
+    unit = model.structure
+    for name, key in (("wind", "wind_drag_coefficient"), ("current", "current_drag_coefficient")):
+        if getattr(model, name) is not None and getattr(unit, key) is None:
+            findings.fault((name,), f"'{name}' needs 'structure.{key}'", remedy="give it, about 1.0 to 2.0 for a box")
+    waves = {"frequency", "map"} & set(model.analyses)
+    if waves and not model.waves:
+        findings.fault(("analyses",), f"the analysis '{sorted(waves)[0]}' needs 'waves'", remedy="give a sea state")
+    if "map" in model.analyses and model.map is None:
+        findings.fault(("analyses",), "the analysis 'map' needs 'map'", remedy="say where: map: {x: ..., y: ...}")
+    if "map" in model.analyses and "frequency" not in model.analyses:
+        findings.fault(
+            ("analyses",), "the analysis 'map' needs 'frequency'", remedy="the units move in the waves: ask for both"
+        )
+    pushed = model.settings.drift or model.wind is not None or model.current is not None
+    if not model.lines and pushed and model.waves and waves:
+        findings.fault(
+            ("analyses",),
+            "nothing holds the row against drift, wind or current",
+            remedy="give 'lines', or set 'settings.drift: false' and leave 'wind' and 'current' out",
+        )
+    if unit.gap_damping_lid > 0.0 and len(_places(model)) < 2:
+        findings.warn(("structure", "gap_damping_lid"), "a single unit has no gap; the lid does nothing")
+
+
+def _places(model: schema.UnitsCase) -> tuple[Any, ...]:
+    from moyai.structures.units.case.build import placements_of
+
+    return placements_of(model.structure.units)
+
+
+def _check_levels(model: schema.UnitsCase, findings: Findings) -> None:
+    chosen = model.settings.water_levels
+    if isinstance(chosen, str):
+        return
+    for index, name in enumerate(chosen):
+        if name not in model.site.water_levels:
+            findings.fault(
+                ("settings", "water_levels", index), f"there is no water level '{name}'",
+                allowed=", ".join(model.site.water_levels), remedy=did_you_mean(name, model.site.water_levels),
+            )  # fmt: skip
+    for index in duplicates(chosen):
+        findings.fault(("settings", "water_levels", index), f"'{chosen[index]}' stands twice", remedy="remove one")
+
+
+def _check_numbers(model: schema.UnitsCase, findings: Findings) -> None:
+    """Check numbers of units in connectors and lines, and names."""
+    count = len(_places(model))
+    for index, entry in enumerate(model.structure.connectors):
+        path: KeyPath = ("structure", "connectors", index)
+        if count < 2:
+            findings.fault(path, f"connector '{entry.name}' has a single unit", remedy="give two units or more")
+        if isinstance(entry.between, str):
+            continue
+        for number, pair in enumerate(entry.between):
+            for end in pair:
+                if end > count:
+                    findings.fault((*path, "between", number), f"there is no unit {end}", allowed=f"1 to {count}")
+    for index in duplicates([entry.name for entry in model.structure.connectors]):
+        name = model.structure.connectors[index].name
+        findings.fault(
+            ("structure", "connectors", index, "name"), f"two connectors are called '{name}'", remedy="rename one"
+        )
+    for index, line in enumerate(model.lines):
+        if isinstance(line.units, str):
+            continue
+        for number, unit in enumerate(line.units):
+            if unit > count:
+                findings.fault(("lines", index, "units", number), f"there is no unit {unit}", allowed=f"1 to {count}")
+    for index in duplicates([line.name for line in model.lines]):
+        findings.fault(
+            ("lines", index, "name"), f"two lines are called '{model.lines[index].name}'", remedy="rename one"
+        )
+
+
+def _check_lines(model: schema.UnitsCase, findings: Findings) -> None:
+    for index, line in enumerate(model.lines):
+        if getattr(line, "dynamic", False):
+            findings.fault(
+                ("lines", index, "dynamic"),
+                f"line '{line.name}': lines of a row of units are at rest at every instant",
+                allowed="false",
+                remedy="leave 'dynamic' out; a single unit with lines in motion is a case of kind breakwater",
+            )
+        if getattr(line, "drag_width", 0.0) > 0.0:
+            findings.fault(
+                ("lines", index, "drag_width"),
+                f"line '{line.name}': the drag of lines is not counted in a row of units",
+                remedy="leave it out, or give its damping in 'structure.additional_damping'",
+            )
+        if math.isinf(model.site.water_depth) and isinstance(line, schema.UnitCatenaryLine):
+            findings.fault(
+                ("lines", index, "anchor"), f"line '{line.name}' goes to a bed that is infinitely deep",
+                remedy="give the water depth, or use a spring to a fixed point",
+            )  # fmt: skip
+        half = 0.5 * model.structure.units.length
+        if abs(line.fairlead.y) > half * (1.0 + 1e-9):
+            findings.warn(
+                ("lines", index, "fairlead", "y"), f"the fairlead of '{line.name}' lies beyond the end of the unit",
+                allowed=f"{-half:g} to {half:g} m from the middle of the unit",
+            )  # fmt: skip
+
+
+def _check_map(model: schema.UnitsCase, findings: Findings) -> None:
+    if model.map is None:
+        return
+    for key in ("x", "y"):
+        low, high = getattr(model.map, key)
+        if not low < high:
+            findings.fault(("map", key), f"the map runs from {low:g} to {high:g} m", allowed="the smaller one first")
+    for index in duplicates([point.name for point in model.map.points]):
+        findings.fault(
+            ("map", "points", index, "name"), f"two points are called '{model.map.points[index].name}'",
+            remedy="rename one",
+        )  # fmt: skip
+    line = model.map.line
+    if line is not None and line.start == line.end:
+        findings.fault(("map", "line"), "both ends of the line are the same point", remedy="give two points")
+
+
+def _hull(model: schema.UnitsCase, findings: Findings) -> Hull | None:
+    try:
+        return model.structure.section.hull()
+    except InputError as error:
+        key = error.fault.path.split(".")[-1]
+        path: KeyPath = ("structure", "section")
+        if key in type(model.structure.section).model_fields:
+            path = (*path, key)
+        findings.fault(path, error.fault.message, allowed=error.fault.allowed, remedy=error.fault.remedy)
+        return None
+
+
+def _check_floating(model: schema.UnitsCase, hull: Hull, findings: Findings) -> None:
+    unit, site = model.structure, model.site
+    if hull.plates:
+        findings.fault(
+            ("structure", "section", "plates"), "thin plates are not computed in three dimensions",
+            remedy="give plates a thickness (pi_type), or leave them out",
+        )  # fmt: skip
+    if abs(hull.bottom) > 1e-9 * hull.height:
+        findings.fault(
+            ("structure", "section"), f"the lowest point of the section is at z = {hull.bottom:g} m",
+            allowed="0 m: z counts from the keel",
+        )  # fmt: skip
+        return
+    if unit.draught >= hull.height:
+        findings.fault(
+            ("structure", "draught"),
+            f"the draught of {unit.draught:g} m is not less than the height of the section, {hull.height:g} m",
+            allowed=f"less than {hull.height:g} m",
+        )
+        return
+    for name, level in site.water_levels.items():
+        depth = site.water_depth + level
+        if 0.0 < depth <= unit.draught:
+            findings.fault(
+                ("structure", "draught"),
+                f"the units are {unit.draught:.4g} m deep in {depth:.4g} m of water at {name}",
+                allowed=f"a draught below {depth:.4g} m",
+                remedy="they would stand on the bed",
+            )
+    try:
+        section = hull.immersed(unit.draught)
+    except InputError as error:
+        findings.fault(("structure", "draught"), error.fault.message, remedy=error.fault.remedy)
+        return
+    if abs(section.centroid[0]) > _UPRIGHT * hull.beam:
+        findings.fault(
+            ("structure", "section"),
+            f"the centre of buoyancy lies {section.centroid[0]:.3g} m off the centre line: the units would heel",
+            allowed="sections that float upright",
+            remedy="move the section so that its centre of buoyancy is at x = 0",
+        )
+    if any(chain.closed for chain in section.chains):
+        findings.fault(
+            ("structure", "section"), "a part of the section is wholly under water",
+            allowed="outlines that reach the water surface",
+        )  # fmt: skip
+    if not 0.0 <= unit.centre_of_gravity_above_keel <= hull.height:
+        findings.warn(
+            ("structure", "centre_of_gravity_above_keel"),
+            f"the centre of gravity, {unit.centre_of_gravity_above_keel:g} m above the keel, lies outside the section",
+            allowed=f"0 to {hull.height:g} m for a body of one piece",
+        )
+
+
+def _check_by_building(model: schema.UnitsCase, findings: Findings, folder: Path) -> None:
+    """Build what is sound: waves against breaking, units against each other, panels against waves and memory."""
+    from moyai.structures.units.case.build import build_problem
+
+    if findings.faults:
+        return
+    try:
+        problem = build_problem(model, folder)
+    except InputError as error:
+        findings.raised(error, ("structure",))
+        return
+    check_waves(model, problem.environment, findings, lambda *_: None)
+    if not findings.faults:
+        _check_problem(problem, findings)
+
+
+_LINE_PLACES = {
+    "mooring-line-breaks": "segments",
+    "mooring-line-heap": "segments",
+    "mooring-line-unreachable": "segments",
+    "mooring-touches-between": "segments",
+    "mooring-anchor-in-body": "anchor",
+    "mooring-anchor-above-bed": "anchor",
+    "mooring-fairlead-below-bed": "fairlead",
+}
+
+
+def _check_lines_at_rest(problem: UnitsProblem, at: RowAtLevel, findings: Findings) -> bool:
+    """Hold the lines of every unit against their strength and slack; return whether any is impossible."""
+    from moyai.mooring.checks import check_line_system
+
+    places = {line.name: index for index, line in enumerate(problem.row.lines)}
+    said: set[tuple[str, str]] = set()
+    for number, system in enumerate(at.systems):
+        for notice in check_line_system(system) if system.lines else ():
+            label, _, message = notice.message.partition(": ")
+            name = label.removeprefix("lines.")
+            line = name if name in places else name.removesuffix(f" {number + 1}")
+            known = ("mooring-anchor-above-bed", "mooring-fairlead-dry", "mooring-anchor-uplift")
+            if line not in places or notice.code in known or (line, notice.code) in said:
+                continue
+            said.add((line, notice.code))
+            path: KeyPath = ("lines", places[line])
+            if notice.code in _LINE_PLACES and (*path, _LINE_PLACES[notice.code]) in findings.document.values:
+                path = (*path, _LINE_PLACES[notice.code])
+            record = findings.fault if notice.severity == "error" else findings.warn
+            record(path, f"line '{line}' of unit {number + 1}: {message}", remedy=notice.remedy)
+    return bool(findings.faults)
+
+
+def _check_problem(problem: UnitsProblem, findings: Findings) -> None:
+    from moyai.structures.units.assembly import assemble, level_notices, steady_load, steady_position
+    from moyai.structures.units.bem import check_memory
+    from moyai.structures.units.run import check_resolution, row_panels
+    from moyai.structures.units.seas import frequencies_of
+
+    environment = problem.environment
+    omega = frequencies_of(environment, problem.settings)
+    said: set[str] = set()
+    for name, level in environment.water_levels:
+        try:
+            at = assemble(problem.row, environment, name, level)
+            notices = list(level_notices(at))
+            if _check_lines_at_rest(problem, at, findings):
+                return
+            wind, current = steady_load(at, environment)
+            steady_position(at, wind + current)
+            if {"frequency", "map"} & set(problem.settings.analyses) and omega.size:
+                panels = row_panels(at, problem.settings, float(omega.max()))
+                check_memory(panels)
+                notices += check_resolution(at, panels, omega)
+        except InputError as error:
+            findings.raised(error, ("structure",))
+            return
+        except ConvergenceError as error:
+            findings.fault(("structure",), error.fault.message, remedy=error.fault.remedy)
+            return
+        for notice in notices:
+            if notice.code in said or notice.severity == "information":
+                continue
+            said.add(notice.code)
+            path: KeyPath = ("structure",)
+            if notice.code == "unstable":
+                path = ("structure", "centre_of_gravity_above_keel")
+            if notice.code == "few-panels":
+                path = ("settings",)
+            record = findings.fault if notice.severity == "error" else findings.warn
+            record(path, notice.message, remedy=notice.remedy)

@@ -1,0 +1,99 @@
+"""What a row of units has to keep: the block of its case, and the defaults with their source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag
+
+from moyai.case.criteria import CASE, DEFAULT_CODE, given_criteria, line_criteria, plain_criterion
+from moyai.case.schema_criteria import (
+    OFF,
+    FactorOfSafety,
+    GreatestAngle,
+    GreatestLength,
+    GreatestTension,
+    LeastLength,
+    LineCriteria,
+    NoCriteria,
+    SeaShare,
+    Share,
+    sea_form,
+    word_or_block,
+)
+from moyai.case.schema_types import Name, QuantityOf
+from moyai.core import quantities
+from moyai.core.headline import Criterion
+
+AFLOAT_SOURCE = "default of moyai: upright and afloat"
+GreatestRatio = Annotated[float | None, QuantityOf(quantities.NUMBER, above=0.0)]
+
+
+class UnitsCriteria(LineCriteria):
+    """What a row of units has to keep."""
+
+    connector_safety_factor: FactorOfSafety = Field(
+        default=None, description="Breaking load over the largest force of a connector, at least" + OFF + "."
+    )
+    greatest_connector_force: GreatestTension = Field(
+        default=None, description="Largest force in a connector" + OFF + "."
+    )
+    greatest_transmission: Annotated[
+        Annotated[Share, Tag("<number>")] | Annotated[dict[Name, SeaShare], Tag("<seas>"), Field(min_length=1)],
+        Discriminator(sea_form),
+    ] = Field(
+        default=None,
+        description="Largest transmission over the line behind: of the governing sea, or of named ones" + OFF + ".",
+        examples=[{"storm": 0.5}],
+    )
+    greatest_berth_ratio: GreatestRatio = Field(
+        default=None, description="Largest wave height at a named point over the incident one."
+    )
+    greatest_gap_motion: GreatestLength = Field(
+        default=None, description="Largest opening and closing of a gap" + OFF + "."
+    )
+    greatest_offset: GreatestLength = Field(default=None, description="Largest sway from rest" + OFF + ".")
+    greatest_roll_deg: GreatestAngle = Field(default=None, description="Largest roll, double amplitude" + OFF + ".")
+    least_freeboard: LeastLength = Field(default=None, description="Freeboard that is left" + OFF + ".")
+    least_metacentric_height: LeastLength = Field(default=None, description="Metacentric height GM" + OFF + ".")
+
+
+UnitsKeeps = Annotated[
+    Annotated[NoCriteria, Tag("<word>")] | Annotated[UnitsCriteria, Tag("<block>")], Discriminator(word_or_block)
+]
+
+_OWN = {
+    "greatest_connector_force": ("connector_force", "N", "force in the connectors"),
+    "greatest_berth_ratio": ("berth_wave_height", "1", "wave height at the named points"),
+    "greatest_gap_motion": ("gap_motion", "m", "motion of the gaps"),
+}
+
+
+def criteria(model: Any, given: Any) -> Iterator[Criterion]:
+    """Yield what the headlines are judged against: the block of the case, else the defaults with their source."""
+    moored = [line for line in model.lines if line.kind == "catenary"]
+    computed = bool(model.waves) and "frequency" in model.analyses
+    yield from line_criteria(
+        given,
+        DEFAULT_CODE if moored and computed else "",
+        "quasi_static",
+        [getattr(part, "catalogue", None) for line in moored for part in line.segments if not hasattr(part, "clump")],
+    )
+    factor = given.connector_safety_factor
+    if factor is not None:
+        yield Criterion(
+            "connector_safety_factor", "connector_utilisation", 1.0 / factor, "at most", CASE,
+            "factor of safety of the connectors", as_factor=True,
+        )  # fmt: skip
+    for key, (headline, unit, words) in _OWN.items():
+        if getattr(given, key) is not None:
+            yield Criterion(key, headline, getattr(given, key), "at most", CASE, words, unit)
+    limit = given.greatest_transmission
+    seas = limit if isinstance(limit, dict) else {} if limit is None else {"": limit}
+    for sea, value in seas.items():
+        yield Criterion("greatest_transmission", "transmission", value, "at most", CASE, "transmission", sea=sea)
+    yield from given_criteria(given)
+    for key in ("least_metacentric_height", "least_freeboard"):
+        if getattr(given, key) is None:
+            yield plain_criterion(key, 0.0, AFLOAT_SOURCE)

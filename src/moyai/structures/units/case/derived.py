@@ -1,0 +1,70 @@
+"""Derived numbers of a row of units: units at rest, panels, waves against panels, what the run costs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from moyai.case.builder import build
+from moyai.case.derived import Number
+from moyai.case.reader import Case
+from moyai.sea.dispersion import wave_number
+from moyai.structures.units.assembly import RowAtLevel, assemble
+from moyai.structures.units.bem import memory_needed
+from moyai.structures.units.field import LINE_POINTS
+from moyai.structures.units.model import UnitsProblem
+from moyai.structures.units.run import irregular_frequency, row_panels
+from moyai.structures.units.seas import frequencies_of, headings_of
+
+#: Processor time of the Green function of two panels in finite depth [s], and of one operation of the solver [s]
+_PER_PAIR, _PER_OPERATION = 2.5e-6, 1.5e-10
+
+
+def derived_numbers(case: Case) -> tuple[Number, ...]:
+    """Return the derived numbers of a case."""
+    problem: UnitsProblem = build(case)
+    numbers: list[Number] = []
+    for name, level in problem.environment.water_levels:
+        at = assemble(problem.row, problem.environment, name, level)
+        numbers.extend(_unit_numbers(name, at))
+        numbers.extend(_panel_numbers(name, at, problem))
+    return tuple(numbers)
+
+
+def _unit_numbers(level: str, at: RowAtLevel) -> Iterator[Number]:
+    group = "Units at rest"
+    yield Number(group, level, "number of units", float(at.row.count))
+    yield Number(group, level, "water depth", at.water.depth, "m")
+    yield Number(group, level, "draught", at.draught, "m")
+    yield Number(group, level, "freeboard", at.freeboard, "m")
+    yield Number(group, level, "mass of a unit", float(at.masses.mean()), "t" if at.masses.mean() > 2000.0 else "kg", 5)
+    yield Number(group, level, "metacentric height GM of a unit", at.statics.metacentric_height, "m")
+    yield Number(group, level, "motions that connectors leave", float(at.free.shape[1]))
+
+
+def _panel_numbers(level: str, at: RowAtLevel, problem: UnitsProblem) -> Iterator[Number]:
+    omega = frequencies_of(problem.environment, problem.settings)
+    if not omega.size or not {"frequency", "map"} & set(problem.settings.analyses):
+        return
+    panels = row_panels(at, problem.settings, float(omega.max()))
+    group, mesh = "Panels", panels.mesh
+    mirrors = len(panels.symmetry.mirrors)
+    shortest = 2.0 * math.pi / float(wave_number(float(omega.max()), at.water.depth, at.water.gravity))
+    yield Number(group, level, "panels", float(mesh.count))
+    yield Number(group, level, "parts of the mesh that mirrors make alike", float(mirrors))
+    yield Number(group, level, "longest side of a panel", mesh.longest_side, "m", 3)
+    yield Number(group, level, "shortest wave", shortest, "m", 3)
+    yield Number(group, level, "panels a shortest wave", shortest / mesh.longest_side, "", 3)
+    yield Number(
+        group, level, "standing wave inside of a hull, period", 2.0 * math.pi / irregular_frequency(at), "s", 3
+    )
+    yield Number(group, level, "frequencies", float(omega.size))
+    yield Number(group, level, "headings", float(headings_of(problem.environment).size))
+    part = mesh.count / mirrors
+    seconds = omega.size * (mesh.count * part * _PER_PAIR + mirrors * 8.0 / 3.0 * part**3 * _PER_OPERATION)
+    if "map" in problem.settings.analyses:
+        area = problem.map_area
+        points = area.cells[0] * area.cells[1] + len(area.points) + (LINE_POINTS if area.line is not None else 0)
+        seconds += omega.size * points * mesh.count * _PER_PAIR
+    yield Number(group, level, "memory in GiB", memory_needed(mesh.count, mirrors) / 2**30, "", 2)
+    yield Number(group, level, "processor time, about", seconds, "s", 2)

@@ -1,0 +1,258 @@
+"""Schema of the floating row of units."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
+
+from moyai.case.schema_criteria import CRITERIA
+from moyai.case.schema_display import DISPLAY, Display
+from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
+from moyai.case.schema_lines import CatenaryLine, SpringLine
+from moyai.case.schema_measured import MEASURED, MeasuredSets
+from moyai.case.schema_sections import Section
+from moyai.case.schema_types import (
+    AngularFrequency,
+    Auto,
+    Block,
+    Damping,
+    Fraction,
+    Heading,
+    KeyGroups,
+    Length,
+    Name,
+    NonNegativeNumber,
+    OneOrMany,
+    PositiveLength,
+    QuantityOf,
+    Range,
+    RollDamping,
+    Truth,
+    Whole,
+    once_each,
+)
+from moyai.core import quantities
+from moyai.structures.units.case.criteria import UnitsCriteria, UnitsKeeps
+from moyai.structures.units.case.schema_connectors import ConnectorEntry
+
+Mode = Literal["sway", "surge", "heave", "pitch", "roll", "yaw"]
+Analysis = Literal["statics", "frequency", "map"]
+
+
+class UnitPlace(Block):
+    """Where a unit lies."""
+
+    x: Length = Field(default=0.0, description="Its middle, across the row. Default: 0.")
+    y: Length = Field(description="Its middle, along the row.")
+    heading_deg: Heading = Field(default=0.0, description="Angle of its axes to those of the row. Default: 0.")
+
+
+class Units(Block):
+    """How many units there are, and where."""
+
+    exactly_one: ClassVar[KeyGroups] = (("count", "places"), ("gap", "places"))
+
+    length: PositiveLength = Field(description="Length of one unit along its axis.")
+    count: Annotated[int, Field(strict=True, ge=1, le=60)] | None = Field(
+        default=None, description="Number of units one after the other along y, the middle of the row at the origin."
+    )
+    gap: PositiveLength | None = Field(default=None, description="Clear water between two units.")
+    places: Annotated[tuple[UnitPlace, ...], Field(max_length=60)] = Field(
+        default=(), description="In place of count and gap: every unit with its place, for L, T and bent rows."
+    )
+
+
+class UnitDamping(Block):
+    """Damping beyond wave radiation, as a fraction of critical."""
+
+    fraction_of_critical: Fraction = Field(
+        description="zeta in C = 2 zeta sqrt((M + added mass)(stiffness)), of every unit by itself."
+    )
+    modes: Annotated[tuple[Mode, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
+        description="Motions that it is applied to.", examples=[["sway", "heave", "roll"]]
+    )
+
+
+class AdditionalUnitDamping(Block):
+    """Linear damping of a unit beyond wave radiation."""
+
+    sway: Damping = Field(default=0.0, description="Force per velocity along x of the unit.")
+    surge: Damping = Field(default=0.0, description="Force per velocity along y.")
+    heave: Damping = Field(default=0.0, description="Force per velocity along z.")
+    pitch: RollDamping = Field(default=0.0, description="Moment per turning rate about x.")
+    roll: RollDamping = Field(default=0.0, description="Moment per turning rate about y.")
+    yaw: RollDamping = Field(default=0.0, description="Moment per turning rate about z.")
+
+
+class UnitsStructure(Block):
+    """A floating breakwater of several equal units."""
+
+    kind: Literal["units"] = Field(description="Floating row of units.")
+    section: Section = Field(description="Shape of the section of every unit.")
+    units: Units = Field(description="Number, length and places of the units.")
+    draught: PositiveLength = Field(description="Draught at the first water level; the masses follow from it.")
+    centre_of_gravity_above_keel: Length = Field(description="Height of the centre of gravity above the keel.")
+    pitch_gyradius: PositiveLength = Field(
+        description="Radius of gyration about x, across the unit; of an even mass along it length / sqrt(12)."
+    )
+    roll_gyradius: PositiveLength = Field(description="Radius of gyration about y, along the unit.")
+    yaw_gyradius: PositiveLength = Field(description="Radius of gyration about z.")
+    connectors: Annotated[tuple[ConnectorEntry, ...], Field(max_length=200)] = Field(
+        default=(), description="What joins the units. Default: nothing, they float freely next to each other."
+    )
+    damping: UnitDamping | None = Field(default=None, description="Damping as a fraction of critical.")
+    additional_damping: AdditionalUnitDamping | None = Field(
+        default=None, description="Linear damping beyond wave radiation."
+    )
+    gap_damping_lid: NonNegativeNumber = Field(
+        default=0.0,
+        description="Damping of the water surface between neighbours: K becomes K (1 + i lid). Default: 0.",
+    )
+    wind_drag_coefficient: NonNegativeNumber | None = Field(
+        default=None, description="Drag coefficient of the area above water; needed with 'wind'."
+    )
+    current_drag_coefficient: NonNegativeNumber | None = Field(
+        default=None, description="Drag coefficient of the area under water; needed with 'current'."
+    )
+
+
+def _word_or_list(value: Any) -> str:
+    return "<word>" if isinstance(value, str) or value is None else "<list>"
+
+
+UnitNumbers = Annotated[
+    Annotated[Literal["all"], Tag("<word>")]
+    | Annotated[tuple[Whole, ...], Field(min_length=1), AfterValidator(once_each), Tag("<list>")],
+    Discriminator(_word_or_list),
+]
+_UNITS = "Units that have it, counted from 1; places count from the middle of each. Default: all."
+
+
+class UnitCatenaryLine(CatenaryLine):
+    """Identical lines of chain or rope between the bed and a unit."""
+
+    units: UnitNumbers = Field(default="all", description=_UNITS)
+
+
+class UnitSpringLine(SpringLine):
+    """Identical linear springs between a fixed point and a unit."""
+
+    units: UnitNumbers = Field(default="all", description=_UNITS)
+
+
+def _line_form(value: Any) -> str:
+    if isinstance(value, dict):
+        return f"<{value.get('kind', 'catenary')}>"
+    return "<spring>" if isinstance(value, SpringLine) else "<catenary>"
+
+
+UnitLineEntry = Annotated[
+    Annotated[UnitCatenaryLine, Tag("<catenary>")] | Annotated[UnitSpringLine, Tag("<spring>")],
+    Discriminator(_line_form),
+]
+
+
+class MapPoint(Block):
+    """A point that K is given at, such as a berth."""
+
+    name: Name = Field(description="Name of the point in results.")
+    x: Length = Field(description="Across the row; waves of heading 0 travel towards +x.")
+    y: Length = Field(description="Along the row.")
+
+
+class LineBehind(Block):
+    """The line that transmission is averaged over."""
+
+    start: tuple[Length, Length] = Field(description="One end [x, y].", examples=[["30 m", "-40 m"]])
+    end: tuple[Length, Length] = Field(description="The other end [x, y].", examples=[["30 m", "40 m"]])
+
+
+Cells = Annotated[int, Field(strict=True, ge=2, le=400)]
+
+
+class MapBlock(Block):
+    """Where the waves around the row are computed."""
+
+    x: tuple[Length, Length] = Field(description="From and to, across the row.", examples=[["-40 m", "120 m"]])
+    y: tuple[Length, Length] = Field(description="From and to, along the row.", examples=[["-80 m", "80 m"]])
+    points_across: Cells = Field(default=33, description="Points of the map along x. Default: 33.")
+    points_along: Cells = Field(default=33, description="Points of the map along y. Default: 33.")
+    points: Annotated[tuple[MapPoint, ...], Field(max_length=200)] = Field(
+        default=(), description="Named points, for instance berths."
+    )
+    line: LineBehind | None = Field(
+        default=None, description="Line behind the row whose mean K is the transmission. Default: none."
+    )
+
+
+class RowFrequencyRange(Range):
+    """Evenly spaced angular frequencies."""
+
+    first: AngularFrequency = Field(alias="from", description="First angular frequency.")
+    last: AngularFrequency = Field(alias="to", description="Last angular frequency.")
+
+
+def _form(value: Any) -> str:
+    if isinstance(value, str) or value is None:
+        return "<word>"
+    return "<range>" if isinstance(value, (dict, Range)) else "<list>"
+
+
+PanelSize = Annotated[float | None, QuantityOf(quantities.LENGTH, above=0.0, words=(("auto", None),))]
+
+
+class UnitsSettings(Block):
+    """How the analyses are run."""
+
+    panel_size: PanelSize = Field(
+        default=None,
+        description="Largest step of the panels. Default: auto, an eighth of the shortest wave, at most a sixth of the "
+        "beam and an eighth of a unit.",
+    )
+    frequencies: Annotated[
+        Annotated[Auto, Tag("<word>")]
+        | Annotated[tuple[AngularFrequency, ...], Field(min_length=1, max_length=1000), Tag("<list>")]
+        | Annotated[RowFrequencyRange, Tag("<range>")],
+        Discriminator(_form),
+    ] = Field(
+        default="auto",
+        description="Angular frequencies of the coefficients: auto, a list, or {from, to, count}; those of regular "
+        "waves are added.",
+    )
+    frequency_count: Annotated[int, Field(strict=True, ge=4, le=400)] = Field(
+        default=20, description="Frequencies over the energy of each irregular sea, with auto. Default: 20."
+    )
+    drift: Truth = Field(default=True, description="Whether the mean drift force moves the row. Default: true.")
+    compare_with_section: Truth = Field(
+        default=True, description="Whether the two-dimensional section is computed as well. Default: true."
+    )
+    water_levels: Annotated[
+        Annotated[Literal["all"], Tag("<word>")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("<list>")],
+        Discriminator(_word_or_list),
+    ] = Field(default="all", description="Water levels to run: all, or a list of names.")
+
+
+class UnitsCase(Block):
+    """A floating row of units from its site to its analyses."""
+
+    moyai: Literal[1] = Field(description="Version of the case file format.")
+    title: Annotated[str, Field(min_length=1, max_length=200)] = Field(description="Title of the report.")
+    site: Site = Field(description="The water of the site.")
+    waves: Annotated[tuple[SeaState, ...], OneOrMany(), BeforeValidator(refuse_no_seas)] = Field(
+        default=(), description="One sea state, or a list of them; each is run."
+    )
+    wind: Wind | None = Field(default=None, description="Steady wind.")
+    current: Current | None = Field(default=None, description="Steady current.")
+    structure: UnitsStructure = Field(description="The row of units.")
+    lines: Annotated[tuple[UnitLineEntry, ...], Field(max_length=200)] = Field(
+        default=(), description="Mooring lines or springs."
+    )
+    map: MapBlock | None = Field(default=None, description="Map of the waves; needed with the analysis 'map'.")
+    analyses: Annotated[tuple[Analysis, ...], Field(min_length=1), AfterValidator(once_each)] = Field(
+        description="What is computed; there is no time domain of a row.", examples=[["statics", "frequency", "map"]]
+    )
+    criteria: UnitsKeeps = Field(default_factory=UnitsCriteria, description=CRITERIA)
+    settings: UnitsSettings = Field(default_factory=UnitsSettings, description="How the analyses are run.")
+    measured: MeasuredSets = Field(default=(), description=MEASURED)
+    display: Display = Field(default_factory=Display, description=DISPLAY)

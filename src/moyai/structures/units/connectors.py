@@ -1,0 +1,157 @@
+"""Connectors between units: what they hold, what they give way to, and the loads in them.
+
+The relative motion of a connector is that of the unit after it less that of the unit before it, at its place, in axes
+of the unit before it [eq:units-relative]. Held components are constraints; the others bear by springs, dashpots,
+curves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.errors import InputError
+from moyai.mooring.rotations import cross_matrix
+from moyai.structures.units.model import Connector, FloatingRow
+
+_RANK = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """One connector at one place.
+
+    Parameters
+    ----------
+    name : str
+        Of the connector with its units, counted from 1.
+    connector : Connector
+    pair : tuple of (int, int)
+    place : ndarray (3,)
+        [m], row axes.
+    relative : ndarray (6, m)
+        Relative motion of all motions of all units.
+    held : ndarray (c, 6)
+        Directions of the relative motion that are held.
+    """
+
+    name: str
+    connector: Connector
+    pair: tuple[int, int]
+    place: Array
+    relative: Array
+    held: Array
+
+    @property
+    def along(self) -> Array:
+        """Elongation of a curve by all motions (m,)."""
+        return np.asarray(np.asarray(self.connector.axis) @ self.relative[:3])
+
+
+def joints_of(row: FloatingRow, centres: Array, draught: float) -> tuple[Joint, ...]:
+    """Return every connector at every place.
+
+    Parameters
+    ----------
+    row : FloatingRow
+    centres : ndarray (u, 3)
+        Centres of gravity [m], row axes.
+    draught : float
+        [m].
+    """
+    joints = []
+    for connector in row.connectors:
+        for first, second in connector.pairs:
+            one, other = row.placements[first], row.placements[second]
+            half = 0.5 * row.length
+            height = connector.above_keel - draught
+            near = one.to_row(np.array([connector.x, half, height]))
+            far = other.to_row(np.array([connector.x, -half, height]))
+            place = 0.5 * (near + far)
+            frame = one.rotation.T
+            relative = np.zeros((6, 6 * row.count))
+            for unit, sign in ((first, -1.0), (second, 1.0)):
+                arm = place - centres[unit]
+                columns = slice(6 * unit, 6 * unit + 6)
+                motion = np.zeros((6, 6))
+                motion[:3, :3] = frame
+                motion[:3, 3:] = -frame @ cross_matrix(arm)
+                motion[3:, 3:] = frame
+                relative[:, columns] = sign * motion
+            name = connector.name if len(connector.pairs) == 1 else f"{connector.name} {first + 1}-{second + 1}"
+            joints.append(Joint(name, connector, (first, second), place, relative, _held(connector)))
+    return tuple(joints)
+
+
+def _held(connector: Connector) -> Array:
+    if connector.kind == "rigid":
+        return np.eye(6)
+    if connector.kind == "ball":
+        return np.eye(6)[:3]
+    if connector.kind == "hinge":
+        axis = np.asarray(connector.axis, dtype=float)
+        across = np.linalg.svd(axis[None, :])[2][1:]
+        held = np.zeros((5, 6))
+        held[:3, :3] = np.eye(3)
+        held[3:, 3:] = across
+        return held
+    return np.zeros((0, 6))
+
+
+def constraints(joints: tuple[Joint, ...], count: int) -> Array:
+    """Return the constraint matrix G (c, m) of G q = 0 [eq:units-constraint].
+
+    Raises
+    ------
+    InputError
+        Where a connector holds what others hold already: how they share the load is then not determined.
+    """
+    rows: list[Array] = []
+    rank = 0
+    for joint in joints:
+        if not len(joint.held):
+            continue
+        own = joint.held @ joint.relative
+        together = np.concatenate([*rows, own]) if rows else own
+        now = _rank(together)
+        if now < rank + len(own):
+            raise InputError(
+                f"connector '{joint.name}' holds {rank + len(own) - now} relative motion(s) that connectors before it "
+                "hold already",
+                path="structure.connectors",
+                remedy="their share of the load is not determined: make one of them a spring, or take it out",
+            )
+        rows.append(own)
+        rank = now
+    return np.concatenate(rows) if rows else np.zeros((0, count))
+
+
+def _rank(matrix: Array) -> int:
+    size = np.linalg.norm(matrix, axis=0)
+    scaled = matrix / np.where(size > 0.0, size, 1.0)
+    values = np.linalg.svd(scaled, compute_uv=False)
+    return int((values > _RANK * values[0]).sum())
+
+
+def null_space(matrix: Array) -> Array:
+    """Return an orthonormal basis (m, m - c) of the motions that the constraints leave."""
+    if not len(matrix):
+        return np.eye(matrix.shape[1])
+    values, vectors = np.linalg.svd(matrix)[1:]
+    return np.asarray(vectors[int((values > _RANK * values[0]).sum()) :].T)
+
+
+def spring_matrices(joints: tuple[Joint, ...], count: int) -> tuple[Array, Array]:
+    """Return stiffness and damping (m, m) of springs, dashpots and of the dashpots of curves [eq:units-spring]."""
+    stiffness, damping = np.zeros((count, count)), np.zeros((count, count))
+    for joint in joints:
+        connector = joint.connector
+        if connector.stiffness is not None:
+            stiffness += joint.relative.T @ connector.stiffness @ joint.relative
+        if connector.damping is not None:
+            damping += joint.relative.T @ connector.damping @ joint.relative
+        if connector.curve is not None and connector.linear_damping:
+            damping += connector.linear_damping * np.outer(joint.along, joint.along)
+    return stiffness, damping

@@ -1,0 +1,372 @@
+"""What the analyses of a row found, as labelled datasets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from moyai.core.arrays import Array, ComplexArray
+from moyai.floating.irregular import response_statistics
+from moyai.sea.states import IrregularSea, RegularSea
+from moyai.structures.units.assembly import RowAtLevel, steady_position
+from moyai.structures.units.connectors import Joint
+from moyai.structures.units.field import MapPoints, WaveField, height_ratio, line_transmission, sea_height_ratio
+from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.mesh import waterplane
+from moyai.structures.units.model import DOFS, MapArea
+from moyai.structures.units.seas import SeaAnswer, cell_weights, columns_of
+from moyai.structures.units.section import PLANAR, SectionAnswer
+from moyai.structures.units.variables import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def _coords(at: RowAtLevel) -> dict[str, Any]:
+    return {
+        "unit": np.arange(1, at.row.count + 1),
+        "dof": list(DOFS),
+        "connector": [joint.name for joint in at.joints],
+        "component": ["x", "y", "z"],
+        "line": list(at.line_names),
+    }
+
+
+def statics_dataset(at: RowAtLevel, wind: Array, current: Array) -> xr.Dataset:
+    """Return the row at rest: plan, lines, connectors, offset under wind and current."""
+    import xarray as xr
+
+    row = at.row
+    rest = steady_position(at, wind + current)
+    plans = np.array([waterplane(at.section, row.length, place) for place in row.placements])
+    centres = [at.centres[number] for number, lines in enumerate(at.lines) for _ in lines]
+    lines = [line for group in at.lines for line in group]
+    anchor = np.array([np.add(line.anchor, centre) for line, centre in zip(lines, centres)]).reshape(-1, 3)
+    fairlead = np.array([np.add(line.fairlead, centre) for line, centre in zip(lines, centres)]).reshape(-1, 3)
+    places = np.array([joint.place for joint in at.joints]).reshape(-1, 3)
+    out: dict[str, Any] = {
+        "draught": ((), at.draught),
+        "freeboard": ((), at.freeboard),
+        "metacentric_height": ((), at.statics.metacentric_height),
+        "unit_mass": ("unit", at.masses),
+        "unit_x": ("unit", [place.x for place in row.placements]),
+        "unit_y": ("unit", [place.y for place in row.placements]),
+        "unit_heading": ("unit", [place.heading for place in row.placements]),
+        "plan_x": (("unit", "corner"), plans[..., 0]),
+        "plan_y": (("unit", "corner"), plans[..., 1]),
+        "anchor_x": ("line", anchor[:, 0]),
+        "anchor_y": ("line", anchor[:, 1]),
+        "fairlead_x": ("line", fairlead[:, 0]),
+        "fairlead_y": ("line", fairlead[:, 1]),
+        "breaking_load": ("line", _known(at.breaking_load)),
+        "line_tension_mean": ("line", at.tensions(rest.position)),
+        "connector_x": ("connector", places[:, 0]),
+        "connector_y": ("connector", places[:, 1]),
+        "connector_z": ("connector", places[:, 2]),
+        "connector_breaking_load": ("connector", _known(np.array([j.connector.breaking_load for j in at.joints]))),
+        "steady_offset": (("unit", "dof"), at.in_unit_axes(rest.position)),
+        "steady_force_of_wind": (("unit", "dof"), wind.reshape(-1, 6)),
+        "steady_force_of_current": (("unit", "dof"), current.reshape(-1, 6)),
+    }
+    coords = _coords(at) | {"corner": np.arange(1, 5)}
+    kinds = [joint.connector.kind for joint in at.joints]
+    return labelled(xr.Dataset(out, coords=coords).assign_attrs(length=row.length, connector_kinds=kinds))
+
+
+def _known(values: Array) -> Array:
+    return np.where(np.isfinite(values), values, np.nan)
+
+
+def hydrodynamics_dataset(at: RowAtLevel, hydro: RowHydrodynamics) -> xr.Dataset:
+    """Return the coefficients of all units together."""
+    import xarray as xr
+
+    names = [f"unit {number + 1} {dof}" for number in range(at.row.count) for dof in DOFS]
+    mesh = hydro.panels.mesh
+    data = xr.Dataset(
+        {
+            "wave_number": ("omega", hydro.wave_number),
+            "added_mass": (("omega", "influenced_dof", "radiating_dof"), hydro.added_mass),
+            "radiation_damping": (("omega", "influenced_dof", "radiating_dof"), hydro.damping),
+            "excitation_force": (("omega", "wave_direction", "influenced_dof"), hydro.excitation),
+        },
+        coords={
+            "omega": hydro.omega, "wave_direction": hydro.headings, "influenced_dof": names, "radiating_dof": names,
+        },
+    )  # fmt: skip
+    data.attrs |= {
+        "panels": mesh.count,
+        "longest_panel_side": mesh.longest_side,
+        "mirrors": len(hydro.panels.symmetry.mirrors),
+        "gap_damping_lid": hydro.panels.gap_damping,
+    }
+    return labelled(data)
+
+
+def _mean_loads(at: RowAtLevel, answer: SeaAnswer) -> Array:
+    """Return the mean loads (joints, 6) in the connectors."""
+    position = answer.rest.position
+    held = answer.rest.held_load
+    out = np.zeros((len(at.joints), 6))
+    first = 0
+    for number, joint in enumerate(at.joints):
+        connector = joint.connector
+        if len(joint.held):
+            out[number] += held[first : first + len(joint.held)] @ joint.held
+            first += len(joint.held)
+        if connector.stiffness is not None:
+            out[number] += connector.stiffness @ (joint.relative @ position)
+        if connector.curve is not None:
+            force = connector.curve.rounded(float(joint.along @ position), at.rounding)[0]
+            out[number, :3] += force * np.asarray(connector.axis)
+    return out
+
+
+def regular_dataset(at: RowAtLevel, sea: RegularSea, answers: list[SeaAnswer]) -> xr.Dataset:
+    """Return motions, loads and tensions in regular waves, one entry a period."""
+    import xarray as xr
+
+    amplitude = 0.5 * sea.height
+    motion = np.array([at.in_unit_axes(item.fine.motion[0, 0]) for item in answers])
+    load = amplitude * np.abs(np.array([item.fine.load[0, 0] for item in answers]))
+    relative = amplitude * np.abs(np.array([item.fine.relative[0, 0] for item in answers]))
+    mean_load = np.array([_mean_loads(at, item) for item in answers])
+    offset = np.array([at.in_unit_axes(item.rest.position) for item in answers])
+    tension = amplitude * np.abs(np.array([item.fine.tension[0, 0] for item in answers]))
+    mean_tension = np.array([at.tensions(item.rest.position) for item in answers])
+    force, moment = load[..., :3], load[..., 3:]
+    largest = np.abs(mean_load) + load
+    resultant = np.array(
+        [_harmonic_resultant(amplitude * item.fine.load[0, 0, :, :3], mean[:, :3])
+         for item, mean in zip(answers, mean_load)]
+    ).reshape(len(answers), -1)  # fmt: skip
+
+    def reach(item: SeaAnswer, joint: Joint) -> float:
+        return amplitude * float(np.abs(item.fine.motion[0, 0] @ joint.along))
+
+    low, high = _by_curve(at, answers, reach, largest, resultant)
+    dims = ("period", "connector", "component")
+    out: dict[str, Any] = {
+        "wave_height": ((), sea.height),
+        "rao": (("period", "unit", "dof"), np.abs(motion)),
+        "motion_amplitude": (("period", "unit", "dof"), amplitude * np.abs(motion)),
+        "mean_offset": (("period", "unit", "dof"), offset),
+        "largest_offset": (("period", "unit"), np.abs(offset[..., 0]) + amplitude * np.abs(motion[..., 0])),
+        "mean_drift": (("period", "direction"), np.array([item.drift for item in answers])),
+        "connector_force_amplitude": (dims, force),
+        "connector_moment_amplitude": (dims, moment),
+        "connector_force_mean": (dims, mean_load[..., :3]),
+        "connector_moment_mean": (dims, mean_load[..., 3:]),
+        "connector_force_largest": (dims, largest[..., :3]),
+        "connector_moment_largest": (dims, largest[..., 3:]),
+        "connector_resultant_largest": (("period", "connector"), resultant),
+        "connector_stiffness_of_curve": (("period", "connector"), np.array([item.curve_stiffness for item in answers])),
+        "elongation_lowest": (("period", "connector"), low),
+        "elongation_highest": (("period", "connector"), high),
+        "relative_motion_largest": (dims, relative[..., :3]),
+        "relative_turn_largest": (dims, relative[..., 3:]),
+        "line_tension_mean": (("period", "line"), mean_tension),
+        "tension_amplitude": (("period", "line"), tension),
+        "line_tension_maximum": (("period", "line"), mean_tension + tension),
+    }
+    coords = _coords(at) | {"period": np.array(sea.periods), "direction": ["across", "along", "about z"]}
+    data = labelled(xr.Dataset(out, coords=coords))
+    data.attrs |= {"kind": "regular", "heading": sea.heading, "status": _status(answers)}
+    return data
+
+
+def _harmonic_resultant(force: ComplexArray, mean: Array) -> Array:
+    """Return the largest resultant over a period (joints,)."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 73)
+    over = np.real(force[:, None, :] * np.exp(-1j * angle)[None, :, None]) + mean[:, None, :]
+    return np.linalg.norm(over, axis=2).max(axis=1) if len(force) else np.zeros(0)
+
+
+def _by_curve(
+    at: RowAtLevel,
+    answers: list[SeaAnswer],
+    reach_of: Callable[[SeaAnswer, Joint], float],
+    largest: Array,
+    resultant: Array,
+) -> tuple[Array, Array]:
+    """Take the largest loads (n, joints, 6), (n, joints) of connectors with a curve from the curve itself, in place.
+
+    Return their lowest and highest elongations (n, joints); NaN of other connectors.
+    """
+    low, high = np.full_like(resultant, np.nan), np.full_like(resultant, np.nan)
+    for row, item in enumerate(answers):
+        for number, joint in enumerate(at.joints):
+            curve = joint.connector.curve
+            if curve is None:
+                continue
+            mean, reach = float(joint.along @ item.rest.position), reach_of(item, joint)
+            low[row, number], high[row, number] = mean - reach, mean + reach
+            force = float(np.abs(curve.at(np.array([mean - reach, mean, mean + reach]))).max())
+            largest[row, number, :3] = force * np.abs(np.asarray(joint.connector.axis))
+            resultant[row, number] = force
+    return low, high
+
+
+def irregular_dataset(at: RowAtLevel, sea: IrregularSea, answer: SeaAnswer) -> xr.Dataset:
+    """Return statistics of motions, loads and tensions in an irregular sea."""
+    import xarray as xr
+
+    omega, density, fine = answer.fine.omega, answer.density, answer.fine
+    duration = sea.duration
+
+    def largest(transfer: ComplexArray) -> Array:
+        return response_statistics(omega, transfer, density).most_probable_maximum(duration)
+
+    motion = response_statistics(omega, at.in_unit_axes(fine.motion), density)
+    load = response_statistics(omega, fine.load, density)
+    offset = at.in_unit_axes(answer.rest.position)
+    mean_load = _mean_loads(at, answer)
+    top = np.abs(mean_load) + load.most_probable_maximum(duration)
+    resultant = np.linalg.norm(mean_load[:, :3], axis=1) + _gaussian_resultant(answer, duration)
+    relative = largest(fine.relative)
+    top, resultant = top[None], resultant[None]
+
+    def reach(item: SeaAnswer, joint: Joint) -> float:
+        return float(largest(item.fine.motion @ joint.along))
+
+    low, high = _by_curve(at, [answer], reach, top, resultant)
+    mean_tension = at.tensions(answer.rest.position)
+    waves = response_statistics(omega, np.ones(density.shape), density)
+    dims = ("connector", "component")
+    most = motion.most_probable_maximum(duration)
+    out: dict[str, Any] = {
+        "significant_height": ((), float(waves.significant)),
+        "peak_period": ((), float(sea.spectrum.peak_period)),
+        "significant_motion": (("unit", "dof"), motion.significant),
+        "most_probable_maximum_motion": (("unit", "dof"), most),
+        "mean_offset": (("unit", "dof"), offset),
+        "largest_offset": ("unit", np.abs(offset[:, 0]) + most[:, 0]),
+        "mean_drift": ("direction", answer.drift),
+        "connector_force_mean": (dims, mean_load[:, :3]),
+        "connector_moment_mean": (dims, mean_load[:, 3:]),
+        "connector_significant_force": (dims, 2.0 * load.standard_deviation[:, :3]),
+        "connector_significant_moment": (dims, 2.0 * load.standard_deviation[:, 3:]),
+        "connector_force_largest": (dims, top[0, :, :3]),
+        "connector_moment_largest": (dims, top[0, :, 3:]),
+        "connector_resultant_largest": ("connector", resultant[0]),
+        "connector_stiffness_of_curve": ("connector", answer.curve_stiffness),
+        "elongation_lowest": ("connector", low[0]),
+        "elongation_highest": ("connector", high[0]),
+        "relative_motion_largest": (dims, relative[:, :3]),
+        "relative_turn_largest": (dims, relative[:, 3:]),
+        "line_tension_mean": ("line", mean_tension),
+        "line_tension_maximum": ("line", mean_tension + largest(fine.tension)),
+    }
+    coords = _coords(at) | {"direction": ["across", "along", "about z"]}
+    data = labelled(xr.Dataset(out, coords=coords))
+    data.attrs |= {
+        "kind": "irregular",
+        "heading": sea.heading,
+        "duration": duration,
+        "headings": answer.headings.tolist(),
+        "status": _status([answer]),
+    }
+    return data
+
+
+def _gaussian_resultant(answer: SeaAnswer, duration: float) -> Array:
+    """Return the most probable largest force (joints,) along the direction in which each joint is loaded most.
+
+    The direction is that of the largest variance of the three components together [eq:units-resultant].
+    """
+    fine = answer.fine
+    out = np.zeros(fine.load.shape[2])
+    weights = np.gradient(fine.omega)
+    for number in range(len(out)):
+        force = fine.load[:, :, number, :3]
+        covariance = np.real(np.einsum("n,nh,nhi,nhj->ij", weights, answer.density, force, force.conj()))
+        direction = np.linalg.eigh(covariance)[1][:, -1]
+        out[number] = float(
+            response_statistics(fine.omega, force @ direction, answer.density).most_probable_maximum(duration)
+        )
+    return out
+
+
+def _status(answers: list[SeaAnswer]) -> str:
+    return "converged" if all(item.converged for item in answers) else "not_converged"
+
+
+def map_dataset(
+    at: RowAtLevel,
+    hydro: RowHydrodynamics,
+    sea: RegularSea | IrregularSea,
+    answers: list[SeaAnswer],
+    points: MapPoints,
+    area: MapArea,
+    field: WaveField,
+    section: SectionAnswer | None,
+) -> xr.Dataset:
+    """Return K on the map, at named points and along the line, with the answer of the section."""
+    import xarray as xr
+
+    columns = columns_of(hydro, answers[0].headings)
+    section_transmission = np.full(len(answers), np.nan)
+    extra: dict[str, Any] = {}
+    if isinstance(sea, RegularSea):
+        rows = [int(np.argmin(np.abs(hydro.omega - 2.0 * np.pi / period))) for period in sea.periods]
+        ratio = np.array(
+            [
+                height_ratio(field, row, item.coarse.motion[row][columns], columns)[:, 0]
+                for row, item in zip(rows, answers)
+            ]
+        )
+        if section is not None:
+            section_transmission = section.transmission[rows][:, columns[0]]
+            middle = at.row.count // 2
+            own = np.array([np.abs(item.fine.motion[0, 0].reshape(-1, 6)[middle, list(PLANAR)]) for item in answers])
+            alone = np.abs(section.motion[rows][:, columns[0]])
+            extra["section_motion_ratio"] = (("period", "section_dof"), own / alone)
+            drift = np.array([item.far.drift[row, columns[0], 0] for row, item in zip(rows, answers)])
+            extra["section_drift_ratio"] = (
+                "period", drift / (at.row.count * section.drift[rows][:, columns[0]])
+            )  # fmt: skip
+        lead: tuple[str, ...] = ("period",)
+    else:
+        answer = answers[0]
+        low, high = float(answer.fine.omega[0]), float(answer.fine.omega[-1])
+        weights = cell_weights(hydro.omega, low, high)
+        share = answer.density / answer.density.sum(axis=1, keepdims=True)
+        near = np.argmin(np.abs(answer.fine.omega[None, :] - hydro.omega[:, None]), axis=1)
+        energy = (weights * np.asarray(sea.spectrum.density_at(hydro.omega)))[:, None] * share[near]
+        ratio = sea_height_ratio(field, answer.coarse.motion, columns, energy)[None]
+        if section is not None:
+            passed = (section.transmission[:, columns] ** 2 * energy).sum() / energy.sum()
+            section_transmission = np.array([float(np.sqrt(passed))])
+        lead = ()
+    count = len(points.x) * len(points.y)
+    grid = ratio[:, :count].reshape(len(ratio), len(points.y), len(points.x))
+    transmission = np.array([line_transmission(row[points.line]) for row in ratio])
+
+    def shaped(values: Array) -> Array:
+        return values if lead else values[0]
+
+    line = points.points[points.line]
+    out: dict[str, Any] = {
+        "wave_height_ratio": ((*lead, "y", "x"), shaped(grid)),
+        "wave_height_ratio_of_point": ((*lead, "point"), shaped(ratio[:, points.named])),
+        "wave_height_ratio_of_line": ((*lead, "station"), shaped(ratio[:, points.line])),
+        "point_x": ("point", [point[1] for point in area.points]),
+        "point_y": ("point", [point[2] for point in area.points]),
+        "line_x": ("station", line[:, 0]),
+        "line_y": ("station", line[:, 1]),
+        "transmission_coefficient": (lead, shaped(transmission)),
+        "section_transmission": (lead, shaped(section_transmission)),
+        **extra,
+    }
+    coords: dict[str, Any] = {"x": points.x, "y": points.y, "point": [point[0] for point in area.points]}
+    if lead:
+        coords["period"] = np.array(sea.periods)  # type: ignore[union-attr]
+        coords["section_dof"] = ["sway", "heave", "roll"]
+    data = labelled(xr.Dataset(out, coords=coords))
+    data.attrs |= {"kind": "regular" if lead else "irregular", "heading": sea.heading}
+    return data
+
+
+__all__ = ["hydrodynamics_dataset", "irregular_dataset", "map_dataset", "regular_dataset", "statics_dataset"]

@@ -1,0 +1,249 @@
+"""Coefficients of all units together over a band of frequencies: solved, kept on disk one file a frequency, checked."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from moyai import __version__
+from moyai.core.arrays import Array, ComplexArray
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.store import DatasetStore, key_of
+from moyai.core.validity import IdentityCheck
+from moyai.sea.dispersion import group_velocity
+from moyai.sea.water import Water
+from moyai.structures.units.bem import (
+    DIRECTIONS,
+    Panels,
+    Solution,
+    check_memory,
+    directions,
+    engine_version,
+    solve_frequency,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Accepted errors of the mesh, over the largest coefficient of the band
+SYMMETRY, HASKIND, ENERGY = 0.1, 0.05, 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class RowHydrodynamics:
+    """Coefficients of all units at one water level.
+
+    Parameters
+    ----------
+    panels : Panels
+    water : Water
+    centres : ndarray (u, 3)
+        Centres of gravity [m], row axes; motions are about them.
+    headings : ndarray (h,)
+        [rad].
+    solutions : tuple of Solution
+        In rising frequency.
+    checks : tuple of IdentityCheck
+    """
+
+    panels: Panels
+    water: Water
+    centres: Array
+    headings: Array
+    solutions: tuple[Solution, ...]
+    checks: tuple[IdentityCheck, ...]
+
+    @property
+    def omega(self) -> Array:
+        """Frequencies [rad/s]."""
+        return np.array([item.omega for item in self.solutions])
+
+    @property
+    def wave_number(self) -> Array:
+        """Wave numbers [1/m]."""
+        return np.array([item.wave_number for item in self.solutions])
+
+    @property
+    def added_mass(self) -> Array:
+        """(f, m, m), the symmetric part."""
+        values = np.array([item.added_mass for item in self.solutions])
+        return np.asarray(0.5 * (values + values.transpose(0, 2, 1)))
+
+    @property
+    def damping(self) -> Array:
+        """(f, m, m), the symmetric part."""
+        values = np.array([item.damping for item in self.solutions])
+        return np.asarray(0.5 * (values + values.transpose(0, 2, 1)))
+
+    @property
+    def excitation(self) -> ComplexArray:
+        """(f, h, m)."""
+        return np.array([item.excitation for item in self.solutions])
+
+    def phase(self, k: Array) -> ComplexArray:
+        """Return the phase of the incident waves at the centres (f, h, m) for wave numbers (f,) [1/m]."""
+        along = (
+            np.cos(self.headings)[:, None] * self.centres[:, 0] + np.sin(self.headings)[:, None] * self.centres[:, 1]
+        )
+        return np.repeat(np.exp(1j * k[:, None, None] * along), 6, axis=2)
+
+    def at(self, omega: Array, k: Array) -> tuple[Array, Array, ComplexArray]:
+        """Return added mass, damping (f, m, m) and excitation (f, h, m) at other frequencies, by splines.
+
+        The excitation is interpolated without the phase of the wave at each unit, which turns fast with frequency.
+
+        Raises
+        ------
+        InputError
+            Outside of the band that was computed.
+        """
+        own = self.omega
+        if omega.min() < own[0] * (1.0 - 1e-9) or omega.max() > own[-1] * (1.0 + 1e-9):
+            raise InputError(
+                f"{omega.min():.4g} to {omega.max():.4g} rad/s", path="settings.frequencies",
+                allowed=f"{own[0]:.4g} to {own[-1]:.4g} rad/s, which was computed",
+            )  # fmt: skip
+        if len(own) == 1:
+            shape = (len(omega), 1, 1)
+            return np.tile(self.added_mass, shape), np.tile(self.damping, shape), np.tile(self.excitation, shape)
+        steady = self.excitation / self.phase(self.wave_number)
+        excitation = CubicSpline(own, steady)(omega) * self.phase(k)
+        return CubicSpline(own, self.added_mass)(omega), CubicSpline(own, self.damping)(omega), excitation
+
+
+def solve_row(
+    panels: Panels,
+    water: Water,
+    centres: Array,
+    omega: Array,
+    headings: Array,
+    *,
+    store: DatasetStore | None = None,
+    progress: Progress = silent,
+) -> RowHydrodynamics:
+    """Solve every frequency, or take it from the store.
+
+    Parameters
+    ----------
+    panels : Panels
+    water : Water
+    centres : ndarray (u, 3)
+        [m], row axes.
+    omega, headings : ndarray
+        [rad/s], [rad].
+    store : DatasetStore or None
+        Where each frequency is kept as soon as it is solved.
+    progress : Progress
+        Told of every frequency.
+
+    Raises
+    ------
+    InputError
+        When the machine has not the memory, before anything is solved.
+    """
+    check_memory(panels)
+    solutions = []
+    base = key_of(
+        __version__, engine_version(), panels.mesh.corners, panels.mesh.part, centres, panels.gap_damping,
+        (water.depth, water.density, water.gravity), headings, DIRECTIONS,
+    )  # fmt: skip
+    for index, frequency in enumerate(omega):
+        progress("coefficients of the row", index, len(omega))
+        key = key_of(base, float(frequency))
+        kept = None if store is None else store.get(key)
+        found = _from_dataset(kept) if kept is not None else None
+        if found is None:
+            found = solve_frequency(panels, water, float(frequency), headings)
+            if store is not None:
+                store.put(key, _to_dataset(found))
+        solutions.append(found)
+    progress("coefficients of the row", len(omega), len(omega))
+    return RowHydrodynamics(
+        panels, water, centres, headings, tuple(solutions), _checks(tuple(solutions), panels, water)
+    )
+
+
+_FIELDS = {
+    "added_mass": ("influenced", "radiating"),
+    "damping": ("influenced", "radiating"),
+    "excitation": ("heading", "influenced"),
+    "radiation": ("panel", "radiating"),
+    "diffraction": ("panel", "heading"),
+    "radiated": ("radiating", "direction"),
+    "scattered": ("heading", "direction"),
+    "haskind": ("kind",),
+}
+
+
+def _to_dataset(found: Solution) -> xr.Dataset:
+    import xarray as xr
+
+    data = {name: (dims, getattr(found, name)) for name, dims in _FIELDS.items()}
+    numbers = {name: getattr(found, name) for name in ("omega", "wave_number")}
+    return xr.Dataset(data, attrs=numbers)
+
+
+def _from_dataset(data: xr.Dataset) -> Solution | None:
+    try:
+        arrays: dict[str, Any] = {name: data[name].transpose(*dims).values for name, dims in _FIELDS.items()}
+        numbers: dict[str, Any] = {name: float(data.attrs[name]) for name in ("omega", "wave_number")}
+    except (KeyError, ValueError):
+        return None
+    return Solution(**numbers, **arrays)
+
+
+def _checks(solutions: tuple[Solution, ...], panels: Panels, water: Water) -> tuple[IdentityCheck, ...]:
+    symmetry = max(_asymmetry(item.added_mass, solutions, "added_mass") for item in solutions)
+    symmetry = max(symmetry, max(_asymmetry(item.damping, solutions, "damping") for item in solutions))
+    size = np.max([np.abs(item.excitation).reshape(-1, 6).max(axis=0) for item in solutions], axis=0)
+    apart = np.max([item.haskind for item in solutions], axis=0)
+    checks = [
+        IdentityCheck("coefficients of the row are symmetric", symmetry, SYMMETRY, "A_ij = A_ji, B_ij = B_ji"),
+    ]
+    haskind = float(np.max(apart / np.where(size > 1e-9 * size.max(), size, np.inf)))
+    checks.append(
+        IdentityCheck("excitation by Haskind's relation", haskind, HASKIND, "the same from the radiation alone")
+    )
+    if panels.gap_damping == 0.0:
+        checks.append(
+            IdentityCheck(
+                "damping is the energy of the waves that go away", radiated_energy(solutions, water), ENERGY,
+                "B_jj from the far field, over the largest B_jj of the band",
+            )
+        )  # fmt: skip
+    return tuple(checks)
+
+
+def _kinds(matrix: Array) -> Array:
+    """Return the largest entry for every pair of kinds of motion (6, 6)."""
+    units = len(matrix) // 6
+    return np.asarray(np.abs(matrix).reshape(units, 6, units, 6).max(axis=(0, 2)))
+
+
+def _asymmetry(matrix: Array, solutions: tuple[Solution, ...], name: str) -> float:
+    """Return the asymmetry over the geometric mean of the largest diagonal entries of the band."""
+    diagonal = np.max([_kinds(getattr(item, name)).diagonal() for item in solutions], axis=0)
+    scale = np.sqrt(np.outer(diagonal, diagonal))
+    return float(np.max(_kinds(matrix - matrix.T) / np.where(scale > 0.0, scale, np.inf)))
+
+
+def radiated_energy(solutions: tuple[Solution, ...], water: Water) -> float:
+    """Return the largest departure of B_jj from the energy of its far waves [eq:units-radiated-energy]."""
+    own = np.array([item.damping.diagonal() for item in solutions])
+    far = np.array([far_damping(item, water).diagonal() for item in solutions])
+    size = np.abs(own).reshape(len(own), -1, 6).max(axis=(0, 1))
+    apart = np.abs(own - far).reshape(len(own), -1, 6).max(axis=(0, 1))
+    return float(np.max(apart / np.where(size > 0.0, size, np.inf)))
+
+
+def far_damping(found: Solution, water: Water) -> Array:
+    """Return the damping (m, m) that the far waves carry away [eq:units-radiated-energy]."""
+    speed = float(group_velocity(found.omega, water.depth, water.gravity))
+    factor = 2.0 * water.density * water.gravity * speed / (math.pi * found.wave_number * found.omega**2)
+    step = 2.0 * math.pi / len(directions())
+    return np.asarray(factor * step * np.real(found.radiated @ found.radiated.conj().T))

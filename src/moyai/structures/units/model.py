@@ -1,0 +1,270 @@
+"""The row of floating units as the case file states it: SI units and radians, frozen.
+
+The frame of the row has x across, y along, z up. A unit has axes of its own, turned by its heading about z. Its six
+motions are named as on a ship that lies along y: sway along x, surge along y, heave along z; pitch turns about x, roll
+about y, yaw about z.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.headline import Criterion
+from moyai.core.options import checks_words
+from moyai.mooring.lines import Clump, Segment
+from moyai.potential.sections import Hull
+from moyai.sea.environment import Environment
+
+#: Along x, y, z and about x, y, z of the unit.
+DOFS = ("sway", "surge", "heave", "pitch", "roll", "yaw")
+ConnectorKind = Literal["rigid", "hinge", "ball", "spring", "rubber", "chain", "fender"]
+Analysis = Literal["statics", "frequency", "map"]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Middle of a unit (x, y) [m] in the frame of the row, and how far its axes are turned from it [rad]."""
+
+    x: float
+    y: float
+    heading: float = 0.0
+
+    @property
+    def rotation(self) -> Array:
+        """Matrix (3, 3) from axes of the unit to those of the row."""
+        c, s = math.cos(self.heading), math.sin(self.heading)
+        return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+    def to_row(self, points: Array) -> Array:
+        """Return points (..., 3) [m] of the unit in the frame of the row."""
+        return np.asarray(np.asarray(points, dtype=float) @ self.rotation.T + np.array([self.x, self.y, 0.0]))
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Force [N] over elongation [m] of a connector that acts along one direction, straight between its points.
+
+    Beyond the ends it goes on with the slope of the last piece.
+    """
+
+    elongation: tuple[float, ...]
+    force: tuple[float, ...]
+
+    def at(self, elongation: Array) -> Array:
+        """Return the force [N] at elongations [m]."""
+        x, f = np.array(self.elongation), np.array(self.force)
+        first, last = (f[1] - f[0]) / (x[1] - x[0]), (f[-1] - f[-2]) / (x[-1] - x[-2])
+        e = np.asarray(elongation, dtype=float)
+        inside = np.interp(e, x, f)
+        return np.asarray(
+            np.where(e < x[0], f[0] + first * (e - x[0]), np.where(e > x[-1], f[-1] + last * (e - x[-1]), inside))
+        )
+
+    def rounded(self, elongation: float, width: float) -> tuple[float, float]:
+        """Return force [N] and slope [N/m], the mean over ``width`` [m] to either side: a curve without corners."""
+        nodes = np.array(self.elongation)
+        low, high = elongation - width, elongation + width
+        e = np.concatenate([[low], nodes[(nodes > low) & (nodes < high)], [high]])
+        force = self.at(e)
+        return float(np.trapezoid(force, e)) / (2.0 * width), float(force[-1] - force[0]) / (2.0 * width)
+
+
+@checks_words
+@dataclass(frozen=True)
+class Connector:
+    """A connector between neighbours.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+        ``rigid`` holds all six relative motions, ``hinge`` all but the turn about its axis, ``ball`` the three
+        translations; ``spring`` has stiffness and damping of 6 x 6; ``rubber``, ``chain`` and ``fender`` act along one
+        direction with a curve of force over elongation.
+    pairs : tuple of (int, int)
+        Units that it joins, counted from 0.
+    x, above_keel : float
+        Where: across from the centre line and above the keel [m]; along, the middle of the gap.
+    axis : tuple of three float
+        Axis of a hinge, direction of a curve, in axes of the first unit of the pair.
+    stiffness, damping : ndarray (6, 6) or None
+        Of a spring [N/m, N, N m], [N s/m, N s, N m s].
+    curve : Curve or None
+    linear_damping : float
+        Of a curve, per rate of elongation [N s/m].
+    breaking_load : float
+        Largest resultant force [N]; infinite where it is not known.
+    """
+
+    name: str
+    kind: ConnectorKind
+    pairs: tuple[tuple[int, int], ...]
+    x: float = 0.0
+    above_keel: float = 0.0
+    axis: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    stiffness: Array | None = None
+    damping: Array | None = None
+    curve: Curve | None = None
+    linear_damping: float = 0.0
+    breaking_load: float = math.inf
+
+
+@dataclass(frozen=True)
+class UnitLine:
+    """Identical lines of one unit; a spring of a laboratory has ``stiffness`` and no segments.
+
+    Parameters
+    ----------
+    name : str
+    count : int
+    units : tuple of int
+        Units that have it, counted from 0.
+    fairlead : tuple of three float
+        x across, y along from the middle of the unit, z above the keel [m].
+    anchor : tuple of three float
+        x, y from the middle of the unit, in its axes [m]; z above the bed, of a spring from still water at datum.
+    segments, clumps, bed_friction
+        As of :class:`moyai.mooring.Line`.
+    stiffness, pretension : float
+        Of a spring [N/m], [N].
+    """
+
+    name: str
+    count: int
+    units: tuple[int, ...]
+    fairlead: tuple[float, float, float]
+    anchor: tuple[float, float, float]
+    segments: tuple[Segment, ...] = ()
+    clumps: tuple[Clump, ...] = ()
+    bed_friction: float = 0.0
+    stiffness: float = 0.0
+    pretension: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class FloatingRow:
+    """Equal units in a row, their connectors and lines.
+
+    Parameters
+    ----------
+    hull : Hull
+        Section, keel to deck.
+    length : float
+        Of one unit [m].
+    draught : float
+        At the first water level [m].
+    centre_of_gravity_above_keel : float
+        [m].
+    gyradii : tuple of three float
+        Of pitch (about x), roll (about y) and yaw about the centre of gravity [m].
+    placements : tuple of Placement
+    connectors : tuple of Connector
+    lines : tuple of UnitLine
+    damping_fraction : ndarray (6,)
+        Fraction of critical damping of every motion of a unit, beyond wave radiation.
+    linear_damping : ndarray (6,)
+        Damping of a unit beyond wave radiation [N s/m, N m s].
+    gap_damping_lid : float
+        epsilon of the lids in the gaps; 0 for none.
+    wind_drag_coefficient, current_drag_coefficient : float or None
+    """
+
+    hull: Hull
+    length: float
+    draught: float
+    centre_of_gravity_above_keel: float
+    gyradii: tuple[float, float, float]
+    placements: tuple[Placement, ...]
+    connectors: tuple[Connector, ...] = ()
+    lines: tuple[UnitLine, ...] = ()
+    damping_fraction: Array = field(default_factory=lambda: np.zeros(6))
+    linear_damping: Array = field(default_factory=lambda: np.zeros(6))
+    gap_damping_lid: float = 0.0
+    wind_drag_coefficient: float | None = None
+    current_drag_coefficient: float | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of units."""
+        return len(self.placements)
+
+
+@dataclass(frozen=True)
+class MapArea:
+    """Where the waves are computed: rectangle [m] in the frame of the row, cells, named points, a line behind.
+
+    Parameters
+    ----------
+    x, y : tuple of two float
+    cells : tuple of two int
+        Along x and y.
+    points : tuple of (str, float, float)
+        Name, x, y.
+    line : tuple of four float or None
+        x, y of both ends of the line that transmission is averaged over.
+    """
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    cells: tuple[int, int]
+    points: tuple[tuple[str, float, float], ...] = ()
+    line: tuple[float, float, float, float] | None = None
+
+
+@checks_words
+@dataclass(frozen=True)
+class Settings:
+    """Which analyses are run and how.
+
+    Parameters
+    ----------
+    analyses : tuple of str
+    panel_size : float
+        Largest step of the panels [m].
+    frequencies : tuple of float or None
+        Angular frequencies of the coefficients [rad/s]; ``None``: from the seas.
+    frequency_count : int
+        Number of frequencies of each irregular sea where they follow from the seas.
+    drift : bool
+        Whether the mean drift force moves the row.
+    section_compare : bool
+        Whether the two-dimensional section is computed next to the row.
+    """
+
+    panel_size: float
+    analyses: tuple[Analysis, ...] = ("statics", "frequency", "map")
+    frequencies: tuple[float, ...] | None = None
+    frequency_count: int = 20
+    drift: bool = True
+    section_compare: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class UnitsProblem:
+    """The whole problem."""
+
+    title: str
+    row: FloatingRow
+    environment: Environment
+    settings: Settings
+    map_area: MapArea
+    criteria: tuple[Criterion, ...] = ()
+    case_text: str = ""
+    case_hash: str = ""
+
+
+def straight_row(count: int, length: float, gap: float) -> tuple[Placement, ...]:
+    """Return units one after the other along y, the middle of the row at the origin [m]."""
+    step = length + gap
+    return tuple(Placement(0.0, (number - 0.5 * (count - 1)) * step) for number in range(count))
+
+
+__all__ = [
+    "DOFS", "Analysis", "Connector", "ConnectorKind", "Curve", "FloatingRow", "MapArea", "Placement",
+    "Settings", "UnitLine", "UnitsProblem", "straight_row",
+]  # fmt: skip

@@ -1,0 +1,113 @@
+"""Compose the report of a row of units: what governs, the waves around it, connectors, motions, lines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from moyai.core.results import Result
+from moyai.report.document import Block, Choice, Document, Option, Paragraph, Section
+from moyai.report.general_page import case_listing, closing_section, notice_blocks, provenance, report_title
+from moyai.report.headlines import headline_figures
+from moyai.report.reading import Group, root_of
+from moyai.structures.units.report import figures
+
+
+def compose(result: Result) -> Document:
+    """Compose the report of a row of units.
+
+    Parameters
+    ----------
+    result : Result
+        With the layout of ``docs/result_layout.md``; whatever is absent is left out.
+
+    Returns
+    -------
+    Document
+    """
+    root = root_of(result)
+    levels = tuple(child for child in root.children() if "water_depth" in child.attributes)
+
+    def at_each_level(compose_level: Callable[[Group], Sequence[Block | None]]) -> tuple[Block, ...]:
+        options = []
+        for level in levels:
+            blocks = tuple(block for block in compose_level(level) if block is not None)
+            options.append(Option(level.name, blocks or (Paragraph("Not run at this water level.", quiet=True),)))
+        if not any(not isinstance(option.blocks[0], Paragraph) for option in options):
+            return ()
+        return (Choice("water-level", "Water level", tuple(options)),)
+
+    sections = [
+        Section("summary", "Summary", (*_summary(result), *notice_blocks(result))),
+        Section("row", "The row", at_each_level(lambda level: [figures.plan(level), figures.rest_table(level)])),
+        Section("waves", "Waves around the row", at_each_level(_maps)),
+        Section("connectors", "Connectors", at_each_level(lambda level: _tables(level, figures.connector_table))),
+        Section("motions", "Motions", at_each_level(_motions)),
+        Section("lines", "Lines", at_each_level(lambda level: _tables(level, figures.line_table))),
+        Section("input", "Input", (case_listing(root),)),
+    ]
+    return Document(
+        title=report_title(result),
+        subtitle=_subtitle(levels),
+        status=result.status,
+        message=result.message,
+        sections=(*(section for section in sections if section.blocks), closing_section(result)),
+        provenance=provenance(result),
+    )
+
+
+def _summary(result: Result) -> tuple[Block, ...]:
+    numbers = headline_figures(result)
+    return () if numbers is None else (numbers,)
+
+
+def _subtitle(levels: tuple[Group, ...]) -> str:
+    if not levels:
+        return "Floating row of units"
+    statics = levels[0].child("statics")
+    count = len(statics.labels("unit"))
+    length = float(statics.attributes.get("length", float("nan")))
+    return f"Floating row of {count} unit{'s' if count != 1 else ''} of {length:g} m"
+
+
+def _periods(sea: Group) -> tuple[int | None, ...]:
+    """Return the rows of a sea: every period of regular waves, one of an irregular sea."""
+    count = len(sea.labels("period"))
+    return tuple(range(count)) if count else (None,)
+
+
+def _maps(level: Group) -> list[Block | None]:
+    blocks: list[Block | None] = []
+    for sea in level.child("map").children():
+        options = []
+        for period in _periods(sea):
+            drawing = figures.wave_map(level, sea, period)
+            if drawing is not None:
+                label = sea.name if period is None else f"T = {float(sea.require('period', 'period')[period]):g} s"
+                options.append(Option(label, (drawing,)))
+        if len(options) == 1:
+            blocks.append(options[0].blocks[0])
+        elif options:
+            blocks.append(Choice(f"map-{level.name}-{sea.name}", "Period", tuple(options)))
+        blocks += [figures.points_table(level, sea), figures.along_line(level, sea)]
+    return blocks
+
+
+def _tables(level: Group, table: Callable[[Group, Group, int | None], Block | None]) -> list[Block | None]:
+    blocks: list[Block | None] = []
+    for sea in level.child("frequency").children():
+        options = []
+        for period in _periods(sea):
+            found = table(level, sea, period)
+            if found is not None:
+                label = sea.name if period is None else f"T = {float(sea.require('period', 'period')[period]):g} s"
+                options.append(Option(label, (found,)))
+        if len(options) == 1:
+            blocks.append(options[0].blocks[0])
+        elif options:
+            blocks.append(Choice(f"{table.__name__}-{level.name}-{sea.name}", "Period", tuple(options)))
+    return blocks
+
+
+def _motions(level: Group) -> list[Block | None]:
+    curves: list[Block | None] = [figures.over_period(level, sea) for sea in level.child("frequency").children()]
+    return [*curves, *_tables(level, figures.motion_table)]

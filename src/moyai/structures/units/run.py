@@ -1,0 +1,321 @@
+"""Run a row of floating units: every water level, every sea state, the analyses that the case names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.collected import STOPPED, Collected
+from moyai.core.errors import InputError
+from moyai.core.progress import Progress, silent
+from moyai.core.results import Result
+from moyai.core.store import DatasetStore
+from moyai.core.validity import IdentityCheck, Notice
+from moyai.sea.states import IrregularSea, RegularSea
+from moyai.structures.units.assembly import RowAtLevel, assemble, level_notices, steady_load
+from moyai.structures.units.bem import Panels, green_function, panels_of
+from moyai.structures.units.datasets import (
+    hydrodynamics_dataset,
+    irregular_dataset,
+    map_dataset,
+    regular_dataset,
+    statics_dataset,
+)
+from moyai.structures.units.field import map_points, wave_field
+from moyai.structures.units.headlines import headlines_of
+from moyai.structures.units.hydrodynamics import RowHydrodynamics, solve_row
+from moyai.structures.units.mesh import row_mesh
+from moyai.structures.units.model import Settings, UnitsProblem
+from moyai.structures.units.seas import (
+    ENERGY_LEFT_OUT,
+    SeaAnswer,
+    columns_of,
+    frequencies_of,
+    headings_of,
+    irregular_answer,
+    regular_answer,
+    spread_of,
+)
+from moyai.structures.units.section import SectionAnswer, comparable, section_answer
+from moyai.structures.units.variables import VOCABULARY
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Least wave length over the longest side of a panel: less is refused; below the second a notice is given
+LEAST_PANELS, FEW_PANELS = 4.0, 6.0
+#: Accepted error of the energy balance, over the energy that meets the length of the row
+BALANCE = 0.05
+
+
+def row_panels(at: RowAtLevel, settings: Settings, shortest: float) -> Panels:
+    """Return the panels of the row; lids inside of hulls where a standing wave in them comes near the band.
+
+    Parameters
+    ----------
+    at : RowAtLevel
+    settings : Settings
+    shortest : float
+        Highest frequency [rad/s].
+
+    Raises
+    ------
+    InputError
+        For units that overlap, gaps and waves that the panels do not resolve.
+    """
+    row = at.row
+    mesh = row_mesh(
+        at.section, row.length, row.placements, settings.panel_size,
+        lid=shortest > 0.7 * irregular_frequency(at), gap_lid=row.gap_damping_lid > 0.0,
+    )  # fmt: skip
+    return panels_of(mesh, at.centres, row.gap_damping_lid)
+
+
+def irregular_frequency(at: RowAtLevel) -> float:
+    """Return the lowest frequency [rad/s] of a standing wave inside of a hull, of a box [eq:units-irregular]."""
+    breadth = at.section.waterplane_breadth
+    k = math.pi * math.hypot(1.0 / breadth, 1.0 / at.row.length)
+    return math.sqrt(at.water.gravity * k / math.tanh(k * at.draught))
+
+
+def check_resolution(at: RowAtLevel, panels: Panels, omega: Array) -> tuple[Notice, ...]:
+    """Hold the panels against the shortest wave.
+
+    Raises
+    ------
+    InputError
+        When a wave is shorter than four panels.
+    """
+    from moyai.sea.dispersion import wave_number
+
+    shortest = 2.0 * math.pi / float(wave_number(float(omega.max()), at.water.depth, at.water.gravity))
+    side = panels.mesh.longest_side
+    if shortest < LEAST_PANELS * side:
+        raise InputError(
+            f"the shortest wave, {shortest:.3g} m ({2.0 * math.pi / omega.max():.3g} s), is {shortest / side:.2g} "
+            f"panels long (longest side {side:.3g} m)",
+            path="settings.panel_size",
+            allowed=f"panels of {shortest / LEAST_PANELS:.3g} m or less",
+            remedy="give smaller panels, or leave the short waves out (settings.frequencies)",
+        )
+    if shortest < FEW_PANELS * side:
+        return (
+            Notice(
+                "few-panels", f"{at.name}: the shortest wave is {shortest / side:.2g} panels long", shortest / side,
+                FEW_PANELS, remedy="give smaller panels (settings.panel_size) and compare",
+            ),
+        )  # fmt: skip
+    return ()
+
+
+def run(problem: UnitsProblem, progress: Progress = silent, *, store: DatasetStore | None = None) -> Result:
+    """Run all analyses of a row.
+
+    Parameters
+    ----------
+    problem : UnitsProblem
+    progress : Progress
+        Told of every step; KeyboardInterrupt ends the run with what there is and the status ``interrupted``.
+    store : DatasetStore or None
+        Where coefficients and waves are kept, one file a frequency, and looked for.
+
+    Returns
+    -------
+    Result
+        Groups as in docs/result_layout.md.
+
+    Raises
+    ------
+    InputError
+        When the case is impossible, or Capytaine is not installed.
+    """
+    collected = Collected()
+    try:
+        for _ in _steps(problem, collected, store, progress):
+            pass
+    except KeyboardInterrupt:
+        collected.interrupted = STOPPED
+    return _result(problem, collected)
+
+
+def _steps(
+    problem: UnitsProblem, collected: Collected, store: DatasetStore | None, progress: Progress
+) -> Iterator[None]:
+    environment = problem.environment
+    levels = [assemble(problem.row, environment, name, level) for name, level in environment.water_levels]
+    if {"frequency", "map"} & set(problem.settings.analyses):
+        green_function()
+    for index, at in enumerate(levels):
+        progress("water levels", index, len(levels))
+        yield from _level_steps(problem, at, collected, store, progress)
+    progress("water levels", len(levels), len(levels))
+
+
+def _level_steps(
+    problem: UnitsProblem, at: RowAtLevel, collected: Collected, store: DatasetStore | None, progress: Progress
+) -> Iterator[None]:
+    import xarray as xr
+
+    root, settings, environment = f"/{at.name}", problem.settings, problem.environment
+    collected.groups[root] = xr.Dataset(attrs={"water_level": at.level, "water_depth": at.water.depth})
+    collected.notices.extend(level_notices(at))
+    wind, current = steady_load(at, environment)
+    collected.groups[f"{root}/statics"] = statics_dataset(at, wind, current)
+    yield
+    if not {"frequency", "map"} & set(settings.analyses) or not environment.sea_states:
+        return
+    omega, headings = frequencies_of(environment, settings), headings_of(environment)
+    panels = row_panels(at, settings, float(omega.max()))
+    collected.notices.extend(check_resolution(at, panels, omega))
+    hydro = solve_row(panels, at.water, at.centres, omega, headings, store=store, progress=progress)
+    collected.checks.extend(replace(check, name=f"{at.name}: {check.name}") for check in hydro.checks)
+    collected.notices.extend(_notices(problem, at, panels))
+    collected.groups[f"{root}/hydrodynamics"] = hydrodynamics_dataset(at, hydro)
+    yield
+    answers: dict[str, list[SeaAnswer]] = {}
+    for sea in environment.sea_states:
+        progress("seas", len(answers), len(environment.sea_states))
+        if isinstance(sea, RegularSea):
+            answers[sea.name] = regular_answer(at, hydro, sea, wind + current, settings)
+            data = regular_dataset(at, sea, answers[sea.name])
+        else:
+            answers[sea.name] = [irregular_answer(at, hydro, sea, wind + current, settings)]
+            data = irregular_dataset(at, sea, answers[sea.name][0])
+        collected.groups[f"{root}/frequency/{sea.name}"] = data
+        if data.attrs["status"] != "converged":
+            collected.failures.append(f"not settled: {at.name}/frequency/{sea.name}")
+        collected.checks.extend(_balance(at, sea, answers[sea.name], hydro))
+        collected.notices.extend((*_curve_notices(at), *_beyond_curves(at, sea.name, data)))
+        yield
+    progress("seas", len(answers), len(environment.sea_states))
+    if "map" in settings.analyses:
+        section = _section(problem, at, hydro, progress)
+        points = map_points(problem.map_area, at)
+        field = wave_field(points, hydro, store=store, progress=progress)
+        for sea in environment.sea_states:
+            collected.groups[f"{root}/map/{sea.name}"] = map_dataset(
+                at, hydro, sea, answers[sea.name], points, problem.map_area, field, section
+            )
+        yield
+
+
+def _section(
+    problem: UnitsProblem, at: RowAtLevel, hydro: RowHydrodynamics, progress: Progress
+) -> SectionAnswer | None:
+    """Return the section in the headings of all seas that it stands for, NaN in others."""
+    if not problem.settings.section_compare:
+        return None
+    each = [spread_of(sea, np.ones(1))[0] for sea in problem.environment.sea_states]
+    wanted = [headings for headings in each if comparable(at, headings)]
+    if not wanted:
+        return None
+    headings = np.unique(np.concatenate(wanted))
+    return section_answer(at, hydro.omega, headings, progress).placed(columns_of(hydro, headings), len(hydro.headings))
+
+
+def _balance(
+    at: RowAtLevel, sea: RegularSea | IrregularSea, answers: list[SeaAnswer], hydro: RowHydrodynamics
+) -> list[IdentityCheck]:
+    """Hold what the far waves lose against what damping takes; the surface damped in gaps takes a part unknown here."""
+    if at.row.gap_damping_lid > 0.0:
+        return []
+    worst = max(float(np.abs(item.far.balance).max()) for item in answers)
+    return [
+        IdentityCheck(
+            f"{at.name}, {sea.name}: energy of the waves far away", worst, BALANCE,
+            "what the waves lose is what damping takes, over the energy that meets the length of the row",
+        )
+    ]  # fmt: skip
+
+
+def _curve_notices(at: RowAtLevel) -> list[Notice]:
+    names = list(dict.fromkeys(j.connector.name for j in at.joints if j.connector.curve is not None))
+    if not names:
+        return []
+    return [
+        Notice(
+            "linearised-connectors",
+            f"{', '.join(names)}: slack, impact and curved force are taken by a linear stiffness of the same work; the "
+            "largest loads are the curve at the largest elongation; impacts in time are not computed",
+            severity="information",
+        )
+    ]
+
+
+def _beyond_curves(at: RowAtLevel, sea: str, data: xr.Dataset) -> list[Notice]:
+    """Say which rubber is stretched or pressed beyond its curve, which then goes on straight."""
+    out = []
+    for number, joint in enumerate(at.joints):
+        curve = joint.connector.curve
+        if curve is None or joint.connector.kind != "rubber":
+            continue
+        low = float(np.min(data["elongation_lowest"].values[..., number]))
+        high = float(np.max(data["elongation_highest"].values[..., number]))
+        if low < curve.elongation[0] or high > curve.elongation[-1]:
+            out.append(
+                Notice(
+                    "beyond-curve",
+                    f"{at.name}, {sea}: connector '{joint.name}' is worked from {low:.3g} to {high:.3g} m, its curve "
+                    f"ends at {curve.elongation[0]:.3g} and {curve.elongation[-1]:.3g} m and is drawn out straight",
+                    value=max(-low, high), limit=max(-curve.elongation[0], curve.elongation[-1]),
+                    remedy="give the curve farther, or a stiffer connector",
+                )
+            )  # fmt: skip
+    return out
+
+
+def _notices(problem: UnitsProblem, at: RowAtLevel, panels: Panels) -> list[Notice]:
+    out = []
+    row = at.row
+    if row.count > 1 and row.gap_damping_lid == 0.0:
+        out.append(
+            Notice(
+                "gaps-without-damping",
+                "the water in the gaps between units has no damping: near its resonance the waves there are too high",
+                severity="information",
+                remedy="give 'structure.gap_damping_lid' and compare",
+            )
+        )
+    if not row.damping_fraction.any() and not row.linear_damping.any():
+        out.append(
+            Notice(
+                "no-damping",
+                "the units have no damping but that of the waves they make: roll at resonance is too large",
+                remedy="give 'structure.damping'",
+            )
+        )
+    if any(isinstance(sea, IrregularSea) for sea in problem.environment.sea_states):
+        out.append(
+            Notice(
+                "short-waves-left-out",
+                f"the shortest waves of irregular seas, {100.0 * ENERGY_LEFT_OUT:g} % of the energy, are left out",
+                severity="information",
+            )
+        )
+    return out
+
+
+def _result(problem: UnitsProblem, collected: Collected) -> Result:
+    attributes = {
+        "structure": "units",
+        "title": problem.title,
+        "case_hash": problem.case_hash,
+        "case_text": problem.case_text,
+    }
+    seeds: list[int] = []
+    return collected.close(
+        VOCABULARY,
+        attributes,
+        seeds,
+        fulfilled="all identities hold and all iterations converged",
+        headlines=headlines_of(collected.groups),
+        criteria=problem.criteria,
+    )
+
+
+__all__ = ["check_resolution", "irregular_frequency", "row_panels", "run"]

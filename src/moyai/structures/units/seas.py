@@ -1,0 +1,302 @@
+"""Seas over the row: frequencies and headings that are solved, and the answer to each sea."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from moyai.core.arrays import Array
+from moyai.core.errors import InputError
+from moyai.floating.irregular import ResponseStatistics, response_statistics
+from moyai.sea.environment import Environment
+from moyai.sea.states import IrregularSea, RegularSea, SeaState
+from moyai.structures.units.assembly import RowAtLevel, RowPosition, steady_position
+from moyai.structures.units.hydrodynamics import RowHydrodynamics
+from moyai.structures.units.model import Settings
+from moyai.structures.units.response import (
+    FarWaves,
+    RowModel,
+    RowResponse,
+    far_waves,
+    gaussian_stiffness,
+    harmonic_stiffness,
+    respond,
+)
+
+#: Share of the energy of a spectrum beyond the highest frequency that is solved
+ENERGY_LEFT_OUT = 0.02
+#: Frequencies of the statistics of a sea, within the band that is solved
+FINE = 161
+#: Headings of a spread sea
+HEADINGS = 13
+_TURNS = 100
+_SETTLED = 1e-3
+
+
+def band_of(sea: IrregularSea) -> tuple[float, float]:
+    """Return the lowest and the highest frequency [rad/s] that a spectrum is solved at."""
+    low, high = sea.spectrum.quantile(np.array([1e-3, 1.0 - ENERGY_LEFT_OUT]))
+    return float(low), float(high)
+
+
+def frequencies_of(environment: Environment, settings: Settings) -> Array:
+    """Return the frequencies [rad/s] of the coefficients: regular waves exactly, spectra evenly over their energy."""
+    parts = [np.zeros(0)]
+    if settings.frequencies is not None:
+        parts.append(np.asarray(settings.frequencies, dtype=float))
+    for sea in environment.sea_states:
+        if isinstance(sea, RegularSea):
+            parts.append(2.0 * math.pi / np.asarray(sea.periods))
+        elif settings.frequencies is None:
+            parts.append(np.linspace(*band_of(sea), settings.frequency_count))
+    omega = np.unique(np.round(np.concatenate(parts), 9))
+    keep = [0] if len(omega) else []
+    for index in range(1, len(omega)):
+        if omega[index] - omega[keep[-1]] > 1e-6 * omega[-1]:
+            keep.append(index)
+    return np.asarray(omega[keep])
+
+
+def headings_of(environment: Environment) -> Array:
+    """Return all headings [rad] that are solved, each once."""
+    every = [spread_of(sea, np.ones(1))[0] for sea in environment.sea_states] or [np.zeros(1)]
+    return np.unique(np.round(np.concatenate(every), 12))
+
+
+def spread_of(sea: SeaState, omega: Array) -> tuple[Array, Array]:
+    """Return headings [rad] of a sea and the share of energy (n, h) of each: even cells over all but 1e-3 of it."""
+    spreading = getattr(sea, "spreading", None)
+    if not isinstance(sea, IrregularSea) or spreading is None:
+        return np.round(np.array([sea.heading]), 12), np.ones((len(omega), 1))
+    peaks = np.asarray(sea.spectrum.quantile(np.array([0.02, 0.5, 0.98])), dtype=float)
+    ends = np.asarray(spreading.quantile(np.array([[5e-4], [1.0 - 5e-4]]), peaks[None, :]))
+    low, high = max(float(ends[0].min()), -math.pi), min(float(ends[1].max()), math.pi)
+    edges = np.linspace(low, high, HEADINGS + 1)
+    below = np.broadcast_to(np.asarray(spreading.cumulative(edges[None, :], omega[:, None])), (len(omega), len(edges)))
+    share = np.diff(below, axis=1)
+    share = share / share.sum(axis=1, keepdims=True)
+    middle = sea.heading + 0.5 * (edges[1:] + edges[:-1])
+    return np.asarray(np.round(np.arctan2(np.sin(middle), np.cos(middle)), 12), dtype=float), share
+
+
+def columns_of(hydro: RowHydrodynamics, headings: Array) -> Array:
+    """Return where headings stand among those that were solved."""
+    return np.array([int(np.argmin(np.abs(hydro.headings - heading))) for heading in headings])
+
+
+@dataclass(frozen=True, eq=False)
+class SeaAnswer:
+    """A sea over the row.
+
+    Parameters
+    ----------
+    rest : RowPosition
+        Under wind, current and mean drift.
+    drift : ndarray (3,)
+        Mean drift of the whole row [N, N, N m].
+    coarse : RowResponse
+        At the frequencies of the coefficients; of regular waves in all headings that were solved, of an irregular sea
+        in its own.
+    far : FarWaves
+        Of ``coarse``.
+    fine : RowResponse
+        At the frequencies of the statistics, headings of the sea; of regular waves at their period.
+    density : ndarray (n, h)
+        Of the sea at the fine frequencies [m2 s/rad]; empty for regular waves.
+    headings : ndarray (h,)
+        Of the sea [rad].
+    curve_stiffness : ndarray (joints,)
+        That stands for the curves of connectors [N/m].
+    converged : bool
+    """
+
+    rest: RowPosition
+    drift: Array
+    coarse: RowResponse
+    far: FarWaves
+    fine: RowResponse
+    density: Array
+    headings: Array
+    curve_stiffness: Array
+    converged: bool
+
+
+def share_drift(at: RowAtLevel, drift: Array) -> Array:
+    """Return a drift force (3,) of the whole row as loads (m,) on its units [eq:units-shared-drift].
+
+    Every unit bears the same force, and a couple of forces makes up the moment; of a single unit its yaw moment.
+    """
+    out = np.zeros(at.size)
+    count = at.row.count
+    plan = at.centres[:, :2]
+    middle = plan.mean(axis=0)
+    out[0::6], out[1::6] = drift[0] / count, drift[1] / count
+    left = drift[2] - (middle[0] * drift[1] - middle[1] * drift[0])
+    arm = plan - middle
+    square = float((arm**2).sum())
+    if square == 0.0:
+        out[5] = left
+    else:
+        out[0::6] -= left * arm[:, 1] / square
+        out[1::6] += left * arm[:, 0] / square
+    return out
+
+
+def regular_answer(
+    at: RowAtLevel, hydro: RowHydrodynamics, sea: RegularSea, steady: Array, settings: Settings
+) -> list[SeaAnswer]:
+    """Return the answer to each period of regular waves of one height."""
+    answers = []
+    column = columns_of(hydro, np.array([sea.heading]))
+    for period in sea.periods:
+        omega = np.array([2.0 * math.pi / period])
+        row = int(np.argmin(np.abs(hydro.omega - omega[0])))
+        drift = np.zeros(3)
+        rest = steady_position(at, steady)
+        curves, converged, relaxed = np.zeros(len(at.joints)), False, _Relaxed(len(at.joints))
+        for _ in range(_TURNS):
+            model = RowModel(at, hydro, rest.position)
+            found = respond(model, hydro.omega[[row]], curves)
+            amplitude = 0.5 * sea.height
+            new = np.array(
+                [
+                    0.0 if joint.connector.curve is None else harmonic_stiffness(
+                        joint.connector.curve, float(joint.along @ rest.position),
+                        amplitude * float(np.abs(found.motion[0, column[0]] @ joint.along)),
+                    )
+                    for joint in at.joints
+                ]
+            )  # fmt: skip
+            moved = drift
+            if settings.drift:
+                coarse = respond(model, hydro.omega, curves)
+                moved = amplitude**2 * far_waves(model, coarse).drift[row, column[0]]
+            settled = _near(new, curves) and _near(moved, drift)
+            curves, drift = relaxed.towards(curves, new), moved
+            if settled:
+                converged = True
+                break
+            rest = steady_position(at, steady + share_drift(at, drift))
+        model = RowModel(at, hydro, rest.position)
+        coarse = respond(model, hydro.omega, curves)
+        far = far_waves(model, coarse)
+        answers.append(
+            SeaAnswer(
+                rest, drift, coarse, far, _picked(coarse, row, column), np.zeros((0, 0)), hydro.headings[column],
+                curves, converged,
+            )
+        )  # fmt: skip
+    return answers
+
+
+def _picked(response: RowResponse, row: int, columns: Array) -> RowResponse:
+    where = np.ix_(np.array([row]), columns)
+    return RowResponse(
+        response.omega[[row]], response.motion[where], response.relative[where], response.load[where],
+        response.tension[where], response.dissipated[where],
+    )  # fmt: skip
+
+
+class _Relaxed:
+    """Steps of a fixed-point iteration, each entry by itself: shorter when it turns back, longer when it goes on."""
+
+    def __init__(self, count: int) -> None:
+        self._factor, self._last = np.full(count, 0.5), np.zeros(count)
+
+    def towards(self, old: Array, new: Array) -> Array:
+        """Return the next value between the old one and what it leads to."""
+        step = new - old
+        back = step * self._last < 0.0
+        self._factor = np.where(back, 0.5 * self._factor, np.minimum(1.2 * self._factor, 1.0))
+        self._last = step
+        return np.asarray(old + self._factor * step)
+
+
+def _near(new: Array, old: Array) -> bool:
+    size = float(np.max(np.abs(new), initial=0.0))
+    return float(np.max(np.abs(new - old), initial=0.0)) <= _SETTLED * max(size, 1e-12)
+
+
+def irregular_answer(
+    at: RowAtLevel, hydro: RowHydrodynamics, sea: IrregularSea, steady: Array, settings: Settings
+) -> SeaAnswer:
+    """Return the answer to an irregular sea, curves of connectors linearised for the whole of it."""
+    low, high = band_of(sea)
+    low, high = max(low, float(hydro.omega[0])), min(high, float(hydro.omega[-1]))
+    if not low < high:
+        raise InputError(
+            f"{sea.name}: the frequencies that were computed do not reach into this sea",
+            path="settings.frequencies",
+            allowed=f"{low:.3g} to {high:.3g} rad/s",
+        )
+    omega = np.linspace(low, high, FINE)
+    headings, share = spread_of(sea, omega)
+    columns = columns_of(hydro, headings)
+    density = np.asarray(sea.spectrum.density_at(omega), dtype=float)[:, None] * share
+    coarse_share = spread_of(sea, hydro.omega)[1]
+    coarse_density = np.asarray(sea.spectrum.density_at(hydro.omega), dtype=float)[:, None] * coarse_share
+    weights = cell_weights(hydro.omega, low, high)
+    one = _of_headings(hydro, columns)
+    drift, curves, converged = np.zeros(3), np.zeros(len(at.joints)), False
+    relaxed = _Relaxed(len(at.joints))
+    rest = steady_position(at, steady)
+    for _ in range(_TURNS):
+        model = RowModel(at, one, rest.position)
+        fine = respond(model, omega, curves)
+        new = np.array(
+            [
+                0.0 if joint.connector.curve is None else gaussian_stiffness(
+                    joint.connector.curve, float(joint.along @ rest.position),
+                    float(response_statistics(omega, fine.motion @ joint.along, density).standard_deviation),
+                )
+                for joint in at.joints
+            ]
+        )  # fmt: skip
+        moved = drift
+        if settings.drift:
+            coefficient = far_waves(model, respond(model, hydro.omega, curves)).drift
+            moved = np.einsum("f,fh,fhc->c", 2.0 * weights, coarse_density, coefficient)
+        settled = _near(new, curves) and _near(moved, drift)
+        curves, drift = relaxed.towards(curves, new), moved
+        if settled:
+            converged = True
+            break
+        rest = steady_position(at, steady + share_drift(at, drift))
+    model = RowModel(at, one, rest.position)
+    coarse = respond(model, hydro.omega, curves)
+    return SeaAnswer(
+        rest, drift, coarse, far_waves(model, coarse), respond(model, omega, curves), density, headings, curves,
+        converged,
+    )  # fmt: skip
+
+
+def cell_weights(omega: Array, low: float, high: float) -> Array:
+    """Return the weights of the trapezoidal rule on a grid, of its part from ``low`` to ``high`` [rad/s]."""
+    inside = (omega >= low * (1.0 - 1e-9)) & (omega <= high * (1.0 + 1e-9))
+    weights = np.zeros(len(omega))
+    grid = omega[inside]
+    if len(grid) < 2:
+        weights[inside] = high - low
+        return weights
+    step = np.diff(grid)
+    weights[inside] = 0.5 * np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
+    return weights
+
+
+def _of_headings(hydro: RowHydrodynamics, columns: Array) -> RowHydrodynamics:
+    """Return coefficients of some headings."""
+    solutions = tuple(
+        replace(
+            item, excitation=item.excitation[columns], diffraction=item.diffraction[:, columns],
+            scattered=item.scattered[columns],
+        )
+        for item in hydro.solutions
+    )  # fmt: skip
+    return replace(hydro, headings=hydro.headings[columns], solutions=solutions)
+
+
+def statistics_of(answer: SeaAnswer, transfer: Array) -> ResponseStatistics:
+    """Return the statistics of a transfer function (n, h, ...) in the sea of an answer."""
+    return response_statistics(answer.fine.omega, transfer, answer.density)
