@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
@@ -15,17 +16,25 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
+from moyai.app.changes import changed
 from moyai.app.documents import Documents, OpenCase, stem_of
 from moyai.app.draft import Run
 from moyai.app.folder import Folder, within
+from moyai.app.form import form_of
 from moyai.app.gallery import gallery
 from moyai.app.job_process import Order
 from moyai.app.jobs import FILES, Jobs
 from moyai.app.security import REPORT_POLICY, BodyTooLarge, Guard, Secrets
 from moyai.app.worker import DraftWorker, message
-from moyai.core.errors import CaseError, MoyaiError
+from moyai.case.yaml_reader import parse_yaml
+from moyai.core.errors import CaseError, InputError, MoyaiError
+from moyai.core.kinds import structure_kinds
 
-_OWN = ("app.css", "page.js", "case.js", "gallery.js", "editor.js", "sliders.js", "live.js", "jobs.js", "server.js")
+_SCRIPTS = (
+    "page", "case", "gallery", "editor", "plain_text", "code_text", "codemirror",
+    "form", "sliders", "live", "jobs", "server",
+)  # fmt: skip
+_OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))
 _TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}
 _DOWNLOADS = {"results.nc": "application/x-netcdf", "case.yaml": "text/yaml; charset=utf-8"}
 
@@ -164,6 +173,33 @@ async def _draft(app: App, request: Request) -> Response:
     return StreamingResponse(lines(), media_type="application/x-ndjson")
 
 
+async def _form(app: App, request: Request) -> Response:
+    """Hand out the form of an open case as it is now."""
+    document = _case(app, request)
+    return _json({"form": await asyncio.to_thread(_form_of, document.text, document.name)})
+
+
+def _form_of(text: str, name: str) -> dict[str, Any]:
+    data = parse_yaml(text, name).data
+    structure = data.get("structure") if isinstance(data, dict) else None
+    kind = structure.get("kind") if isinstance(structure, dict) else None
+    if kind not in structure_kinds():
+        raise InputError(
+            "the form needs the kind of the structure", path="structure.kind", remedy="write it in the text"
+        )
+    return form_of(data, kind)
+
+
+async def _change(app: App, request: Request) -> Response:
+    """Change one value or key of a text; the record of the case holds the new text."""
+    document, content = _case(app, request), await _body(request)
+    text = _text(content, "text")
+    after = await asyncio.to_thread(lambda: changed(parse_yaml(text, document.name), content).text)
+    document.change(text, "typing")
+    document.change(after, f"form {content['path']}")
+    return _json(document.record())
+
+
 async def _undo(app: App, request: Request) -> Response:
     document = _case(app, request)
     document.undo()
@@ -249,6 +285,8 @@ def create(app: App, port: int) -> Guard:
         ("/api/cases", _open, post),
         ("/api/cases/{key}", _show, get),
         ("/api/cases/{key}/draft", _draft, post),
+        ("/api/cases/{key}/form", _form, get),
+        ("/api/cases/{key}/change", _change, post),
         ("/api/cases/{key}/undo", _undo, post),
         ("/api/cases/{key}/pin", _pin, post),
         ("/api/cases/{key}/save", _save, post),

@@ -103,6 +103,24 @@ def test_a_case_from_opening_to_saving(page: Page) -> None:
     assert answer.text == MEMBER and "attachment" in answer.headers["content-disposition"]
 
 
+def test_the_form_changes_the_text_in_place(page: Page) -> None:
+    record = page.post("/api/cases", {"template": "member"})
+    key, text = record["id"], record["text"]
+    form = page.get(f"/api/cases/{key}/form").json()["form"]
+    assert any(entry["dotted"] == "structure" for entry in form["entries"])
+    wish = {"text": text, "change": "set", "path": ["title"], "value": "A: pile", "quoted": True}
+    record = page.post(f"/api/cases/{key}/change", wish)
+    assert record["text"] == text.replace("title: Submerged member", "title: 'A: pile'") and record["can_undo"]
+    assert page.post(f"/api/cases/{key}/undo")["text"] == text
+    refused = page.post(f"/api/cases/{key}/change", {"text": text, "change": "remove", "path": ["nothing"]}, 422)
+    assert "not written" in refused["faults"][0]["message"]
+    for odd in ({"change": "set", "path": []}, {"change": "x", "path": ["a"]}, {"change": "set", "path": [True]}):
+        page.post(f"/api/cases/{key}/change", {"text": text, **odd}, 400)
+    assert page.get(f"/api/cases/{key}").json()["text"] == text
+    page.draft(key, sequence=9, text="structure: {kind: nothing}")
+    assert "kind" in page.get(f"/api/cases/{key}/form", 422).json()["faults"][0]["message"]
+
+
 def test_errors_come_with_their_lines(page: Page) -> None:
     key = page.post("/api/cases", {"template": "member"})["id"]
     (checked,) = page.draft(key, sequence=1, text="moyai: 1\nstructure: {kind: membr}\n")
