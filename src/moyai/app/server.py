@@ -18,6 +18,7 @@ from starlette.routing import Route
 
 from moyai.app.changes import changed
 from moyai.app.documents import Documents, OpenCase, stem_of
+from moyai.app.downloads import MADE, made
 from moyai.app.draft import Run
 from moyai.app.folder import Folder, within
 from moyai.app.form import form_of
@@ -25,6 +26,7 @@ from moyai.app.gallery import gallery
 from moyai.app.job_process import Order
 from moyai.app.jobs import FILES, Jobs
 from moyai.app.security import REPORT_POLICY, BodyTooLarge, Guard, Secrets
+from moyai.app.study_jobs import case_text, refuse_foreign_base, so_far, table_of
 from moyai.app.worker import DraftWorker, message
 from moyai.case.yaml_reader import parse_yaml
 from moyai.core.errors import CaseError, InputError, MoyaiError
@@ -231,7 +233,7 @@ async def _jobs(app: App, request: Request) -> Response:
 
 
 async def _start(app: App, request: Request) -> Response:
-    """Start a full run of an open case, or of a paper."""
+    """Start a full run of an open case, a study or fit of the folder, or a paper."""
     content = await _body(request)
     root, output = app.folder.root, app.folder.output
     if paper := _text(content, "paper"):
@@ -239,6 +241,10 @@ async def _start(app: App, request: Request) -> Response:
 
         key = known(paper).key
         order = Order("paper", key, app.jobs.folder_for(output, key), root, root / key)
+    elif name := _text(content, "file"):
+        file = app.folder.inside(name)
+        kind = await asyncio.to_thread(refuse_foreign_base, app.folder, file)
+        order = Order(kind, file.relative_to(root).as_posix(), app.jobs.folder_for(output, file.stem), root, file)
     else:
         document = app.documents[_text(content, "case")]
         folder = app.jobs.folder_for(output, stem_of(document.name))
@@ -255,10 +261,32 @@ async def _again(app: App, request: Request) -> Response:
     return _json(app.jobs.again(request.path_params["key"]).record(app.folder.root))
 
 
+async def _study(app: App, request: Request) -> Response:
+    """Hand out the cases of a study that have ended."""
+    return _json(await asyncio.to_thread(table_of, app.jobs[request.path_params["key"]].order.folder))
+
+
+async def _study_case(app: App, request: Request) -> Response:
+    """Open a case of a study beside its base case."""
+    content, root = await _body(request), app.folder.root
+    index = content.get("case")
+    if not isinstance(index, int) or isinstance(index, bool):
+        raise ValueError("'case' is the number of a case")
+    folder = app.jobs[request.path_params["key"]].order.folder
+    text, base = await asyncio.to_thread(case_text, folder, root, index)
+    stem = base.relative_to(root).with_suffix("").as_posix()
+    return _json(app.documents.open_text(f"{stem}_case_{index}", text).record())
+
+
 async def _result(app: App, request: Request) -> Response:
     """Hand out a file of a job: the report for a frame, the others for download."""
     job, name = app.jobs[request.path_params["key"]], request.path_params["name"]
-    if name not in FILES:
+    if name == "so_far.html":
+        text = await asyncio.to_thread(so_far, job.order.folder)
+        return Response(text, media_type="text/html", headers={"content-security-policy": REPORT_POLICY})
+    if name in MADE:
+        await asyncio.to_thread(made, job.order.folder, name)
+    elif name not in FILES:
         raise KeyError(name)
     path = within(job.order.folder.resolve(), job.order.folder / name, name)
     if not path.is_file():
@@ -295,6 +323,8 @@ def create(app: App, port: int) -> Guard:
         ("/api/jobs", _start, post),
         ("/api/jobs/{key}/cancel", _cancel, post),
         ("/api/jobs/{key}/again", _again, post),
+        ("/api/jobs/{key}/study", _study, get),
+        ("/api/jobs/{key}/cases", _study_case, post),
         ("/results/{key}/{name}", _result, get),
     ]
 
