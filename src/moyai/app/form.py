@@ -73,6 +73,8 @@ def _group(node: Node, value: Any, path: KeyPath, label: str, *, removable: bool
     needed = set(schema.get("required", ()))
     extra = schema.get("additionalProperties")
     for key, item in value.items():
+        if not path and key == "moyai":
+            continue  # the version of the format is no choice of the user
         part = known.get(key, extra if isinstance(extra, dict) else {})
         free = key not in needed and len(value) > 1
         group["entries"].append(_entry(part, item, (*path, key), _words(key), free))

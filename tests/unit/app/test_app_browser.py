@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import random
 import re
 import subprocess
 import sys
@@ -86,6 +87,7 @@ MOVE = """((value) => {
 })"""
 FORCES = "JSON.stringify([...MOYAI.figures.values()].map((figure) => figure.plot.data?.map((trace) => [...trace.y])))"
 PRESS = "((words) => [...document.querySelectorAll('button')].find((one) => one.textContent === words).click())"
+REPORT = "[...document.querySelectorAll('.job-files a')].find((one) => one.textContent === 'Report').click()"
 DIAMETER = "document.querySelector('.form [data-path=\"structure.section.diameter\"]')"
 SET = """((path, value) => {
   const field = document.querySelector(`.form [data-path="${path}"]`);
@@ -177,4 +179,74 @@ def test_every_structure_opens_and_follows_a_slider(kind: str, tmp_path: Path) -
         until(page, "document.querySelectorAll('.form .field').length > 10")
         page.resize(390, 844)
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth + 1")
+        sound(page, address)
+
+
+@pytest.mark.slow
+def test_moves_in_a_hurry_end_with_the_last_one(address: str) -> None:
+    """Sixty moves without waiting: drawn answers only go forward, and the last drawing is that of the last number."""
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        page.evaluate("""(() => {
+          window.drawnOnes = [];
+          new MutationObserver(() => drawnOnes.push(Number(document.querySelector('.report').dataset.sequence)))
+            .observe(document.querySelector('.report'), { attributes: true, attributeFilter: ['data-sequence'] });
+        })()""")
+        chance = random.Random(3)
+        values = [chance.randrange(60, 140) for _ in range(60)]
+        for value in values:
+            page.evaluate(f"{MOVE}({value})")
+            time.sleep(chance.choice((0.0, 0.02, 0.2)))
+        wanted = MEMBER.replace("100 cm", f"{values[-1]} cm")
+        until(page, f"{TEXT} === {wanted!r} && {IDLE}")
+        drawn = page.evaluate("drawnOnes")
+        assert drawn == sorted(drawn) and len(drawn) >= 2
+        until(page, ON_SCREEN)
+        last = page.evaluate(FORCES)
+        page.evaluate("location.reload()")
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        until(page, ON_SCREEN)
+        until(page, f"{FORCES} === {last!r}")
+        sound(page, address)
+
+
+@pytest.mark.slow
+def test_a_job_a_reload_and_two_tabs(address: str) -> None:
+    executable = str(pipe.find_chromium())
+    with pipe.Chromium(executable, 1280, 900) as page, pipe.Chromium(executable, 390, 844) as other:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        page.evaluate(f"{PRESS}('Run')")
+        until(page, "location.hash === '#/jobs' && document.querySelector('.job')")
+        page.evaluate("location.reload()")
+        other.send("Page.navigate", url=address)
+        until(other, f"{DRAWN} > 0 && {IDLE}")
+        other.evaluate(f"{MOVE}(90)")
+        until(other, f"{TEXT}.includes('90 cm') && {IDLE}")
+        other.evaluate("location.hash = '#/jobs'")
+        for one in (page, other):
+            until(one, "document.querySelector('.job')?.dataset.state === 'done'", 120.0)
+            assert "moyai run pile.yaml" in one.evaluate("document.querySelector('.command code').textContent")
+        page.evaluate(REPORT)
+        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
+        page.evaluate("history.go(-2)")
+        until(page, f"location.hash.startsWith('#/case') && {DRAWN} > 0")
+        assert "90 cm" in page.evaluate(TEXT), "the change of the other tab"
+        for one in (page, other):
+            sound(one, address)
+
+
+@pytest.mark.slow
+def test_a_paper_is_computed_again(address: str) -> None:
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
+        page.evaluate("location.hash = '#/'")
+        papers = "[...document.querySelectorAll('section')].find((one) => one.textContent.startsWith('Papers'))"
+        until(page, papers)
+        page.evaluate(f"{papers}.querySelectorAll('.card')[0].click()")
+        until(page, "document.querySelector('.job')?.dataset.state === 'done'", 400.0)
+        page.evaluate(REPORT)
+        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
         sound(page, address)

@@ -38,7 +38,7 @@ def test_every_scalar_of_the_file_is_a_field_with_help(name: str) -> None:
         else:
             yield path
 
-    every = list(scalars(data, ()))
+    every = [path for path in scalars(data, ()) if path != ("moyai",)]
     assert all(path in found and "type" in found[path] for path in every)
     named = [path for path in every if isinstance(path[-1], str)]
     unexplained = [path for path in named if not found[path]["help"] and not found[path]["choices"]]

@@ -50,7 +50,7 @@ export class Form {
       input.value = String(one.value);
     } else {
       const list = one.choices.length ? element("datalist", { id: `${id}-list` }, ...one.choices.map((word) => element("option", { value: word }))) : null;
-      input = element("input", { ...said, type: "text", value: one.value ?? "", spellcheck: "false", autocomplete: "off", list: list && list.id, class: one.type,
+      input = element("input", { ...said, type: "text", value: one.value ?? "", spellcheck: "false", autocomplete: "off", list: list && list.id, "data-type": one.type,
         onchange: () => { if (input.value !== String(one.value)) set(input.value); } });
       if (list) input.append(list);
       if (list) this.lists = list;
