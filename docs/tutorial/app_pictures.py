@@ -26,13 +26,14 @@ DRAWN = (
 STUDY = """\
 moyai: 1
 study:
-  title: Depth of the skirt and current
-  base: curtain.yaml
-  set: {analyses: [statics]}
+  title: Diameter and level of the member
+  base: member.yaml
+  set: {analyses: [forces]}
   variations:
     - grid:
-        structure.skirt.length: [3 m, 4 m, 5 m]
-        current.speed: [0.2 m/s, 0.3 m/s]
+        structure.section.diameter: [0.3 m, 0.5 m, 0.7 m]
+        site.water_depth: [15 m, 20 m]
+  replays: 0
 """
 
 

@@ -119,3 +119,32 @@ def test_steady_load_and_its_parts_by_hand(tmp_path):
     assert load.value == pytest.approx(wind + current + drift, rel=1e-6)
     assert load.detail.startswith(f"wind {wind / 1e3:.3g} kN, current {current / 1e3:.3g} kN, mean drift")
     assert "one line lost" in headline(result, "not_judged").text
+
+
+@pytest.mark.slow  # ten minutes of sea with lines in motion all along: half a minute
+def test_events_in_motion_stand_for_the_whole_sea_in_motion(tmp_path):
+    """A slack chain, within the range of lines at rest, whose drag adds a fifth to the tension of every wave.
+
+    The number of the first page comes from reruns of the largest events; the whole sea with lines in motion from the
+    start is the check.
+    """
+    design = replace(
+        STORM, beam=5.0, hull=1.8, draught=1.2, length=30.0, depth=15.0, height=0.9, period=3.6, chain=36, line=66.0,
+        anchor=62.0, wind=22.0, current=0.4, count=3,
+    )  # fmt: skip
+    two = "realisations: 2"
+    events = result_of(tmp_path, design, duration=600.0, settings=f"settings: {{time: {{{two}}}}}")
+    whole = result_of(
+        tmp_path, design, duration=600.0, settings=f"settings: {{time: {{{two}, lines: {{mode: dynamic}}}}}}"
+    )
+    still = result_of(
+        tmp_path, design, duration=600.0, settings=f"settings: {{time: {{{two}, lines: {{mode: quasi_static}}}}}}"
+    )
+    found, dynamic, rest = (headline(item, "line_tension") for item in (events, whole, still))
+    assert found.model == "time domain, lines in motion"
+    assert float(still.tree["SWL/time/storm"].to_dataset().line_tension_maximum.max()) < 5.0 * float(
+        still.tree["SWL/time/storm"].to_dataset().line_tension_mean.max()
+    )
+    # 7 %: the slow sway before an event is that of lines at rest
+    assert found.value == pytest.approx(dynamic.value, rel=0.07)
+    assert dynamic.value > 1.1 * rest.value

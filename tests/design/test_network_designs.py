@@ -221,3 +221,35 @@ def test_a_chain_that_goes_slack_on_the_bed_is_not_called_converged():
     tension = headline(found, "line_tension")
     # the band reaches down to where finer meshes go: 5.6 kN with 96 segments
     assert tension.band.low < 5.6e3 < tension.band.high
+
+
+def test_an_event_by_itself_is_worth_what_the_whole_run_is(monkeypatch):
+    """The highest tension run again alone, with half the step and twice the bars, against the whole run made again."""
+    from moyai.structures.network import dynamics, refinement
+
+    text = template("network")
+    whole = result_of(text)
+    monkeypatch.setattr(dynamics, "affordable", lambda *_: False)
+    event = result_of(text)
+    monkeypatch.setattr(refinement, "SAME_EVENT", -1.0)
+    never = result_of(text)
+    one, other, none = (headline(item, "line_tension") for item in (whole, event, never))
+    assert one.value == other.value and event.status == "converged"
+    # the bands are of one per cent; the start of an event is a few thousandths of it
+    assert other.band.low == pytest.approx(one.band.low, rel=3e-3)
+    assert other.band.high == pytest.approx(one.band.high, rel=3e-3)
+    assert none.band is None and none.detail.startswith("mesh and step not checked")
+    assert never.message == "all identities hold; mesh of the highest tension not checked"
+
+
+def test_the_longest_period_says_what_moves():
+    """Sphere on a taut line: the pendulum's slow swing moves the buoy sideways."""
+    found = result_of(template("network").replace("analyses: [statics, modes, dynamic]", "analyses: [statics, modes]"))
+    assert "'buoy' moves most, along" in headline(found, "natural_period").detail
+
+
+def test_chain_below_the_range_of_its_source_is_warned_of():
+    text = template("network").replace("studless_chain_U3, diameter: 28 mm", "studless_chain_R3, diameter: 28 mm")
+    case = case_of(parse_yaml(text, "case.yaml"), Path("case.yaml"))
+    (warning,) = [item for item in case.warnings if "outside" in item.message]
+    assert warning.path == "structure.line_types.chain.diameter" and "34 to 162 mm" in warning.message

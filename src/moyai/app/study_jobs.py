@@ -95,16 +95,10 @@ def run_fit_job(file: Path, folder: Path, run: Run, listen: Any) -> tuple[str, s
 
 
 def table_of(folder: Path) -> dict[str, Any]:
-    """Return the cases of a study so far: columns and rows, one a case that ended.
-
-    Raises
-    ------
-    KeyError
-        Where the study has not begun.
-    """
+    """Return the cases of a study so far: columns and rows, one a case that ended; none where it has not begun."""
     from moyai.study.ledger import NAME, read_records
 
-    plan = _plan(folder)
+    plan = _plan(folder) if (folder / PLAN).is_file() else {"axes": [], "cases": []}
     path = folder / NAME
     latest = {record.index: record for record in read_records(path)} if path.is_file() else {}
     records = [latest[index] for index in sorted(latest)]
@@ -121,7 +115,9 @@ def table_of(folder: Path) -> dict[str, Any]:
     ]
     units = {name: item.get("units", "1") for record in records[:1] for name, item in record.values.items()}
     heads = [{"name": name, "unit": "" if units.get(name, "1") == "1" else units[name]} for name in chosen]
-    return {"axes": plan["axes"], "columns": heads, "rows": rows, "ended": len(records), "total": len(plan["cases"])}
+    ended, total = len(records), len(plan["cases"])
+    gathered = (folder / "study.nc").is_file()
+    return {"axes": plan["axes"], "columns": heads, "rows": rows, "ended": ended, "total": total, "gathered": gathered}
 
 
 def _plan(folder: Path) -> dict[str, Any]:

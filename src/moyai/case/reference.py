@@ -1,7 +1,7 @@
 """The reference of all keys as Markdown, made from the schemas, so that it cannot fall behind them.
 
-``python -m moyai.case.reference docs/case_file.md`` renews everything below the mark in that page; so it does for
-``docs/record_files.md`` and ``docs/study_file.md``.
+``python -m moyai.case.reference docs`` renews everything below the mark in the pages of that folder: one page a kind of
+structure under ``case_file``, and ``record_files.md`` and ``study_file.md``.
 """
 
 from __future__ import annotations
@@ -27,19 +27,32 @@ _FILES = {
     },
     "study_file.md": {"study": "Study", "fit": "Fit"},
 }  # fmt: skip
+_HEAD = """# Keys of a {kind}
+
+How a case is read, its units, axes and faults: [the case file](../case_file.md). `moyai new` prints a template that
+runs.
+
+"""
+
+
+def pages() -> tuple[str, ...]:
+    """Return the pages of the reference, as paths in the folder of the documentation."""
+    return (*(f"case_file/{kind}.md" for kind in structure_kinds()), *_FILES)
 
 
 def _mark(page: str) -> str:
-    return f"<!-- made by: python -m moyai.case.reference docs/{page} -->"
+    return f"<!-- made by: python -m moyai.case.reference docs, page {page} -->"
 
 
-def reference_markdown(page: str = "case_file.md") -> str:
-    """Return the tables of every block: of every kind of structure, or of the files that a page is about."""
+def reference_markdown(page: str) -> str:
+    """Return the tables of every block: of a kind of structure, or of the files that a page is about."""
     lines: list[str] = []
-    roots = {f"Case of a {kind}": root_schema(kind) for kind in structure_kinds()}
     if page in _FILES:
         known = further_files()
         roots = {f"Keys: {title.lower()}": known[name].file_schema(name) for name, title in _FILES[page].items()}
+    else:
+        kind = Path(page).stem
+        roots = {f"Case of a {kind}": root_schema(kind)}
     for title, root in roots.items():
         lines += [f"## {title}", ""]
         for name, model in _blocks(root):
@@ -174,12 +187,16 @@ def _default(field: FieldInfo, grouped: bool) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value).lower()
 
 
-def renew(text: str, page: str = "case_file.md") -> str:
-    """Return the text of a page with everything below the mark made again."""
+def renew(text: str, page: str) -> str:
+    """Return the text of a page with everything below the mark made again; a new page begins with its mark."""
     mark = _mark(page)
-    return text[: text.index(mark)] + mark + "\n\n" + reference_markdown(page)
+    head = text[: text.index(mark)] if mark in text else _HEAD.format(kind=Path(page).stem)
+    return f"{head}{mark}\n\n{reference_markdown(page)}"
 
 
 if __name__ == "__main__":
-    target = Path(sys.argv[1])
-    target.write_text(renew(target.read_text(encoding="utf-8"), target.name), encoding="utf-8", newline="\n")
+    for name in pages():
+        target = Path(sys.argv[1]) / name
+        target.parent.mkdir(exist_ok=True)
+        known_text = target.read_text(encoding="utf-8") if target.exists() else ""
+        target.write_text(renew(known_text, name), encoding="utf-8", newline="\n")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from moyai.core.wording import spoken
@@ -128,6 +128,29 @@ class Headline:
             ends = {"low": float(band["low"]), "high": float(band["high"])}
             band = Band(**{**band, **ends, "judged": None if judged is None else (float(judged[0]), float(judged[1]))})
         return cls(**{**record, "value": float(record["value"]), "band": band})
+
+
+def unfavourable(headline: Headline) -> float:
+    """Return the upper end at which a limit "at most" is judged: that of the band, or of the interval of a mean."""
+    band = headline.band
+    if band is None:
+        return headline.value
+    end = band.high if band.decides or band.judged is None else band.judged[1]
+    return end if math.isnan(headline.value) else max(headline.value, end)
+
+
+def governing(candidates: Iterable[Headline]) -> list[Headline]:
+    """Return the largest of one number over seas and places, and, not shown, the one whose upper end is the largest.
+
+    A smaller value with a wider band may pass a limit that the largest value keeps: both are judged.
+    """
+    items = list(candidates)
+    if not items:
+        return []
+    shown, widest = max(items, key=lambda item: item.value), max(items, key=unfavourable)
+    if not unfavourable(widest) > unfavourable(shown):
+        return [shown]
+    return [shown, replace(widest, shown=False, sea="")]
 
 
 @dataclass(frozen=True)
@@ -307,7 +330,8 @@ def _holding(criteria: list[Criterion]) -> str:
     count, assumed = len(kept), sum(item.assumed for item in kept.values())
     words = "the criterion holds" if count == 1 else f"all {count} criteria hold"
     if assumed:
-        words += ", a default of moyai" if count == 1 else f", {assumed} of them defaults of moyai"
+        several = "all" if assumed == count else f"{assumed} of them"
+        words += ", a default of moyai" if count == 1 else f", {several} defaults of moyai"
     if any(UNCONFIRMED in item.source for item in criteria):
         words += "; factors of a standard that were not confirmed against it"
     return words

@@ -80,8 +80,8 @@ def with_first_page(document: Document, result: Result) -> Document:
     rest = [block for block in first.blocks if not isinstance(block, KeyFigures | NoticeBlock)]
     table = criteria_table(result)
     conditions = input_line(result)
-    blocks: list[Block] = [Paragraph(conditions, quiet=True)] if conditions else []
-    blocks += [*numbers, *([] if table is None else [table]), *notices, *rest]
+    said_of = [Paragraph(conditions, quiet=True)] if conditions else []
+    blocks: list[Block] = [*numbers, *said_of, *([] if table is None else [table]), *notices, *rest]
     if said := UNITS_NOTES.get(units_of(result)):
         blocks.append(Paragraph(said, quiet=True))
     ordered = (Section(first.key, first.title, tuple(blocks)), *others)

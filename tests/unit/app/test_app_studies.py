@@ -120,10 +120,7 @@ def test_a_study_that_was_killed_or_cancelled_goes_on(queue: Any, root: Path) ->
     folder = job.order.folder
 
     def ended() -> int:
-        try:
-            return int(table_of(folder)["ended"])
-        except KeyError:
-            return 0
+        return int(table_of(folder)["ended"])
 
     started = time.monotonic()
     while ended() < 1:

@@ -6,7 +6,9 @@ import xarray as xr
 
 import moyai
 from moyai.case.templates import template
-from moyai.structures.cage.headlines import _band_in_sea, _chance
+from moyai.core.headline import Band, Headline
+from moyai.structures.cage.flexible.sensitivity import COARSER, STRESS, VOLUME_IN_CURRENT, tension_of
+from moyai.structures.cage.headlines import _band_in_sea, _chance, _mesh_factors, _with_mesh
 
 
 def run_of(regular: bool, duration: float = 600.0) -> tuple[xr.Dataset, np.ndarray]:
@@ -40,3 +42,38 @@ def test_a_law_out_of_its_range_is_reported_once(tmp_path):
     said = [notice for notice in result.notices if notice.severity == "warning"]
     assert [notice.code for notice in said] == ["net-law-choice"]
     assert "the power goes on up to the cap" in said[0].message
+
+
+def test_a_coarser_mesh_widens_the_band_both_ways():
+    values = [[100.0, 6.0e6, 0.60], [95.0, 4.8e6, 0.63]]
+    group = xr.Dataset(
+        {"value": (("variant", "quantity"), values)},
+        coords={"variant": ["as given", COARSER], "quantity": [tension_of("bridle"), STRESS, VOLUME_IN_CURRENT]},
+    )
+    factors = _mesh_factors({"/SWL/sensitivity/sea": group, "/SWL/time/sea/wave 1": xr.Dataset()})
+    assert factors[STRESS] == pytest.approx((0.8, 1.2)) and factors[VOLUME_IN_CURRENT] == pytest.approx((0.95, 1.05))
+    stress = _with_mesh(Headline("collar_stress", "stress", 6e6, "Pa", band=Band(5e6, 7e6, "laws")), factors)
+    assert (stress.band.low, stress.band.high) == pytest.approx((4e6, 8.4e6))
+    assert stress.band.of == "laws; mesh ±20 %, the change of a coarser one"
+    tension = _with_mesh(Headline("line_tension", "tension", 100.0, "N", "bridle 3b, sea"), factors)
+    assert (tension.band.low, tension.band.high) == pytest.approx((95.0, 105.0))
+    # nothing was run for frame ropes: the number stays as it is
+    assert _with_mesh(Headline("line_tension", "tension", 100.0, "N", "frame 1, sea"), factors).band is None
+
+
+@pytest.mark.slow  # a cage in waves on three meshes
+def test_the_band_holds_the_answer_of_a_finer_mesh(tmp_path):
+    """The template with twice the mesh: every number with a band of the mesh lies inside the band of the coarse one."""
+    text = template("cage").replace("mesh: {around: 32, down: 6, bottom: 4}", "mesh: {MESH}")
+    numbers = []
+    for mesh in ("around: 24, down: 5, bottom: 3", "around: 48, down: 10, bottom: 6"):
+        (tmp_path / "c.yaml").write_text(text.replace("MESH", mesh), encoding="utf-8")
+        result = moyai.run(moyai.load_case(tmp_path / "c.yaml"))
+        numbers.append({item.name: item for item in result.headlines})
+        assert result.status == "converged" and "not_judged" in numbers[-1]
+    coarse, fine = numbers
+    for name in ("volume_left", "drag", "line_tension", "collar_stress", "anchor_load", "offset"):
+        assert "mesh" in coarse[name].band.of, name
+        assert coarse[name].band.low <= fine[name].value <= coarse[name].band.high, name
+    # the pull on an anchor is told in its two parts
+    assert coarse["anchor_load"].detail.startswith("upwards ")

@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import synthetic_result
 
-from moyai.core.headline import Criterion, Headline, Verdict, judge
+from moyai.core.headline import UNCONFIRMED, Criterion, Headline, Verdict, judge
 from moyai.core.results import Result
 from moyai.core.validity import Notice
-from moyai.report.document import KeyFigures, NoticeBlock, Table
+from moyai.report.document import KeyFigures, NoticeBlock, Paragraph, Table
 from moyai.report.first_page import badges
 from moyai.report.headlines import headline_figures
 from moyai.report.html import least_width, render_html
+from moyai.report.input_line import input_line
 from moyai.report.notices import first_page_notices, grouped
 from moyai.report.writer import compose_document
 
@@ -61,6 +62,7 @@ def test_a_result_that_judges_nothing_has_one_badge() -> None:
 def test_numbers_come_before_criteria_before_notices() -> None:
     result = judged(FACTOR, UPLIFT, notices=(snap("HWL, storm", 6.0),))
     blocks = compose_document(result).sections[0].blocks
+    blocks = [block for block in blocks if not isinstance(block, Paragraph)]
     kinds = [type(block) for block in blocks]
     assert kinds[0] is KeyFigures and kinds[2] is NoticeBlock
     assert isinstance(blocks[1], Table) and blocks[1].key == "criteria"
@@ -118,3 +120,35 @@ def test_letters_of_a_drawing_keep_nine_pixels() -> None:
     svg = '<svg viewBox="0 0 980 300"><text font-size="12">a</text><text font-size="13">b</text></svg>'
     assert 12.0 * least_width(svg) / 980.0 >= 9.0
     assert least_width("<svg></svg>") == 0.0
+
+
+def test_a_design_that_holds_says_on_what_word() -> None:
+    numbers = (Headline("freeboard", "Freeboard", 1.0, "m"), Headline("offset", "Offset", 1.0, "m"))
+    given = Criterion("greatest_offset", "offset", 2.0, "at most", "case file", unit="m")
+    assumed = Criterion("least_freeboard", "freeboard", 0.0, "at least", "default of moyai", unit="m", assumed=True)
+    code = replace(assumed, source=f"default of moyai: a code, {UNCONFIRMED}")
+    assert judge(numbers, [given], computed=True).message == "the criterion holds"
+    assert judge(numbers, [given, assumed], computed=True).message == "all 2 criteria hold, 1 of them defaults of moyai"
+    assert judge(numbers, [code], computed=True).message == (
+        "the criterion holds, a default of moyai; factors of a standard that were not confirmed against it"
+    )
+
+
+def test_the_conditions_stand_in_one_line_as_the_case_gives_them() -> None:
+    text = """
+site: {water_depth: 12 m, water_levels: {HWL: 3 m, LWL: 0}, return_period_years: 50}
+waves:
+  - {kind: regular, name: daily, height: 0.4, periods: [3, 4, 5, 6]}
+  - {kind: jonswap, significant_height: 1.5 m, peak_period: 5 s, heading_deg: 30}
+current: {speed: 0.8 m/s, heading_deg: 0}
+"""
+    result = synthetic_result.build(duration=60.0)
+    tree = result.tree.copy()
+    tree.attrs |= {"case_text": text, "case_hash": "0123456789abcdef"}
+    assert input_line(replace(result, tree=tree)) == (
+        "Conditions: water depth 12 m, return period 50 years; levels HWL 3 m, LWL 0 m; daily: regular, height 0.4 m, "
+        "periods 3 s to 6 s, 4 values; sea 2: jonswap, significant height 1.5 m, peak period 5 s, heading 30 degrees; "
+        "current 0.8 m/s, heading 0 degrees. Case 01234567."
+    )
+    tree.attrs["case_text"] = "site: ["
+    assert input_line(replace(result, tree=tree)) == ""

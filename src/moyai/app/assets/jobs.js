@@ -90,7 +90,7 @@ export function showJob(content, key) {
     if (found.ended !== counted) {
       counted = found.ended;
       showStudy(table, key, found);
-      if (active && found.ended) { frame.hidden = false; frame.src = `/results/${key}/so_far.html`; }
+      if (active && found.gathered) { frame.hidden = false; frame.src = `/results/${key}/so_far.html`; }
     }
   };
   listeners.add(show);

@@ -142,7 +142,7 @@ def _outside_the_band(groups: Mapping[str, xr.Dataset], where: str, data: xr.Dat
 
     share = float(statics["unit_length"]) / at("wavelength")
     return (
-        f"fixed hulls at T = {2.0 * math.pi / omega:.3g} s: Macagno {at('transmission_macagno'):.2g}, Wiegel "
+        f"fixed hulls at T = {2.0 * math.pi / omega:.2g} s: Macagno {at('transmission_macagno'):.2g}, Wiegel "
         f"{at('transmission_wiegel'):.2g}; not covered: waves round the ends of a unit of {share:.2g} wavelengths"
     )
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Headline, governing
 from moyai.series.block_maxima import maximum_of
 from moyai.structures.cage.conditions import condition_headlines, runs_of, sea_words
 from moyai.structures.cage.flexible.problem import FlexibleCageProblem
@@ -260,16 +260,19 @@ def _tension(states: list[_State], runs: Runs) -> tuple[list[Headline], list[Hea
         found.append((float(used[line]), value, item, state))
     if not found:
         return [], []
-    share, value, item, state = max(found, key=lambda entry: entry[0])
-    ratio = share / value
-    band = item.band if item.band is None else replace(
-        item.band, low=item.band.low * ratio, high=item.band.high * ratio
-    )  # fmt: skip
-    utilisation = Headline(
-        "line_utilisation", "tension over breaking load", share, "1", item.where, item.model, band,
-        detail=f"breaking load of new rope {value / share / 1e3:.4g} kN, without a safety factor",
-    )  # fmt: skip
-    return [item], [utilisation]
+    item = max(found, key=lambda entry: entry[0])[2]
+    utilisations = [
+        Headline(
+            "line_utilisation", "tension over breaking load", share, "1", one.where, one.model,
+            None if one.band is None else replace(
+                one.band, low=one.band.low * share / value, high=one.band.high * share / value
+            ),
+            detail=f"breaking load of new rope {value / share / 1e3:.4g} kN, without a safety factor",
+        )
+        for share, value, one, _ in found
+        if share > 0.0
+    ]  # fmt: skip
+    return [item], governing(utilisations)
 
 
 def _dynamic_tension(run: xr.Dataset, line: int, where: str, state: _State | None) -> Headline:
@@ -309,8 +312,10 @@ def _offset(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((value, where, DYNAMIC, _band_in_sea(state, "offset", run, value, series)))
     if not found or max(item[0] for item in found) < 1e-9:
         return []
-    value, where, model, band = max(found, key=lambda item: item[0])
-    return [Headline("offset", "largest offset of a collar", value, "m", where, model, band)]
+    return governing(
+        Headline("offset", "largest offset of a collar", value, "m", where, model, band)
+        for value, where, model, band in found
+    )
 
 
 def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
@@ -342,8 +347,10 @@ def _anchor(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((float(pulls[at]), f"{name}, {state.where}", STATICS, detail, state.band("anchor_pull")))
     if not found:
         return []
-    value, where, model, detail, band = max(found, key=lambda item: item[0])
-    return [Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)]
+    return governing(
+        Headline("anchor_load", "largest pull on an anchor", value, "N", where, model, band, detail=detail)
+        for value, where, model, detail, band in found
+    )
 
 
 def _stress(states: list[_State], runs: Runs) -> list[Headline]:
@@ -363,8 +370,10 @@ def _stress(states: list[_State], runs: Runs) -> list[Headline]:
             found.append((value, where, DYNAMIC, band))
     if not found:
         return []
-    value, where, model, band = max(found, key=lambda item: item[0])
-    return [Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)]
+    return governing(
+        Headline("collar_stress", "largest stress of the collar", value, "Pa", where, model, band)
+        for value, where, model, band in found
+    )
 
 
 def rigid_headlines(groups: Groups) -> tuple[Headline, ...]:

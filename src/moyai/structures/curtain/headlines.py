@@ -296,6 +296,10 @@ def _mesh_band(table: xr.Dataset, load: _Load, value: float) -> Band | None:
     event = str(table["run_of"].sel(run=load.words("dynamic_source")).values)
     component = "anchor line" if load.component == "anchor" else load.component
     whole, low, high, judged, count = event_band(table, event, component)
+    # another event with a smaller mean may reach higher
+    others = [event_band(table, str(name), component) for name in table["event"].values if str(name) != event]
+    known = [item for item in others if math.isfinite(item[0])]
+    high, judged = max([high, *(item[2] for item in known)]), max([judged, *(item[3] for item in known)])
     if not low < high:
         return None
     factor = value / whole
@@ -523,6 +527,9 @@ def _limits(groups: Groups, levels: Sequence[str], loads: Sequence[_Load]) -> It
             details.append("no snap is counted: add 'waves' or 'dynamic' to 'analyses'")
         if key == "speed_limit" and math.isfinite(ratio := _number(table, "speed_limit_ratio")) and not said:
             details.append(f"{ratio:.2f} of the current of the case, {float(table['surface_speed']):.3g} m/s")
+        lost = float(table.attrs.get("lost_depth", 1.0))
+        if governing == "effective depth" and lost > 1.0:
+            details.append(f"depth at the lower end of its band, where {lost:.3g} times as much is lost")
         if governing != "effective depth" and float(table.attrs.get("least_effective_depth", 1.0)) == 0.0:
             details.append("no depth is asked for: 'least_effective_depth' of 'criteria' has no default")
         if jump := str(table.attrs.get("limit_jump", "")) if key == "design_limit" else "":

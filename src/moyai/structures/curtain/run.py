@@ -177,7 +177,8 @@ def _level_steps(
     collected.notices.extend(notices)
     yield
     if "limits" in settings.analyses:
-        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress)
+        lost = _lost_depth(collected.groups.get(f"{root}/statics"), unit.depth)
+        collected.groups[f"{root}/limits"] = limits_dataset(unit, settings, proportions, curve, progress, lost)
         yield
         if settings.limits.rose_step is not None:
             collected.groups[f"{root}/limits/rose"] = rose_dataset(unit, settings, seas, progress)
@@ -213,6 +214,14 @@ def _header(unit: LevelCurtain) -> xr.Dataset:
     )
 
 
+def _lost_depth(statics: xr.Dataset | None, depth: float) -> float:
+    """Return the depth lost at the lower end of its band over the depth lost; 1 where there is no band or no loss."""
+    if statics is None or "steady_effective_depth_low" not in statics:
+        return 1.0
+    low, value = (float(statics[f"steady_effective_depth{end}"]) for end in ("_low", ""))
+    return (depth - low) / (depth - value) if low < value < depth else 1.0
+
+
 def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     attributes = {
         "structure": "curtain",
@@ -223,13 +232,16 @@ def _result(problem: CurtainProblem, collected: _Collected) -> Result:
     levels = [name for name, _ in problem.environment.water_levels]
     found = curtain_headlines(collected.groups, levels, problem.criteria)
     more = weaker_currents(collected.groups, found) if problem.criteria else ()
+    fulfilled = "all identities hold" if collected.checks else "done; these analyses have no identity to hold"
+    if any(notice.code == "span-mesh" for notice in collected.notices):
+        fulfilled += "; peaks of the whole span move with the mesh, see the warning"
     return collected.close(
         VOCABULARY,
         attributes,
         [sea.seed for sea in problem.environment.sea_states if not isinstance(sea, RegularSea)],
         notices=_placed(collected, len(levels)),
         headlines=found,
-        fulfilled="all identities hold" if collected.checks else "done; these analyses have no identity to hold",
+        fulfilled=fulfilled,
         criteria=(*problem.criteria, *more),
     )
 

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Headline, governing
 from moyai.core.validity import Notice
 from moyai.core.wording import spoken
 from moyai.morison.coefficient_ranges import CIRCULATION, MeasuredRange, drag_range, inertia_range
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Share of the largest force above which a cause counts as one that decides.
 DECIDES = 0.1
+#: Share of the largest force of all above which the coefficients of another sea count too.
+NEAR = 0.7
 _CAUSES = ("inertia", "drag", "lift")
 _NOT_JUDGED = Headline(
     "not_judged", "Not judged", math.nan, "1",
@@ -77,12 +79,11 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     model = f"Morison's equation, {found.theory}, {ranges[1].name}, {ranges[0].name}"
     if problem.circulation.counted:
         model += f", {CIRCULATION.name}"
-    items = [
-        Headline(
-            "peak_force", "largest force on the member", found.value, "N", found.where, model,
-            _band(problem, found, ranges), detail=_causes_text(shares) + _chance_text(found),
-        )
-    ]  # fmt: skip
+    force = Headline(
+        "peak_force", "largest force on the member", found.value, "N", found.where, model,
+        _band(problem, found, ranges), detail=_causes_text(shares) + _chance_text(found),
+    )  # fmt: skip
+    items = _with_the_others(problem, groups, "force", force)
     number, of_waves, reynolds = (found.number(key) for key in (_COEFFICIENTS, _CIRCULATION, "reynolds"))
     reported = [_range_text(item, found.number(_number_of(item)), reynolds) for item in ranges]
     if number != of_waves:
@@ -97,25 +98,23 @@ def headlines_of(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tu
     held = held_at(problem.support)
     # a fixed end bears the whole force, which stands above
     if ends is not None and problem.support == "both_ends":
-        items.append(
-            Headline(
-                "end_force", "largest force at an end", ends.value, "N", ends.where, model,
-                _band(problem, ends, ranges), detail=held + _ends_text(ends),
-            )
+        end = Headline(
+            "end_force", "largest force at an end", ends.value, "N", ends.where, model,
+            _band(problem, ends, ranges), detail=held + _ends_text(ends),
         )  # fmt: skip
+        items += _with_the_others(problem, groups, "end_force", end)
     if bending is not None:
         along = bending.sea["maximum_bending_moment_along"].values[bending.wave]
         place = float(bending.sea["station"].values[int(np.argmax(along))])
         where = f"{place:.3g} m from its start"
         if problem.support != "both_ends" and int(np.argmax(along)) in (0, along.size - 1):
             where = "at the fixed end"
-        items.append(
-            Headline(
-                "bending_moment", "largest bending moment", bending.value, "N m", bending.where, model,
-                _band(problem, bending, ranges),
-                detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
-            )
+        moment = Headline(
+            "bending_moment", "largest bending moment", bending.value, "N m", bending.where, model,
+            _band(problem, bending, ranges),
+            detail=f"{held}, {where}; of waves and current alone{_ends_text(bending)}",
         )  # fmt: skip
+        items += _with_the_others(problem, groups, "bending_moment", moment)
     return (*items, _NOT_JUDGED)
 
 
@@ -125,27 +124,35 @@ def _number_label(found: _Largest) -> str:
 
 
 def range_notices(problem: MemberProblem, groups: Mapping[str, xr.Dataset]) -> tuple[Notice, ...]:
-    """Warn where a cause that decides the largest force has coefficients outside their measured range of KC."""
-    found = _largest(groups, "force")
-    if found is None:
-        return ()
+    """Warn where a cause that decides a largest force has coefficients outside their measured range of KC.
+
+    Of each cause the sea with the largest force is named; a sea counts that reaches :data:`NEAR` of the largest.
+    """
+    found = list(_all(groups, "force"))
+    most = max((item.value for item in found), default=0.0)
+    notices: dict[str, Notice] = {}
+    for item in sorted(found, key=lambda one: -one.value):
+        if item.value < NEAR * most:
+            break
+        for notice in _range_notices(problem, item):
+            notices.setdefault(notice.message.split(": ", 1)[1].split(" was ")[0], notice)
+    return tuple(notices.values())
+
+
+def _range_notices(problem: MemberProblem, found: _Largest) -> Iterator[Notice]:
     shares = dict(zip(_CAUSES, _shares(found), strict=True))
-    notices = []
     for cause, measured in zip(("drag", "inertia", "lift"), _ranges(problem), strict=False):
         low, high = measured.keulegan_carpenter
         number = found.number(_number_of(measured))
         if abs(shares[cause]) < DECIDES or low <= number <= high:
             continue
         limit = low if number < low else high
-        notices.append(
-            Notice(
-                "coefficients-outside-measurement",
-                f"{found.where}: {measured.name} was measured at KC {'above' if number < low else 'below'} {limit:g}, "
-                f"here KC = {number:.3g}; {cause} makes {100.0 * shares[cause]:.0f} % of the largest force",
-                number, limit, "warning", "give coefficients measured at this KC", measured.source,
-            )
+        yield Notice(
+            "coefficients-outside-measurement",
+            f"{found.where}: {measured.name} was measured at KC {'above' if number < low else 'below'} {limit:g}, "
+            f"here KC = {number:.3g}; {cause} makes {100.0 * shares[cause]:.0f} % of the largest force",
+            number, limit, "warning", "give coefficients measured at this KC", measured.source,
         )  # fmt: skip
-    return tuple(notices)
 
 
 def _ranges(problem: MemberProblem) -> tuple[MeasuredRange, ...]:
@@ -172,13 +179,11 @@ def _runs(groups: Mapping[str, xr.Dataset]) -> Iterator[tuple[str, str, int, xr.
                 yield level, name, wave, sea, series
 
 
-def _largest(groups: Mapping[str, xr.Dataset], kind: _Kind) -> _Largest | None:
+def _all(groups: Mapping[str, xr.Dataset], kind: _Kind) -> Iterator[_Largest]:
+    """Yield the largest force or moment of every wave and sea."""
     name = "maximum_total_force" if kind == "force" else f"maximum_{kind}"
-    best: _Largest | None = None
     for level, sea_name, wave, sea, series in _runs(groups):
         value = float(np.max(sea[name].values[wave]))
-        if best is not None and not value > best.value:
-            continue
         causes = np.stack([series[f"{cause}_{kind}"].values for cause in ("inertia", "drag", "magnus")])
         size = np.linalg.norm(causes.sum(axis=0), axis=1)
         if sea.attrs["kind"] == "regular":
@@ -190,8 +195,24 @@ def _largest(groups: Mapping[str, xr.Dataset], kind: _Kind) -> _Largest | None:
         where = ", ".join(part for part in (sea_name, "" if label == "sea" else label, level) if part)
         each = f"{name}_of_realisation"
         scatter = np.asarray(sea[each].values, dtype=float) if each in sea else np.array([value])
-        best = _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]))
-    return best
+        yield _Largest(where, causes, row, value, sea, wave, scatter, str(series.attrs["theory"]))
+
+
+def _largest(groups: Mapping[str, xr.Dataset], kind: _Kind) -> _Largest | None:
+    return max(_all(groups, kind), key=lambda item: item.value, default=None)
+
+
+def _with_the_others(
+    problem: MemberProblem, groups: Mapping[str, xr.Dataset], kind: _Kind, shown: Headline
+) -> list[Headline]:
+    """Return a number with that of the sea whose unfavourable end is the highest, where that is another: both count."""
+    ranges = _ranges(problem)
+    others = [
+        replace(shown, value=item.value, where=item.where, band=_band(problem, item, ranges), detail="")
+        for item in _all(groups, kind)
+        if item.where != shown.where
+    ]
+    return governing([shown, *others])
 
 
 def _shares(found: _Largest) -> tuple[float, float, float]:

@@ -295,7 +295,11 @@ def _coefficients(
     if regular:
         first, second = (0.5 * np.ptp(fluctuation[..., axis], axis=0) for axis in (0, 1))
         axes = orbit_amplitudes(relative, rate, omega)
-        major = axes[0].max(axis=0)
+        # the largest velocity of the wave while the strip is in water: of a harmonic orbit its larger axis, of a steep
+        # crest more; the acceleration over the frequency would count its harmonics twice
+        speeds = np.linalg.norm(relative, axis=-1)
+        submerged = block.wet > 0.0
+        major = np.where(submerged.any(axis=0), np.where(submerged, speeds, 0.0).max(axis=0), speeds.max(axis=0))
     else:
         first, second = (math.sqrt(2.0) * fluctuation[..., axis].std(axis=0) for axis in (0, 1))
         axes = orbit_amplitudes(fluctuation, rate, omega)

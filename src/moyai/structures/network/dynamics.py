@@ -134,7 +134,7 @@ def run(
     if earlier is not None:
         series, frames = joined(earlier.series, series, "time"), joined(earlier.frames, frames, "frame")
     snaps = snaps_of(problem, series)
-    governing = _governing(series)
+    governing = _governing(series, {line.name: line.breaking_load for line in problem.lines})
     worst = _worst_bar(assembly, history, governing, plan.skip)
     notices = [*history.notices, *run_notices(problem, history, plan, snaps)]
     notices += peak_inside(assembly, series, governing, worst)
@@ -242,14 +242,22 @@ def _sensitivity(
     )  # fmt: skip
 
 
-def _governing(series: xr.Dataset) -> str:
-    """Return the line or net with the highest tension of all rows that count, those of an earlier run among them."""
+def _governing(series: xr.Dataset, breaking: Mapping[str, float]) -> str:
+    """Return the line that comes nearest to its breaking load, or the line or net with the highest tension.
+
+    The first where every line has a breaking load: it decides whether the design holds. Rows of an earlier run count.
+    """
     counted = series["time"].values >= series["time"].values[0] + series.attrs["skip"]
     best, highest = "", -np.inf
     for key, names in (("line_tension_peak_since_row", "line"), ("net_tension", "net")):
         if key not in series or not counted.any() or not series.sizes[names]:
             continue
         values = np.nan_to_num(series[key].values[counted], nan=-np.inf).max(axis=0)
+        if names == "line":
+            loads = np.array([breaking.get(str(name), np.nan) for name in series[names].values])
+            if np.isfinite(loads).all() and np.all(loads > 0.0):
+                # nets have no breaking load here and come after the lines
+                return str(series[names].values[int(np.argmax(values / loads))])
         if values.max() > highest:
             best, highest = str(series[names].values[int(np.argmax(values))]), float(values.max())
     return best

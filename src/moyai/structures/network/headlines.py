@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Headline, governing
 from moyai.core.wording import spoken
 from moyai.flexible.sensitivity import PeakSensitivity
 from moyai.series.block_maxima import Maximum, maximum_of
@@ -60,12 +60,13 @@ def headlines_of(problem: NetworkProblem, groups: Mapping[str, xr.Dataset]) -> t
     if peak is not None:
         items += _tension(problem, groups, peak)
         items += _start_up(groups, peak)
-        items += _utilisation(problem, peaks, peak, items[0].band)
+        items += _utilisation(problem, groups, peaks)
     items += _anchor(groups)
     items += _offsets(groups)
     items += _mode(groups)
     left = [_NOT_JUDGED] if problem.lines and peaks else []
-    return (*items[:8], *left)
+    shown = [item for item in items if item.shown][:8]
+    return (*(item for item in items if item in shown or not item.shown), *left)
 
 
 def _levels(groups: Mapping[str, xr.Dataset], part: str) -> Iterator[tuple[str, xr.Dataset]]:
@@ -116,13 +117,11 @@ def _where(groups: Mapping[str, xr.Dataset], peak: _Peak) -> str:
 def _tension(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[Headline]:
     """Return the highest tension, with that at the ends of its line where that is less."""
     where = _where(groups, peak)
+    band, details = _band(groups, peak)
     if peak.model == REST:
-        band = _rest_band(groups, peak)
-        said = "" if band else "mesh not checked"
+        said = "; ".join(details)
         return [Headline("line_tension", "highest tension at rest", peak.value, "N", where, REST, band, detail=said)]
     summary = groups[f"/{peak.level}/dynamic"].sel(run=peak.run)
-    band, details = _numerical_band(summary, peak)
-    details += _chance(groups, peak)
     items = [
         Headline(
             "line_tension", "highest tension", peak.value, "N", where, DYNAMIC, band,
@@ -196,11 +195,11 @@ def _numerical_band(summary: xr.Dataset, peak: _Peak) -> tuple[Band | None, list
     return None, [f"mesh and step not checked{': ' + why if why else ''}"]
 
 
-def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[str]:
-    """Say what one maximum of an irregular sea is worth, and the height that was realised."""
+def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Maximum | None, list[str]]:
+    """Return what one maximum of an irregular sea is worth, and say the height that was realised."""
     series = groups.get(f"/{peak.level}/time/{peak.run}")
     if series is None or not int(series.attrs.get("irregular", 0)):
-        return []
+        return None, []
     late = series.isel(time=series["time"].values >= series["time"].values[0] + series.attrs["skip"])
     said = []
     if "surface_elevation" in late:
@@ -215,27 +214,53 @@ def _chance(groups: Mapping[str, xr.Dataset], peak: _Peak) -> list[str]:
     if found is not None:
         said.append(
             f"largest of other seeds about {spoken(found.mean, 'N', 3)}, standard deviation "
-            f"{spoken(found.deviation, 'N', 2, like=found.mean)}, from {found.blocks} blocks of this record"
+            f"{spoken(found.deviation, 'N', 2, like=found.mean)}"
         )
-    return said
+    return found, said
 
 
-def _utilisation(problem: NetworkProblem, peaks: list[_Peak], peak: _Peak, band: Band | None) -> list[Headline]:
-    """Return the highest tension over the breaking load; with the numerical band where it is the highest of all."""
+def _utilisation(problem: NetworkProblem, groups: Mapping[str, xr.Dataset], peaks: list[_Peak]) -> list[Headline]:
+    """Return the highest tension over the breaking load, each line with its own band."""
     breaking = {line.name: line.breaking_load for line in problem.lines if math.isfinite(line.breaking_load)}
-    known = [(item.value / breaking[item.line], item) for item in peaks if item.line in breaking]
-    if not known:
-        return []
-    share, worst = max(known, key=lambda pair: pair[0])
-    load = breaking[worst.line]
-    detail = f"breaking load {load / 1e3:.4g} kN, without a safety factor"
-    return [
-        Headline(
-            "line_utilisation", "highest tension over breaking load", share, "1", f"{worst.line}, {worst.run}",
-            worst.model, replace(band, low=band.low / load, high=band.high / load) if band and worst == peak else None,
-            detail=detail,
-        )
-    ]  # fmt: skip
+    items = []
+    for item in peaks:
+        load = breaking.get(item.line)
+        if load is None:
+            continue
+        band, _ = _band(groups, item)
+        items.append(
+            Headline(
+                "line_utilisation", "highest tension over breaking load", item.value / load, "1",
+                f"{item.line}, {item.run}", item.model,
+                None if band is None else replace(band, low=band.low / load, high=band.high / load),
+                detail=f"breaking load {load / 1e3:.4g} kN, without a safety factor",
+            )
+        )  # fmt: skip
+    return governing(items)
+
+
+def _band(groups: Mapping[str, xr.Dataset], peak: _Peak) -> tuple[Band | None, list[str]]:
+    """Return what mesh, step and the chance of one seed do to a tension, and what is to be said of it."""
+    if peak.model == REST:
+        band = _rest_band(groups, peak)
+        return band, [] if band else ["mesh not checked"]
+    band, details = _numerical_band(groups[f"/{peak.level}/dynamic"].sel(run=peak.run), peak)
+    found, words = _chance(groups, peak)
+    details += words
+    if found is None:
+        return band, details
+    low, high, of = (peak.value, peak.value, "") if band is None else (band.low, band.high, band.of)
+    of = "; ".join(filter(None, (of, f"one seed, scatter of its maximum from {found.blocks} blocks of the record")))
+    return Band(min(low, found.mean - found.deviation), max(high, found.mean + found.deviation), of), details
+
+
+def mesh_checked(groups: Mapping[str, xr.Dataset]) -> bool:
+    """Whether the mesh of every run through time was checked, or of the rest where nothing was run."""
+    runs = [summary for _, summary in _levels(groups, "dynamic")]
+    if runs:
+        return all("sensitivity_peak" in run and np.isfinite(run["sensitivity_peak"].values).all() for run in runs)
+    peaks = list(_rest_peaks(groups))
+    return all(_rest_band(groups, peak) is not None for peak in peaks)
 
 
 def _anchor(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
@@ -283,7 +308,7 @@ def _offsets(groups: Mapping[str, xr.Dataset]) -> list[Headline]:
         known = [pair for pair in found if math.isfinite(pair[0])]
         if known:
             value, where = max(known)
-            detail = "from its place at rest, heave included" if (value, where) in floating else ""
+            detail = "from its place in still water" + (", heave included" if (value, where) in floating else "")
             key = "offset" if name == "offset" else "lean"
             items.append(Headline(key, label, value, unit, where, DYNAMIC, detail=detail))
     return items

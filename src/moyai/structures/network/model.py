@@ -282,7 +282,7 @@ class MotionPlan:
 @checks_words
 @dataclass(frozen=True)
 class Settings:
-    """How the analyses are run; ``None`` means chosen by the program. See docs/case_file.md for each."""
+    """How the analyses are run; ``None`` means chosen by the program. See docs/case_file/network.md for each."""
 
     analyses: tuple[Analysis, ...] = ("statics",)
     duration: float | None = None

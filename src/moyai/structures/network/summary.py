@@ -27,7 +27,13 @@ LOADS = ("load_peak", "load_horizontal", "load_upwards", "load_downwards")
 SOLID = ("offset", "mean_offset", "heave_range", "roll_range", "pitch_range", "yaw_range", "highest_lean")
 
 
-def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run], rest: Array | None) -> xr.Dataset:
+def summary_dataset(
+    problem: NetworkProblem,
+    assembly: Assembly,
+    runs: list[Run],
+    rest: Array | None,
+    solids_at_rest: Array | None = None,
+) -> xr.Dataset:
     """Return peaks, snaps and loads of every run.
 
     Parameters
@@ -35,7 +41,9 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
     problem, assembly
     runs : list of Run
     rest : ndarray, shape (points, 3), or None
-        Places of the points at rest, from which excursions count [m].
+        Places of the points at rest in still water, from which excursions count [m].
+    solids_at_rest : ndarray, shape (bodies, 3), or None
+        The same of bodies; where they begin when left out.
     """
     import xarray as xr
 
@@ -51,7 +59,7 @@ def summary_dataset(problem: NetworkProblem, assembly: Assembly, runs: list[Run]
     out |= {key: (("run", "point"), np.array(value)) for key, value in data.items() if names}
     solids = [body.name for body in problem.bodies]
     for item in runs if solids else ():
-        for key, found in _solid_summary(item).items():
+        for key, found in _solid_summary(item, solids_at_rest).items():
             out.setdefault(key, (("run", "solid"), []))[1].append(found)
     known = [item for item in runs if item.sensitivity is not None]
     if known:
@@ -139,14 +147,15 @@ def lean_of(angles: Array) -> Array:
     return np.arccos(np.clip(np.cos(angles[..., 0]) * np.cos(angles[..., 1]), -1.0, 1.0))
 
 
-def _solid_summary(item: Run) -> dict[str, Array]:
-    """Return how far the bodies go and turn from where the run begins."""
+def _solid_summary(item: Run, rest: Array | None) -> dict[str, Array]:
+    """Return how far the bodies go from their rest, and turn from where the run begins."""
     chosen = _counted(item)
     place, angle = (item.series[key].values for key in ("solid_position", "solid_angle"))
     if not chosen.any():
         return dict.fromkeys(SOLID, np.full(place.shape[1], np.nan))
     size = max(1.0, float(np.nanmax(np.abs(place[0]), initial=0.0)))
-    moved, turned = without_noise(place - place[0], size)[chosen], without_noise(angle - angle[0], 1.0)[chosen]
+    origin = place[0] if rest is None else rest
+    moved, turned = without_noise(place - origin, size)[chosen], without_noise(angle - angle[0], 1.0)[chosen]
     offset = np.linalg.norm(moved[..., :2], axis=2)
     values = (
         offset.max(axis=0), np.linalg.norm(moved[..., :2].mean(axis=0), axis=1), np.ptp(moved[..., 2], axis=0),

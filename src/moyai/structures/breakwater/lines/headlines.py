@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from moyai.core.arrays import Array
-from moyai.core.headline import Band, Headline
+from moyai.core.headline import Band, Headline, governing, unfavourable
 from moyai.mooring.anchors import gravity_anchor_weight
 from moyai.series.intervals import reach_of_mean
 from moyai.structures.breakwater.responses import SNAP_RATIO
@@ -186,11 +186,12 @@ def line_headlines(peaks: list[LinePeak]) -> list[Headline]:
                      highest.model, detail="breaking load not given in the case"),
             *unknown,
         ]  # fmt: skip
-    share = _utilisation(highest)
     # Codes ask another factor of each analysis: the highest of the other one is judged too
-    others = [peak for peak in peaks if peak.known and peak.analysis != highest.analysis and peak.breaking_load > 0.0]
-    hidden = [replace(_utilisation(max(others, key=lambda peak: peak.rank)), shown=False)] if others else []
-    return [tension, share, *hidden, *unknown]
+    strong = [peak for peak in peaks if peak.known and peak.breaking_load > 0.0]
+    same = [_utilisation(peak) for peak in strong if peak.analysis == highest.analysis]
+    others = [_utilisation(peak) for peak in strong if peak.analysis != highest.analysis]
+    hidden = [replace(item, shown=False) for item in governing(others)]
+    return [tension, *governing(same), *hidden, *unknown]
 
 
 def _utilisation(peak: LinePeak) -> Headline:
@@ -259,30 +260,38 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
         ]
     drag, level_factor = anchor_factor("drag_anchor", "horizontal"), anchor_factor("gravity_anchor", "horizontal")
     up_factor, friction = anchor_factor("gravity_anchor", "vertical"), holding_data("sinker", *SINKER)
+    # a sinker is bought for the end at which criteria are judged, not for the mean of a few realisations
     weight = gravity_anchor_weight(
-        hardest.horizontal, hardest.vertical, friction.value, level_factor.value, up_factor.value
-    )
+        _judged_end(hardest.horizontal, hardest.horizontal_scatter),
+        _judged_end(hardest.vertical, hardest.vertical_scatter), friction.value, level_factor.value, up_factor.value,
+    )  # fmt: skip
     lies = hardest.grounded > 0.0 and hardest.vertical <= 0.0
     bed = f"{hardest.grounded:.3g} m of line left on the bed" if lies else "no line left on the bed"
     sinker = (
         f"a concrete sinker of {kilonewton(weight)} in water (friction {friction.value:g} on {SINKER[1]}, factors "
-        f"{level_factor.value:g} and {up_factor.value:g})"
+        f"{level_factor.value:g} and {up_factor.value:g}, at the upper end of pull and uplift)"
     )
-    asked = f"{drag.value:g} times the pull of one line ({drag.source}, {_confirmed(drag.confirmed)})"
+    # where the anchor is lifted no drag anchor serves: the factor is that of anchors that hold by weight or as a pile
+    factor = drag if hardest.vertical <= 0.0 else level_factor
+    asked = f"{factor.value:g} times the pull of one line ({factor.source}, {_confirmed(factor.confirmed)})"
     capacity = Headline(
         "anchor_capacity_required", "Horizontal holding capacity that an anchor needs",
-        drag.value * hardest.horizontal, "N", hardest.where, hardest.model,
-        band=seeds(drag.value * hardest.horizontal_scatter),
+        factor.value * hardest.horizontal, "N", hardest.where, hardest.model,
+        band=seeds(factor.value * hardest.horizontal_scatter),
         detail=(
             f"{asked}; {bed} at the peak; or {sinker}"
             if hardest.vertical <= 0.0
             else f"not a drag anchor, {bed} at the peak: {sinker}, or a pile; {asked}"
         ),
     )  # fmt: skip
-    pull = Headline(
-        "anchor_horizontal_load", "Horizontal pull on an anchor", hardest.horizontal, "N", hardest.where, hardest.model,
-        band=seeds(hardest.horizontal_scatter),
-    )  # fmt: skip
+    pull = [
+        Headline(
+            "anchor_horizontal_load", "Horizontal pull on an anchor", peak.horizontal, "N", peak.where, peak.model,
+            band=seeds(peak.horizontal_scatter),
+        )
+        for peak in pulled
+        if peak.known
+    ]  # fmt: skip
     unknown = [
         Headline(name, label, math.nan, "N", peak.where, peak.model, text=f"{peak.where}: not known, {_beyond(peak)}",
                  shown=False)
@@ -300,7 +309,21 @@ def anchor_headlines(groups: Mapping[str, xr.Dataset], levels: list[str], peaks:
         band=None if none else seeds(np.maximum(lifted.vertical_scatter, 0.0)), detail=said,
         text="none" if none else "",
     )  # fmt: skip
-    return [capacity, pull, uplift, *unknown]
+    lifts = [
+        replace(
+            uplift, value=peak.vertical, where=peak.where, model=peak.model, text="", detail="",
+            band=seeds(np.maximum(peak.vertical_scatter, 0.0)), shown=False,
+        )
+        for peak in pulled
+        if peak.known and peak.vertical > 0.0 and peak is not lifted
+    ]  # fmt: skip
+    widest = [item for item in lifts if unfavourable(item) > unfavourable(uplift)]
+    return [capacity, *governing(pull), uplift, *widest, *unknown]
+
+
+def _judged_end(value: float, scatter: Array) -> float:
+    band = seeds(np.maximum(scatter, 0.0))
+    return max(value, 0.0) if band is None or band.judged is None else max(value, band.judged[1], 0.0)
 
 
 def _bare_lines(groups: Mapping[str, xr.Dataset], levels: list[str]) -> str:

@@ -368,8 +368,9 @@ def _lines_in_motion(
     lengths = lines.network.bars.length
     for column, name, at_rest in zip(lines.index, lines.names, rest, strict=True):
         strand = lines.strand(name)
-        highest = lines.end_tensions(name, network.position[:count], network.tension_peak[:count])[0]
-        peak[:, column] = np.maximum(highest, simulation.tension[:, column])
+        # a chain in motion may bear more at its anchor than at the fairlead
+        ends = lines.end_tensions(name, network.position[:count], network.tension_peak[:count])
+        peak[:, column] = np.maximum(np.maximum(ends[0], ends[1]), simulation.tension[:, column])
         anchor[:, column] = lines.end_tensions(name, network.position[:count], network.tension[:count])[1]
         along = network.position[:count, strand.nodes[1]] - network.position[:count, strand.nodes[0]]
         uplift[:, column] = anchor[:, column] * along[:, 2] / np.maximum(np.linalg.norm(along, axis=1), 1e-300)

@@ -249,3 +249,22 @@ def static_check(unit: FloatingUnit, lines: LineNetwork) -> IdentityCheck:
         f"{unit.name}: lines in motion at rest against the exact lines", error, STATIC_TOLERANCE,
         "tension at the fairlead against the exact catenary; the difference falls with the bar length squared",
     )  # fmt: skip
+
+
+def resolved(unit: FloatingUnit, dynamics: LineDynamics) -> LineDynamics:
+    """Return the cutting of the lines with as many bars as bring their rest to the exact lines, four times at most.
+
+    A slack chain hangs on few of its bars; the rest of it lies on the bed.
+
+    Parameters
+    ----------
+    unit : FloatingUnit
+        Whose lines are in motion.
+    dynamics : LineDynamics
+    """
+    for factor in (1, 2, 4):
+        finer = replace(dynamics, bars=factor * dynamics.bars)
+        lines = line_network(unit, finer)
+        if lines is None or static_check(unit, lines).passed:
+            break
+    return finer

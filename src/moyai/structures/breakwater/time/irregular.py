@@ -24,8 +24,9 @@ from moyai.series.zero_crossing import zero_crossing
 from moyai.structures.breakwater.assembly import FloatingUnit
 from moyai.structures.breakwater.frequency.model import FrequencyModel
 from moyai.structures.breakwater.hydrodynamics import SECTOR
-from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range
+from moyai.structures.breakwater.lines.events import EventSettings, movable, out_of_range, with_lines_in_motion
 from moyai.structures.breakwater.lines.motion import has_dynamic_lines
+from moyai.structures.breakwater.lines.network import resolved
 from moyai.structures.breakwater.lines.search import MOST_EVENTS, EventsInMotion, Realisation, events_in_motion
 from moyai.structures.breakwater.memory_model import UnitMemory
 from moyai.structures.breakwater.model import DEFAULT_REALISATIONS, MODES, IrregularSea, TimeSettings
@@ -221,7 +222,13 @@ def _lines_in_motion(
         remedy = "give structure.gap_damping_lid where water resonates between hulls, or memory: state_space"
         return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=remedy),)
     period = float(frequency.slow_sway_period) if "slow_sway_period" in frequency else 0.0
-    given = EventSettings(shared.model, shared.cummins, shared.expected, shared.settings, shared.peak_period, period)
+    try:
+        lines = resolved(with_lines_in_motion(shared.model).unit, shared.settings.lines)
+    except (InputError, ConvergenceError) as error:
+        reported = f"{unit.name}, {shared.sea.name}: {error.fault.message}; lines stay at rest at every instant"
+        return members, [], moved, (Notice("lines-stay-at-rest", reported, remedy=error.fault.remedy),)
+    settings = replace(shared.settings, lines=lines)
+    given = EventSettings(shared.model, shared.cummins, shared.expected, settings, shared.peak_period, period)
     shown: list[TimeRun] = []
     best, counts, still_open = -math.inf, [], 0
     for line in sorted(np.flatnonzero(passing), key=lambda number: -rank[number]):

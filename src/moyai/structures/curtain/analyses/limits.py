@@ -41,6 +41,7 @@ def limits_dataset(
     answer: ImpactAnswer | None,
     curve: DragCurve,
     progress: Progress,
+    lost_depth: float = 1.0,
 ) -> xr.Dataset:
     """Return the group ``limits``: largest height for currents up to each speed, and the utilisation over both.
 
@@ -54,7 +55,16 @@ def limits_dataset(
         Loads at rest, up to :func:`fastest_water`.
     progress : Progress
         An interrupt is handed on.
+    lost_depth : float
+        Depth that the skirt loses at the lower end of the band over what it loses, in the current of the case: limits
+        ask for the depth at that end, as the criterion does.
     """
+    strengths = unit.curtain.strengths
+    asked = strengths.least_depth
+    if 0.0 < asked < unit.depth and lost_depth > 1.0:
+        # d - f (d - z) is at least what is asked where z is at least this
+        strengths = replace(strengths, least_depth=unit.depth - (unit.depth - asked) / lost_depth)
+        unit = replace(unit, curtain=replace(unit.curtain, strengths=strengths))
     loads = sea_loads(unit, settings, answer, curve)
     counted = CountedLimits(unit, settings, loads)
     most, most_bound = counted.speed()
@@ -66,7 +76,8 @@ def limits_dataset(
     progress(f"operating limits, {unit.name}", len(speeds), len(speeds))
     heights = _heights(settings, max((row.value for row, _ in rows), default=0.0))
     parts = _grid(unit, [counted.loads_in(speed) for speed in speeds], speeds, heights)
-    return _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
+    group = _limits_group(unit, settings, counted, _Found(most, most_bound, speeds, tuple(rows)), heights, parts)
+    return group.assign_attrs(least_effective_depth=asked, lost_depth=lost_depth)
 
 
 @dataclass(frozen=True)
@@ -199,7 +210,6 @@ def _limits_group(
                 "speed_limit_band_of": band_of,
                 "limit_not_monotone": _not_monotone(found, alone, alone[source]),
                 "limit_jump": _jump(unit, counted, found),
-                "least_effective_depth": unit.requirements.least_depth,
                 "wave_angle": limits.wave_angle,
                 "with_impact": int(loads.impact is not None),
                 "with_snaps": int(loads.snaps is not None),
