@@ -26,7 +26,7 @@ DRAWN = (
 STUDY = """\
 moyai: 1
 study:
-  title: Diameter and level of the member
+  title: Diameter of the member and water depth
   base: member.yaml
   set: {analyses: [forces]}
   variations:
@@ -106,6 +106,8 @@ def main() -> None:
 
 def tutorial(page: Any, address: str, folder: Path) -> None:
     """Photograph what the tutorial shows."""
+    # The folder of these pictures has no name that says anything
+    page.evaluate("document.querySelector('.subtitle').textContent = 'cases'")
     page.screenshot(folder / "app_cases.png", whole=False)
     open_case(page, address, "breakwater.yaml")
     press(page, "Pin")
