@@ -108,11 +108,14 @@ class Documents:
 
     def open_template(self, name: str) -> OpenCase:
         """Open the template of a kind under a name that no file has."""
-        text = template(name)
+        return self.open_text(name, template(name))
+
+    def open_text(self, stem: str, text: str) -> OpenCase:
+        """Open a text under a name that no file and no open case has; ``stem`` may lead through folders."""
         taken = {one.name for one in self._open.values()}
-        file, count = f"{name}.yaml", 2
+        file, count = f"{stem}.yaml", 2
         while file in taken or (self._folder.root / file).exists():
-            file, count = f"{name}_{count}.yaml", count + 1
+            file, count = f"{stem}_{count}.yaml", count + 1
         return self._added(OpenCase(_key(), file, text))
 
     def open_file(self, name: str) -> OpenCase:

@@ -90,7 +90,7 @@ class Drafts:
             refuse_foreign_files(wish.root, wish.file.parent, document.data)
             case = case_of(document, wish.file)
             drafts = stages_of(document, case.kind, wish.analyses)
-            sliders = sliders_of(drafts[-1], case.kind)
+            sliders = sliders_of(document, case.kind, drafts[-1].data)
             yield _checked(text, (), case.warnings, sliders=sliders, kind=case.kind, title=case.title)
             checked = True
             for place, draft in enumerate(drafts, 1):

@@ -15,6 +15,8 @@ CASE_ENDINGS = (".yaml", ".yml")
 _MOST_FILES = 200
 _DEEPEST = 4
 _KIND = re.compile(r"^structure:(?:.|\n)*?\bkind:\s*(\w+)", re.MULTILINE)
+_JOB = re.compile(r"^(study|fit):", re.MULTILINE)
+_JOB_TITLE = re.compile(r"^\s+title:\s*(.+?)\s*(?:#.*)?$", re.MULTILINE)
 _TITLE = re.compile(r"^title:\s*(.+?)\s*(?:#.*)?$", re.MULTILINE)
 
 
@@ -38,14 +40,14 @@ class Folder:
         return within(self.root, self.root / name, name)
 
     def case_files(self) -> list[dict[str, str]]:
-        """Return the case files of the folder: name, kind and title, the newest first."""
+        """Return the case, study and fit files of the folder: name, kind and title, the newest first."""
         found: list[tuple[float, dict[str, str]]] = []
         for path in self._candidates():
             text = path.read_text(encoding="utf-8", errors="replace")[:20_000]
-            kind = _KIND.search(text)
+            kind = _KIND.search(text) or _JOB.search(text)
             if kind is None:
                 continue
-            title = _TITLE.search(text)
+            title = (_TITLE if kind.re is _KIND else _JOB_TITLE).search(text)
             name = path.relative_to(self.root).as_posix()
             record = {"file": name, "kind": kind[1], "title": title[1].strip("'\"") if title else name}
             found.append((path.stat().st_mtime, record))

@@ -1,4 +1,4 @@
-"""What the process of a job does: a full run, or a paper computed again, into a folder of its own."""
+"""What the process of a job does: a full run, a study, a fit, or a paper computed again, into a folder of its own."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 import os
 import signal
 import sys
+import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,9 +23,9 @@ _EVERY = 0.2
 class Order:
     """What a job is to do."""
 
-    #: ``run`` or ``paper``.
+    #: ``run``, ``study``, ``fit`` or ``paper``.
     kind: str
-    #: Name of the case file, or key of the paper.
+    #: Name of the file, or key of the paper.
     name: str
     #: Of the results.
     folder: Path
@@ -32,7 +33,7 @@ class Order:
     root: Path
     #: Where the case stands, from which it names other files.
     file: Path
-    #: The case; empty for a paper.
+    #: The case; empty for all but a run.
     text: str = ""
     #: Whether ``file`` holds this text; else the command line that does the same takes the copy beside the results.
     saved: bool = True
@@ -64,8 +65,7 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
 
     try:
         order.folder.mkdir(parents=True, exist_ok=True)
-        done = _run(order, run, listen) if order.kind == "run" else _paper(order, listen)
-        pipe.send(("done", *done))
+        pipe.send(("done", *_done(order, run, listen, stop)))
     except KeyboardInterrupt:
         pipe.send(("failed", "cancelled before there was a result"))
     except CaseError as error:
@@ -74,6 +74,25 @@ def work(pipe: Any, stop: Any, order: Order, run: Run) -> None:
         pipe.send(("failed", str(error)))
     except Exception as error:
         pipe.send(("failed", f"internal error, {type(error).__name__}: {error}"))
+
+
+def _done(order: Order, run: Run, listen: Any, stop: Any) -> tuple[str, str, str]:
+    from moyai.app.study_jobs import run_fit_job, run_study_job
+
+    if order.kind == "run":
+        return _run(order, run, listen)
+    if order.kind == "paper":
+        return _paper(order, listen)
+    # A study waits for its workers and looks at no flag meanwhile: it is interrupted as by Ctrl-C, and keeps its cases
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    threading.Thread(target=_interrupt_when, args=(stop,), daemon=True).start()
+    return (run_study_job if order.kind == "study" else run_fit_job)(order.file, order.folder, run, listen)
+
+
+def _interrupt_when(stop: Any) -> None:
+    stop.wait()
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
 
 
 def _run(order: Order, run: Run, listen: Any) -> tuple[str, str, str]:

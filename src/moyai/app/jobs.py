@@ -12,13 +12,14 @@ from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
 
+from moyai.app.downloads import makeable
 from moyai.app.draft import Run
 from moyai.app.job_process import Order, work
 
 GRACE = 2.0
 """Seconds between the flag that asks a job to stop and the end of its process."""
 _ENDED = ("done", "failed", "cancelled", "lost")
-FILES = ("report.html", "results.nc", "report.xlsx", "case.yaml")
+FILES = ("report.html", "results.nc", "study.nc", "fit.nc", "study.csv", "report.xlsx", "case.yaml")
 
 
 class Job:
@@ -51,6 +52,7 @@ class Job:
         shown = folder.relative_to(root) if folder.is_relative_to(root) else folder
         seconds = (self.ended or time.monotonic()) - self.started if self.started else 0.0
         files = [name for name in FILES if (folder / name).is_file()] if self.state in _ENDED else []
+        files += makeable(folder) if self.state in _ENDED else []
         return {
             "id": self.key,
             "kind": self.order.kind,
@@ -72,7 +74,7 @@ class Job:
         if self.order.kind == "paper":
             return f"moyai reproduce {self.order.name} --quick --output {_quoted(shown)}"
         file = self.order.name if self.order.saved else f"{shown}/case.yaml"
-        return f"moyai run {_quoted(file)} --output {_quoted(shown)}"
+        return f"moyai {self.order.kind} {_quoted(file)} --output {_quoted(shown)}"
 
 
 def _quoted(text: str) -> str:
@@ -126,7 +128,7 @@ class Jobs:
         return job
 
     def again(self, key: str) -> Job:
-        """Start an ended job again, with the coefficients that it has kept in its folder."""
+        """Start an ended job again, with the coefficients or the cases of a study that it has kept in its folder."""
         with self._changed:
             job = self._jobs[key]
             if job.state in _ENDED:
@@ -224,7 +226,8 @@ def _conclude(job: Job, outcome: tuple[Any, ...] | None) -> None:
         said = "partial results were written" if partial else message or status.replace("_", " ")
         job.words, job.fraction = "; ".join(filter(None, (said, verdict))), 1.0
     elif job.asked:
-        job.state, job.words = "cancelled", "cancelled before there was a result"
+        kept = "; the cases that ended are kept, and it goes on from there" if job.order.kind == "study" else ""
+        job.state, job.words = "cancelled", f"cancelled before there was a result{kept}"
     elif outcome is not None:
         job.state, job.words = "failed", str(outcome[1])
     else:

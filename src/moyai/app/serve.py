@@ -69,6 +69,8 @@ def open_socket(port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind(("127.0.0.1", port))
+        # A browser that is quicker than the server waits for it instead of being refused
+        listener.listen(1024)
     except OSError as error:
         listener.close()
         raise InputError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
@@ -15,17 +16,27 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
+from moyai.app.changes import changed
 from moyai.app.documents import Documents, OpenCase, stem_of
+from moyai.app.downloads import MADE, made
 from moyai.app.draft import Run
 from moyai.app.folder import Folder, within
+from moyai.app.form import form_of
 from moyai.app.gallery import gallery
 from moyai.app.job_process import Order
 from moyai.app.jobs import FILES, Jobs
 from moyai.app.security import REPORT_POLICY, BodyTooLarge, Guard, Secrets
+from moyai.app.study_jobs import case_text, refuse_foreign_base, so_far, table_of
 from moyai.app.worker import DraftWorker, message
-from moyai.core.errors import CaseError, MoyaiError
+from moyai.case.yaml_reader import parse_yaml
+from moyai.core.errors import CaseError, InputError, MoyaiError
+from moyai.core.kinds import structure_kinds
 
-_OWN = ("app.css", "page.js", "case.js", "gallery.js", "editor.js", "sliders.js", "live.js", "jobs.js", "server.js")
+_SCRIPTS = (
+    "page", "case", "gallery", "editor", "plain_text", "code_text", "codemirror",
+    "form", "sliders", "live", "jobs", "server",
+)  # fmt: skip
+_OWN = ("app.css", *(f"{name}.js" for name in _SCRIPTS))
 _TYPES = {"css": "text/css", "js": "text/javascript", "html": "text/html"}
 _DOWNLOADS = {"results.nc": "application/x-netcdf", "case.yaml": "text/yaml; charset=utf-8"}
 
@@ -164,6 +175,33 @@ async def _draft(app: App, request: Request) -> Response:
     return StreamingResponse(lines(), media_type="application/x-ndjson")
 
 
+async def _form(app: App, request: Request) -> Response:
+    """Hand out the form of an open case as it is now."""
+    document = _case(app, request)
+    return _json({"form": await asyncio.to_thread(_form_of, document.text, document.name)})
+
+
+def _form_of(text: str, name: str) -> dict[str, Any]:
+    data = parse_yaml(text, name).data
+    structure = data.get("structure") if isinstance(data, dict) else None
+    kind = structure.get("kind") if isinstance(structure, dict) else None
+    if kind not in structure_kinds():
+        raise InputError(
+            "the form needs the kind of the structure", path="structure.kind", remedy="write it in the text"
+        )
+    return form_of(data, kind)
+
+
+async def _change(app: App, request: Request) -> Response:
+    """Change one value or key of a text; the record of the case holds the new text."""
+    document, content = _case(app, request), await _body(request)
+    text = _text(content, "text")
+    after = await asyncio.to_thread(lambda: changed(parse_yaml(text, document.name), content).text)
+    document.change(text, "typing")
+    document.change(after, f"form {content['path']}")
+    return _json(document.record())
+
+
 async def _undo(app: App, request: Request) -> Response:
     document = _case(app, request)
     document.undo()
@@ -195,7 +233,7 @@ async def _jobs(app: App, request: Request) -> Response:
 
 
 async def _start(app: App, request: Request) -> Response:
-    """Start a full run of an open case, or of a paper."""
+    """Start a full run of an open case, a study or fit of the folder, or a paper."""
     content = await _body(request)
     root, output = app.folder.root, app.folder.output
     if paper := _text(content, "paper"):
@@ -203,6 +241,10 @@ async def _start(app: App, request: Request) -> Response:
 
         key = known(paper).key
         order = Order("paper", key, app.jobs.folder_for(output, key), root, root / key)
+    elif name := _text(content, "file"):
+        file = app.folder.inside(name)
+        kind = await asyncio.to_thread(refuse_foreign_base, app.folder, file)
+        order = Order(kind, file.relative_to(root).as_posix(), app.jobs.folder_for(output, file.stem), root, file)
     else:
         document = app.documents[_text(content, "case")]
         folder = app.jobs.folder_for(output, stem_of(document.name))
@@ -219,10 +261,32 @@ async def _again(app: App, request: Request) -> Response:
     return _json(app.jobs.again(request.path_params["key"]).record(app.folder.root))
 
 
+async def _study(app: App, request: Request) -> Response:
+    """Hand out the cases of a study that have ended."""
+    return _json(await asyncio.to_thread(table_of, app.jobs[request.path_params["key"]].order.folder))
+
+
+async def _study_case(app: App, request: Request) -> Response:
+    """Open a case of a study beside its base case."""
+    content, root = await _body(request), app.folder.root
+    index = content.get("case")
+    if not isinstance(index, int) or isinstance(index, bool):
+        raise ValueError("'case' is the number of a case")
+    folder = app.jobs[request.path_params["key"]].order.folder
+    text, base = await asyncio.to_thread(case_text, folder, root, index)
+    stem = base.relative_to(root).with_suffix("").as_posix()
+    return _json(app.documents.open_text(f"{stem}_case_{index}", text).record())
+
+
 async def _result(app: App, request: Request) -> Response:
     """Hand out a file of a job: the report for a frame, the others for download."""
     job, name = app.jobs[request.path_params["key"]], request.path_params["name"]
-    if name not in FILES:
+    if name == "so_far.html":
+        text = await asyncio.to_thread(so_far, job.order.folder)
+        return Response(text, media_type="text/html", headers={"content-security-policy": REPORT_POLICY})
+    if name in MADE:
+        await asyncio.to_thread(made, job.order.folder, name)
+    elif name not in FILES:
         raise KeyError(name)
     path = within(job.order.folder.resolve(), job.order.folder / name, name)
     if not path.is_file():
@@ -249,6 +313,8 @@ def create(app: App, port: int) -> Guard:
         ("/api/cases", _open, post),
         ("/api/cases/{key}", _show, get),
         ("/api/cases/{key}/draft", _draft, post),
+        ("/api/cases/{key}/form", _form, get),
+        ("/api/cases/{key}/change", _change, post),
         ("/api/cases/{key}/undo", _undo, post),
         ("/api/cases/{key}/pin", _pin, post),
         ("/api/cases/{key}/save", _save, post),
@@ -257,6 +323,8 @@ def create(app: App, port: int) -> Guard:
         ("/api/jobs", _start, post),
         ("/api/jobs/{key}/cancel", _cancel, post),
         ("/api/jobs/{key}/again", _again, post),
+        ("/api/jobs/{key}/study", _study, get),
+        ("/api/jobs/{key}/cases", _study_case, post),
         ("/results/{key}/{name}", _result, get),
     ]
 

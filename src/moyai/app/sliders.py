@@ -42,7 +42,7 @@ _SEA = (
     ("waves[{}].peak_period", "Peak period"),
     ("waves[{}].significant_period", "Significant period"),
 )
-_SEAS = tuple((path.format(number), label) for number in range(2) for path, label in _SEA)
+_SEAS = tuple((path.format(number), label) for number in range(8) for path, label in _SEA)
 _CURRENT = (("current.speed", "Current speed"), ("current.heading_deg", "Current heading"))
 
 PATHS: dict[str, tuple[tuple[str, str], ...]] = {
@@ -119,26 +119,53 @@ PATHS: dict[str, tuple[tuple[str, str], ...]] = {
 """Paths that are looked for in a case, by kind, the most wanted first; those that a case lacks are left out."""
 
 
-def sliders_of(document: Document, kind: str) -> list[dict[str, Any]]:
-    """Return the sliders of a case.
+def sliders_of(document: Document, kind: str, drawn: Any = None) -> list[dict[str, Any]]:
+    """Return the sliders of a case: those that it names itself, else those that matter for its structure.
 
     Parameters
     ----------
     document : Document
     kind : str
         Kind of structure; one that is not known has those of site, current and sea.
+    drawn : mapping, optional
+        Content of the case as a draft takes it: seas that it leaves out have no sliders of their own accord.
     """
     found: dict[int, Slider] = {}
-    for path, label in PATHS.get(kind, (*_SITE, *_CURRENT, *_SEAS)):
+    own = _own(document.data)
+    for path, label in own or PATHS.get(kind, (*_SITE, *_CURRENT, *_SEAS)):
         written = number_at(document, path)
         # A sea that stands as a block alone answers to several paths
-        if written is None or written.start in found:
+        if written is None or written.start in found or not (own or _is_drawn(document.data, drawn, path)):
             continue
         name = _sea_name(document.data, path)
         found[written.start] = slider(path, f"{label}, {name}" if name else label, written.unit, written.value)
-        if len(found) == _MOST:
+        if len(found) == _MOST and not own:
             break
     return [asdict(item) for item in found.values()]
+
+
+def _own(data: Any) -> list[tuple[str, str]]:
+    """Return path and label of the numbers that a case names under ``app.sliders``."""
+    block = data.get("app") if isinstance(data, dict) else None
+    paths = block.get("sliders") if isinstance(block, dict) else None
+    labels = {path: label for table in PATHS.values() for path, label in table}
+    named = [path for path in paths if isinstance(path, str)] if isinstance(paths, list) else []
+    return [(path, labels.get(path) or _label(path)) for path in named]
+
+
+def _label(path: str) -> str:
+    """Return ``Length of segments[0]`` for ``lines[0].segments[0].length``."""
+    *blocks, key = path.split(".")
+    words = key.removesuffix("_deg").replace("_", " ")
+    return words[:1].upper() + words[1:] + (f" of {blocks[-1].replace('_', ' ')}" if blocks else "")
+
+
+def _is_drawn(data: Any, drawn: Any, path: str) -> bool:
+    seas, kept = (None if one is None else one.get("waves") for one in (data, drawn))
+    if not path.startswith("waves[") or not isinstance(seas, list) or not isinstance(kept, list):
+        return True
+    number = int(path[6 : path.index("]")])
+    return number < len(seas) and any(seas[number] is one for one in kept)
 
 
 def _sea_name(data: Any, path: str) -> str:
@@ -146,7 +173,10 @@ def _sea_name(data: Any, path: str) -> str:
     seas = data.get("waves") if path.startswith("waves[") else None
     if not isinstance(seas, list) or len(seas) < 2:
         return ""
-    sea = seas[int(path[6 : path.index("]")])]
+    number = path[6 : path.index("]")]
+    if not number.isdecimal():
+        return number
+    sea = seas[int(number)]
     return str(sea.get("name", "")) if isinstance(sea, dict) else ""
 
 

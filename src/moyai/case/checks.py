@@ -12,6 +12,7 @@ from moyai.case.faults import did_you_mean
 from moyai.case.findings import Findings
 from moyai.case.measured import measured_sets, read_pairs
 from moyai.case.plausibility import check_plausibility
+from moyai.case.schema_app import check_sliders
 from moyai.case.schema_environment import sea_names
 from moyai.case.yaml_reader import Document, KeyPath, dotted
 from moyai.core.errors import Fault, InputError
@@ -39,6 +40,7 @@ def check(model: Any, document: Document, folder: Path) -> Findings:
     # What cannot be is reported before anything is built of it: the checks build only what is sound so far
     structure_kind(model.structure.kind).check(sound, findings, folder)
     _check_measured(sound, findings, folder)
+    check_sliders(model, findings)
     _leave_to_the_particular(findings, faults, warnings)
     return findings
 

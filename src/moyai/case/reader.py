@@ -320,7 +320,8 @@ def _validate(document: Document, root: type[Block]) -> tuple[Any, list[Fault], 
 def case_hash(model: Block, folder: Path) -> str:
     """Return the SHA-256 of a case's content and of the files it names; how it is shown does not matter."""
     content = model.model_dump(mode="json", by_alias=True)
-    content.pop("display", None)
+    for shown in ("display", "app"):
+        content.pop(shown, None)
     text = json.dumps(content, sort_keys=True, ensure_ascii=False, default=str)
     digest = hashlib.sha256(text.encode("utf-8"))
     for name in sorted(named_files(content)):

@@ -73,26 +73,12 @@ def study(
             result = run_study(
                 plan, folder, run_case, workers=count, on=on, retry_failed=retry_failed, progress=progress, watch=teller
             )
-        from moyai.study.assess import assess, governing
+        from moyai.study.report.finish import finish_study
 
-        result = assess(plan, result, plan.assessment)
-        if report and plan.search is None and not plan.watch:
-            plan = _watching(plan, result)
-        governs = governing(plan, result, max(plan.replays, 1))
-        if report:
-            result = _with_replays(plan, result, governs, folder, quiet or as_json)
-        files = [result.write(folder / "study.nc")]
-        if as_zarr:
-            from moyai.study.zarr_file import write_zarr
-
-            files.append(write_zarr(result, folder / "study.zarr"))
-        from moyai.study.summary import write_table
-
-        files.append(write_table(plan, result, folder / "study.csv"))
-        if report:
-            from moyai.report.writer import write_report
-
-            files += write_report(result, folder, pdf=pdf)
+        with progress_bars(quiet or as_json) as progress:
+            result, files = finish_study(
+                plan, result, folder, run_case, progress, report=report, pdf=pdf, as_zarr=as_zarr
+            )
         seconds = time.perf_counter() - started
         if as_json:
             print_json(
@@ -114,46 +100,6 @@ def study(
             if result.status == "interrupted":
                 say("give the same command again to go on")
         raise typer.Exit(OK if result.status == "converged" else FAILED)
-
-
-def _watching(plan: Study, result: Result) -> Study:
-    """Return the study watching the response that varies most, where the file names none."""
-    from dataclasses import replace
-
-    from moyai.study.report.page import interesting
-    from moyai.study.report.reading import read_study
-
-    names = interesting(read_study(result))
-    return replace(plan, watch=names[0]) if names else plan
-
-
-def _with_replays(
-    plan: Study, result: Result, governs: list[tuple[str, int, float]], folder: Path, silent: bool
-) -> Result:
-    """Run the governing cases again with reports of their own, and note in the result where they lie."""
-    import json
-    from dataclasses import replace
-
-    from moyai.cli.runner import run as run_case
-    from moyai.report.writer import write_report
-    from moyai.study.assess import utilised
-    from moyai.study.plan import case_at
-
-    folders: dict[int, str] = {}
-    wanted = plan.replays if plan.search is None and result.status != "interrupted" else 0
-    for index in list(dict.fromkeys(index for _, index, _ in governs))[:wanted]:
-        name = f"governing/case {index}"
-        case = case_at(plan, plan.cases[index])
-        with progress_bars(silent) as progress:
-            again = run_case(case, progress)
-        again.write(folder / name / "results.nc")
-        write_report(again, folder / name)
-        folders[index] = name
-    reported = [[component, index, value, folders.get(index, "")] for component, index, value in governs]
-    kind = "utilisation" if utilised(result) else "watch"
-    tree = result.tree.copy()
-    tree.attrs.update({"governing": json.dumps(reported), "governing_kind": kind})
-    return replace(result, tree=tree)
 
 
 def _plan(plan: Study, workers: int | None, progress: Progress) -> dict[str, Any]:

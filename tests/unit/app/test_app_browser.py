@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import random
 import re
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
 from app_runs import MEMBER
+
+from moyai.case.templates import template
 
 pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
@@ -32,10 +36,12 @@ pytestmark = [
 ]
 
 
-@pytest.fixture
-def address(tmp_path: Path) -> Iterator[str]:
-    (tmp_path / "pile.yaml").write_text(MEMBER)
-    command = [sys.executable, "-m", "moyai", "app", str(tmp_path / "pile.yaml"), "--no-browser"]
+KINDS = ("breakwater", "curtain", "cage", "rigid_cage", "network", "member")
+
+
+@contextmanager
+def app_at(start: Path) -> Iterator[str]:
+    command = [sys.executable, "-m", "moyai", "app", str(start), "--no-browser"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
     assert process.stdout is not None
     found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", process.stdout.readline())
@@ -47,6 +53,13 @@ def address(tmp_path: Path) -> Iterator[str]:
     assert "has ended" in out and errors == ""
 
 
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    (tmp_path / "pile.yaml").write_text(MEMBER)
+    with app_at(tmp_path / "pile.yaml") as found:
+        yield found
+
+
 def until(page: Any, expression: str, seconds: float = 60.0) -> None:
     end = time.monotonic() + seconds
     while page.evaluate(f"Boolean({expression})") is not True:
@@ -54,14 +67,33 @@ def until(page: Any, expression: str, seconds: float = 60.0) -> None:
         time.sleep(0.05)
 
 
+def sound(page: Any, address: str) -> None:
+    """No console error, and nothing asked of another place."""
+    outside = [one for one in page.requests if not one.startswith((address.split("?")[0], "data:", "blob:"))]
+    assert outside == []
+    assert page.errors == []
+
+
 DRAWN = "Number(document.querySelector('.report')?.dataset.sequence || 0)"
-MOVE = """(() => {
+IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"
+TEXT = "document.querySelector('.text-pane').editor.text"
+ON_SCREEN = "[...MOYAI.figures.values()].filter((one) => MOYAI.isVisible(one.plot)).every((one) => one.drawn)"
+FIRST_ERROR = "document.querySelector('.faults .error button')?.textContent"
+MOVE = """((value) => {
   const range = document.querySelector('.slider input[type=range]');
-  range.value = 80;
+  range.value = value ?? Number(range.max) - 2 * Number(range.step);
   range.dispatchEvent(new Event('input', { bubbles: true }));
   range.dispatchEvent(new Event('change', { bubbles: true }));
-})()"""
+})"""
 FORCES = "JSON.stringify([...MOYAI.figures.values()].map((figure) => figure.plot.data?.map((trace) => [...trace.y])))"
+PRESS = "((words) => [...document.querySelectorAll('button')].find((one) => one.textContent === words).click())"
+REPORT = "[...document.querySelectorAll('.job-files a')].find((one) => one.textContent === 'Report').click()"
+DIAMETER = "document.querySelector('.form [data-path=\"structure.section.diameter\"]')"
+SET = """((path, value) => {
+  const field = document.querySelector(`.form [data-path="${path}"]`);
+  field.value = value;
+  field.dispatchEvent(new Event('change', { bubbles: true }));
+})"""
 
 
 def test_a_slider_redraws_the_figures(address: str) -> None:
@@ -70,29 +102,154 @@ def test_a_slider_redraws_the_figures(address: str) -> None:
         until(page, f"{DRAWN} > 0")
         assert page.evaluate("location.href.includes('token')") is False
         assert "httponly" not in page.evaluate("document.cookie").lower() and page.evaluate("document.cookie") == ""
-        until(page, "[...MOYAI.figures.values()].filter((one) => MOYAI.isVisible(one.plot)).every((one) => one.drawn)")
+        until(page, ON_SCREEN)
         before, number = page.evaluate(FORCES), page.evaluate(DRAWN)
-        page.evaluate(MOVE)
+        page.evaluate(f"{MOVE}(80)")
         until(page, f"{DRAWN} > {number}")
         until(page, f"{FORCES} !== {before!r}")
-        assert page.evaluate("document.querySelector('textarea').value") == MEMBER.replace("100 cm", "80 cm")
+        assert page.evaluate(TEXT) == MEMBER.replace("100 cm", "80 cm")
 
-        page.evaluate("[...document.querySelectorAll('button')].find((one) => one.textContent === 'Undo').click()")
+        page.evaluate(f"{PRESS}('Undo')")
         until(page, f"{FORCES} === {before!r}")
-        assert page.evaluate("document.querySelector('textarea').value") == MEMBER
+        assert page.evaluate(TEXT) == MEMBER
 
-        page.evaluate("""(() => {
-          const area = document.querySelector('textarea');
-          area.value = area.value.replace('water_depth', 'water_dept');
-          area.dispatchEvent(new Event('input', { bubbles: true }));
-        })()""")
-        until(page, "document.querySelector('.gutter .error')?.textContent === '5'")
+        page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('water_depth', 'water_dept')!r})")
+        until(page, f"{FIRST_ERROR} === 'line 5'")
+        assert page.evaluate("Boolean(document.querySelector('.cm-lint-marker-error'))")
         page.evaluate("location.reload()")
-        until(page, "document.querySelector('.gutter .error')?.textContent === '5'")
+        until(page, f"{FIRST_ERROR} === 'line 5'")
 
         for width in (390, 1280):
             page.resize(width, 900)
             assert page.evaluate("document.documentElement.scrollWidth <= innerWidth + 1"), width
-        outside = [one for one in page.requests if not one.startswith((address.split("?")[0], "data:", "blob:"))]
-        assert outside == []
-        assert page.errors == []
+        sound(page, address)
+
+
+def test_form_and_text_are_one_document(address: str) -> None:
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
+        page.evaluate(f"{PRESS}('Form')")
+        until(page, f"{DIAMETER}")
+        assert page.evaluate(f"{DIAMETER}.value") == "100 cm"
+        page.evaluate(f"{SET}('structure.section.diameter', '1.2 m')")
+        until(page, f"{TEXT}.includes('diameter: 1.2 m}}   # outer')")
+        assert page.evaluate(TEXT) == MEMBER.replace("100 cm", "1.2 m")
+        page.evaluate(f"{SET}('+', 'current')")
+        until(page, f"{TEXT} !== {MEMBER.replace('100 cm', '1.2 m')!r}")
+        page.evaluate(f"{PRESS}('Undo')")
+        until(page, f"{TEXT} === {MEMBER.replace('100 cm', '1.2 m')!r}")
+        page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('100 cm', '90 cm')!r})")
+        until(page, f"{DIAMETER}.value === '90 cm'")
+        page.evaluate(f"{SET}('structure.section.diameter', '-2 m')")
+        until(page, "document.querySelector('.field input[aria-invalid]')")
+        assert "range" in page.evaluate("document.querySelector('.field:has([aria-invalid]) .field-fault').textContent")
+        for _ in range(3):
+            page.evaluate(f"{PRESS}('Undo')")
+            time.sleep(0.3)
+        until(page, f"{TEXT} === {MEMBER!r}")
+        sound(page, address)
+
+
+def test_without_the_script_of_the_editor_there_is_a_text_area(address: str) -> None:
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Network.setBlockedURLs", urls=["*codemirror.js*"])
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
+        assert page.evaluate("document.querySelector('textarea').value") == MEMBER
+        page.evaluate(f"{TEXT.removesuffix('.text')}.type({MEMBER.replace('water_depth', 'water_dept')!r})")
+        until(page, "document.querySelector('.gutter .error')?.textContent === '5'")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_structure_opens_and_follows_a_slider(kind: str, tmp_path: Path) -> None:
+    (tmp_path / f"{kind}.yaml").write_text(template(kind))
+    with app_at(tmp_path / f"{kind}.yaml") as address, pipe.Chromium(str(pipe.find_chromium()), 1400, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}", 120.0)
+        until(page, ON_SCREEN)
+        number = page.evaluate(DRAWN)
+        text = page.evaluate(TEXT)
+        page.evaluate(f"{MOVE}()")
+        until(page, f"{DRAWN} > {number} && {IDLE}", 120.0)
+        until(page, ON_SCREEN)
+        assert page.evaluate(TEXT) != text
+        page.evaluate(f"{PRESS}('Form')")
+        until(page, "document.querySelectorAll('.form .field').length > 10")
+        page.resize(390, 844)
+        until(page, "innerWidth === 390 && document.documentElement.scrollWidth <= innerWidth + 1", 15.0)
+        sound(page, address)
+
+
+@pytest.mark.slow
+def test_moves_in_a_hurry_end_with_the_last_one(address: str) -> None:
+    """Sixty moves without waiting: drawn answers only go forward, and the last drawing is that of the last number."""
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        page.evaluate("""(() => {
+          window.drawnOnes = [];
+          new MutationObserver(() => drawnOnes.push(Number(document.querySelector('.report').dataset.sequence)))
+            .observe(document.querySelector('.report'), { attributes: true, attributeFilter: ['data-sequence'] });
+        })()""")
+        chance = random.Random(3)
+        values = [chance.randrange(60, 140) for _ in range(60)]
+        for value in values:
+            page.evaluate(f"{MOVE}({value})")
+            time.sleep(chance.choice((0.0, 0.02, 0.2)))
+        wanted = MEMBER.replace("100 cm", f"{values[-1]} cm")
+        until(page, f"{TEXT} === {wanted!r} && {IDLE}")
+        drawn = page.evaluate("drawnOnes")
+        assert drawn == sorted(drawn) and len(drawn) >= 2
+        until(page, ON_SCREEN)
+        time.sleep(3.0)  # figures beyond the screen are drawn one by one while nothing else is to be done
+        last = [page.evaluate("JSON.stringify(MOYAI.data.figures)"), page.evaluate(FORCES)]
+        page.evaluate("location.reload()")
+        until(page, f"!window.drawnOnes && {DRAWN} > 0 && {IDLE}")
+        until(page, ON_SCREEN)
+        time.sleep(3.0)
+        found = [page.evaluate("JSON.stringify(MOYAI.data.figures)"), page.evaluate(FORCES)]
+        assert [one == other for one, other in zip(found, last, strict=True)] == [True, True]
+        sound(page, address)
+
+
+@pytest.mark.slow
+def test_a_job_a_reload_and_two_tabs(address: str) -> None:
+    executable = str(pipe.find_chromium())
+    with pipe.Chromium(executable, 1280, 900) as page, pipe.Chromium(executable, 390, 844) as other:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0 && {IDLE}")
+        page.evaluate(f"{PRESS}('Run')")
+        until(page, "location.hash === '#/jobs' && document.querySelector('.job')")
+        page.evaluate("location.reload()")
+        other.send("Page.navigate", url=address)
+        until(other, f"{DRAWN} > 0 && {IDLE}")
+        other.evaluate(f"{MOVE}(90)")
+        until(other, f"{TEXT}.includes('90 cm') && {IDLE}")
+        other.evaluate("location.hash = '#/jobs'")
+        for one in (page, other):
+            until(one, "document.querySelector('.job')?.dataset.state === 'done'", 120.0)
+            assert "moyai run pile.yaml" in one.evaluate("document.querySelector('.command code').textContent")
+        page.evaluate(REPORT)
+        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
+        page.evaluate("history.go(-2)")
+        until(page, f"location.hash.startsWith('#/case') && {DRAWN} > 0")
+        assert "90 cm" in page.evaluate(TEXT), "the change of the other tab"
+        for one in (page, other):
+            sound(one, address)
+
+
+@pytest.mark.slow
+def test_a_paper_is_computed_again(address: str) -> None:
+    with pipe.Chromium(str(pipe.find_chromium()), 1280, 900) as page:
+        page.send("Page.navigate", url=address)
+        until(page, f"{DRAWN} > 0")
+        page.evaluate("location.hash = '#/'")
+        papers = "[...document.querySelectorAll('section')].find((one) => one.textContent.startsWith('Papers'))"
+        until(page, papers)
+        page.evaluate(f"{papers}.querySelectorAll('.card')[0].click()")
+        until(page, "document.querySelector('.job')?.dataset.state === 'done'", 400.0)
+        page.evaluate(REPORT)
+        until(page, "document.querySelector('iframe')?.src.endsWith('report.html')")
+        sound(page, address)

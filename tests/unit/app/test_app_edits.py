@@ -86,7 +86,18 @@ def test_seas_that_a_draft_leaves_out_have_no_sliders() -> None:
     document = parse_yaml(template("member"))
     stage = stages_of(document, "member")[-1]
     assert [sea["kind"] for sea in stage.data["waves"]] == ["regular"]
-    assert not any("significant" in one["path"] for one in sliders_of(stage, "member"))
+    found = sliders_of(document, "member", stage.data)
+    assert found
+    assert not any("significant" in one["path"] for one in found)
+
+
+def test_a_case_names_its_own_sliders() -> None:
+    text = template("breakwater") + "app: {sliders: ['lines[0].segments[0].length', structure.draught]}\n"
+    found = sliders_of(parse_yaml(text), "breakwater")
+    assert [one["path"] for one in found] == ["lines[0].segments[0].length", "structure.draught"]
+    assert [one["label"] for one in found] == ["Line length, first line", "Draught"]
+    own = parse_yaml(text.replace("structure.draught", "site.gravity"))
+    assert sliders_of(own, "breakwater")[1]["label"] == "Gravity of site"
 
 
 def test_drafts_take_the_cheap_analyses_of_the_case() -> None:

@@ -103,6 +103,24 @@ def test_a_case_from_opening_to_saving(page: Page) -> None:
     assert answer.text == MEMBER and "attachment" in answer.headers["content-disposition"]
 
 
+def test_the_form_changes_the_text_in_place(page: Page) -> None:
+    record = page.post("/api/cases", {"template": "member"})
+    key, text = record["id"], record["text"]
+    form = page.get(f"/api/cases/{key}/form").json()["form"]
+    assert any(entry["dotted"] == "structure" for entry in form["entries"])
+    wish = {"text": text, "change": "set", "path": ["title"], "value": "A: pile", "quoted": True}
+    record = page.post(f"/api/cases/{key}/change", wish)
+    assert record["text"] == text.replace("title: Submerged member", "title: 'A: pile'") and record["can_undo"]
+    assert page.post(f"/api/cases/{key}/undo")["text"] == text
+    refused = page.post(f"/api/cases/{key}/change", {"text": text, "change": "remove", "path": ["nothing"]}, 422)
+    assert "not written" in refused["faults"][0]["message"]
+    for odd in ({"change": "set", "path": []}, {"change": "x", "path": ["a"]}, {"change": "set", "path": [True]}):
+        page.post(f"/api/cases/{key}/change", {"text": text, **odd}, 400)
+    assert page.get(f"/api/cases/{key}").json()["text"] == text
+    page.draft(key, sequence=9, text="structure: {kind: nothing}")
+    assert "kind" in page.get(f"/api/cases/{key}/form", 422).json()["faults"][0]["message"]
+
+
 def test_errors_come_with_their_lines(page: Page) -> None:
     key = page.post("/api/cases", {"template": "member"})["id"]
     (checked,) = page.draft(key, sequence=1, text="moyai: 1\nstructure: {kind: membr}\n")
@@ -153,7 +171,10 @@ def test_a_full_run_with_its_files(page: Page) -> None:
         time.sleep(0.1)
         job = next(one for one in page.get("/api/jobs").json()["jobs"] if one["id"] == job["id"])
     assert job["state"] == "done", job
-    assert job["files"] == ["report.html", "results.nc", "report.xlsx", "case.yaml"]
+    assert job["files"][:4] == ["report.html", "results.nc", "report.xlsx", "case.yaml"]
+    assert job["files"][4:] == ["report.pdf", "report.docx", "tables.zip"], "made when they are asked for"
+    assert page.get(f"/results/{job['id']}/report.pdf?download").content.startswith(b"%PDF")
+    assert page.get(f"/results/{job['id']}/tables.zip?download").content.startswith(b"PK")
     assert job["command"] == "moyai run out/pile/case.yaml --output out/pile", "the text was not saved"
     report = page.get(f"/results/{job['id']}/report.html")
     assert report.headers["content-security-policy"] == REPORT_POLICY

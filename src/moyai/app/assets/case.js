@@ -1,5 +1,6 @@
 // An open case: sliders, text and the live report are three views of one document. Newer answers replace older ones, never the reverse.
-import { Editor } from "/assets/editor.js";
+import { editorOf } from "/assets/editor.js";
+import { Form } from "/assets/form.js";
 import { watchJobs } from "/assets/jobs.js";
 import { Live } from "/assets/live.js";
 import { element, get, post, stream, tell } from "/assets/server.js";
@@ -15,11 +16,12 @@ export class CaseView {
     this.sequence = this.checked = this.drawn = this.flying = 0;
     this.edits = new Map();
     this.typed = 0;
-    this.editor = new Editor((text) => this.textChanged(text));
+    this.form = new Form((wish) => this.change(wish));
     this.sliders = new Sliders((path, number) => this.sliderMoved(path, number));
   }
   async open() {
-    const record = await get(this.address);
+    const [record, editor] = await Promise.all([get(this.address), editorOf({ changed: () => this.textChanged(), undo: () => this.undo(), keysAt: (path) => this.keysAt(path) })]);
+    this.editor = editor;
     const button = (words, act, title) => element("button", { type: "button", onclick: act, title }, words);
     this.title = element("h1", {}, record.name);
     this.undoButton = button("Undo", () => this.undo(), "Back to the text before the last change (Alt+Z)");
@@ -32,7 +34,7 @@ export class CaseView {
       element("div", { class: "controls" }, this.title,
         element("div", { class: "toolbar" }, button("Run", () => this.run(), "Full run as a job, with the report"), this.undoButton, this.pinButton,
           this.saveButton, element("a", { href: `${this.address}/case.yaml`, download: true }, "Take the case")),
-        this.sliders.element, this.editor.element),
+        this.tabs(), this.sliders.element, this.form.element, this.editor.element),
       element("div", { class: "look" }, element("div", { class: "top" }, this.state, this.jump), this.report));
     this.report.addEventListener("click", (event) => {
       const link = event.target.closest("a[href^='#']");
@@ -43,6 +45,58 @@ export class CaseView {
     document.addEventListener("keydown", this.keys);
     this.take(record);
     this.send("opened");
+  }
+  // Wide: the text stays, numbers and form change places above it. Narrow: one of the three.
+  tabs() {
+    const names = [["numbers", "Numbers"], ["form", "Form"], ["written", "Text"]], list = element("div", { class: "tabs", role: "tablist", "aria-label": "Ways to change the case" });
+    const choose = (name, focus) => {
+      for (const button of list.children) {
+        const chosen = button.dataset.tab === name;
+        button.setAttribute("aria-selected", String(chosen));
+        button.tabIndex = chosen ? 0 : -1;
+        if (chosen && focus) button.focus();
+      }
+      this.content.dataset.tab = this.tab = name;
+      if (name === "form") this.renewForm();
+    };
+    list.append(...names.map(([name, words]) => element("button", { type: "button", role: "tab", "data-tab": name, onclick: () => choose(name) }, words)));
+    list.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key], at = names.findIndex(([name]) => name === this.tab);
+      if (step) choose(names[(at + step + names.length) % names.length][0], true);
+    });
+    choose("numbers");
+    return list;
+  }
+  async renewForm() {
+    const turn = this.formTurn = (this.formTurn || 0) + 1;
+    try {
+      const { form } = await get(`${this.address}/form`);
+      if (turn !== this.formTurn) return;
+      this.lastForm = form;
+      this.form.show(form);
+    } catch (refused) {
+      if (turn === this.formTurn && !this.lastForm) this.form.refuse(refused.message);
+    }
+  }
+  async keysAt(path) {
+    if (!this.lastForm) await this.renewForm();
+    let group = this.lastForm;
+    for (const step of path) {
+      const entries = group ? group.entries : [], at = entries.findIndex((one) => one.path[one.path.length - 1] === step);
+      group = at < 0 ? null : entries[at];
+    }
+    return (group && group.absent) || [];
+  }
+  async change(wish) {
+    const typed = this.typed;
+    clearTimeout(this.timer);
+    const record = await post(`${this.address}/change`, { ...wish, text: this.editor.text });
+    if (typed !== this.typed) { tell("the text was changed meanwhile: do it again"); return; }
+    this.edits.clear();
+    this.typed++;
+    this.take(record);
+    this.renewForm();
+    this.send(`form ${wish.path.join(".")}`);
   }
   close() {
     this.closed = true;
@@ -106,6 +160,8 @@ export class CaseView {
     for (const [path, number] of Object.entries(edits)) if (this.edits.get(path) === number) this.edits.delete(path);
     if (typed === this.typed) this.editor.text = said.text;
     this.editor.show(said.faults, said.warnings);
+    this.form.mark(said.faults);
+    if (this.tab === "form" || !said.faults.length && this.lastForm === undefined) this.renewForm();
     if (said.sliders) this.sliders.show(said.sliders);
     if (!said.faults.length) { this.say("drawing …"); this.undoButton.disabled = false; this.saveButton.disabled = false; }
     else this.say(`${said.faults.length} error${said.faults.length === 1 ? "" : "s"} in the case; what is shown is older than the text`, true);

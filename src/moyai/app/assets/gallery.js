@@ -22,11 +22,17 @@ function drawing(kind) {
   return made;
 }
 
+const JOBS = ["study", "fit"];
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 async function open(what) {
   const opened = await post("/api/cases", what);
   location.hash = `#/case/${opened.id}`;
+}
+
+async function startFile(file) {
+  const job = await post("/api/jobs", { file });
+  location.hash = job.kind === "study" ? `#/job/${job.id}` : "#/jobs";
 }
 
 async function startPaper(paper) {
@@ -50,7 +56,8 @@ export async function showGallery(content) {
     element("h1", {}, "Cases"),
     element("p", { class: "subtitle" }, found.folder),
     group("Open now", found.recent.map((one) => card("", one.file, "as you left it", () => { location.hash = `#/case/${one.id}`; }))),
-    group("In this folder", found.files.map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), "no case files in this folder yet"),
+    group("In this folder", found.files.filter((one) => !JOBS.includes(one.kind)).map((one) => card(one.kind, one.title, one.file, () => open({ file: one.file }))), "no case files in this folder yet"),
+    group("Studies and fits, run as jobs", found.files.filter((one) => JOBS.includes(one.kind)).map((one) => card("", one.title, `${one.kind}: ${one.file}`, () => startFile(one.file)))),
     group("Templates", found.templates.map((one) => card(one.kind, capital(one.template.replace("_", " ")), one.title, () => open({ template: one.template })))),
     group("Papers, computed again as a job", found.papers.map((one) => card("", `${one.authors} (${one.year})`, one.line, () => startPaper(one.paper)))),
   ];

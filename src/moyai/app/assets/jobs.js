@@ -31,17 +31,23 @@ function row(job) {
   const progress = job.stage ? `${job.stage}: ${Math.round(100 * job.fraction)} %${job.left ? `, ${job.left} left` : ""}` : "starting";
   return element("li", { class: "job", "data-job": job.id, "data-state": job.state },
     element("div", { class: "job-head" },
-      element("strong", {}, job.kind === "paper" ? `Paper: ${job.name}` : job.name),
+      element("strong", {}, job.kind === "run" ? job.name : `${job.kind[0].toUpperCase()}${job.kind.slice(1)}: ${job.name}`),
       element("span", { class: `job-state ${TONES[job.state] || ""}` }, WORDS[job.state]),
       element("span", { class: "quiet" }, job.seconds ? `${job.seconds.toFixed(0)} s` : ""), element("span", { class: "spring" }),
       active && job.state === "running" || job.state === "waiting" ? button("Cancel", `/api/jobs/${job.id}/cancel`) : null,
-      ["failed", "cancelled", "lost"].includes(job.state) ? button("Start again", `/api/jobs/${job.id}/again`) : null),
+      ["failed", "cancelled", "lost"].includes(job.state) ? button(job.kind === "study" ? "Go on" : "Start again", `/api/jobs/${job.id}/again`) : null),
     active ? element("progress", { max: 1, value: job.fraction, "aria-label": "Progress" }) : null,
     element("p", { class: "quiet" }, active ? progress : job.words),
     job.files.length ? element("p", { class: "job-files" },
       job.files.includes("report.html") ? element("a", { href: `#/job/${job.id}` }, "Report") : null,
       ...job.files.map((name) => element("a", { href: `/results/${job.id}/${name}?download`, download: true }, name))) : null,
-    element("p", { class: "quiet command" }, element("code", {}, job.command), " in ", element("span", {}, job.folder)));
+    job.kind === "study" && !["waiting"].includes(job.state) ? element("p", { class: "job-files" }, element("a", { href: `#/job/${job.id}` }, "Table of the cases")) : null,
+    commandOf(job));
+}
+
+function commandOf(job) {
+  const copy = element("button", { type: "button", onclick: async () => { await navigator.clipboard.writeText(job.command); tell("copied"); } }, "Copy");
+  return element("p", { class: "quiet command" }, element("code", {}, job.command), " ", copy);
 }
 
 export function showJobs(content) {
@@ -64,8 +70,45 @@ export function showJobs(content) {
 }
 
 export function showJob(content, key) {
-  const frame = element("iframe", { src: `/results/${key}/report.html`, title: "Report of the run", sandbox: "allow-scripts allow-downloads allow-modals" });
-  content.replaceChildren(element("p", { class: "job-files" }, element("a", { href: "#/jobs" }, "All jobs"),
-    ...["report.html", "report.xlsx", "results.nc", "case.yaml"].map((name) => element("a", { href: `/results/${key}/${name}?download`, download: true }, name))), frame);
-  return {};
+  const head = element("div", { class: "job-files" }), table = element("div", { class: "study" }), frame = element("iframe", { title: "Report of the run", sandbox: "allow-scripts allow-downloads allow-modals" });
+  let shown = "", counted = -1;
+  content.replaceChildren(head, table, frame);
+  const show = async (jobs) => {
+    const job = jobs.find((one) => one.id === key);
+    if (!job) return;
+    const done = job.files.includes("report.html"), active = job.state === "running" || job.state === "cancelling";
+    const state = JSON.stringify([job.files, job.state]);
+    if (state !== shown) {
+      shown = state;
+      head.replaceChildren(element("a", { href: "#/jobs" }, "All jobs"), ...job.files.map((name) => element("a", { href: `/results/${key}/${name}?download`, download: true }, name)));
+      if (done && !active) frame.src = `/results/${key}/report.html`;
+      frame.hidden = !done || active;
+    }
+    if (job.kind !== "study") return;
+    const found = await get(`/api/jobs/${key}/study`).catch(() => null);
+    if (!found || (found.ended === counted && !active)) return;
+    if (found.ended !== counted) {
+      counted = found.ended;
+      showStudy(table, key, found);
+      if (active && found.gathered) { frame.hidden = false; frame.src = `/results/${key}/so_far.html`; }
+    }
+  };
+  listeners.add(show);
+  show(known);
+  watchJobs();
+  return { close: () => listeners.delete(show) };
 }
+
+// The cases of a study that have ended: labels, status, what differs most; a click opens the case.
+function showStudy(place, key, found) {
+  const open = async (index) => { const opened = await post(`/api/jobs/${key}/cases`, { case: index }); location.hash = `#/case/${opened.id}`; };
+  const head = ["Case", ...found.axes, "Status", ...found.columns.map((one) => `${one.name.split("/").slice(-2).join(" ").replaceAll("_", " ")}${one.unit ? ` [${one.unit}]` : ""}`)];
+  const rows = found.rows.map((row) => element("tr", {},
+    element("td", {}, element("button", { type: "button", title: "Open this case", onclick: () => open(row.case) }, `${row.case}`)),
+    ...found.axes.map((_, at) => element("td", {}, row.labels[at] ?? "")), element("td", { title: row.message }, row.status),
+    ...row.values.map((value) => element("td", { class: "number" }, value === null || value === undefined ? "" : shortNumber(value)))));
+  place.replaceChildren(element("p", { class: "quiet" }, `${found.ended} of ${found.total} cases have ended${found.ended > found.rows.length ? `; the first ${found.rows.length} are shown` : ""}. The number of a case opens it.`),
+    element("div", { class: "study-table" }, element("table", {}, element("thead", {}, element("tr", {}, ...head.map((word) => element("th", { scope: "col" }, word)))), element("tbody", {}, ...rows))));
+}
+
+const shortNumber = (value) => (Math.abs(value) >= 1e5 || (value !== 0 && Math.abs(value) < 1e-3) ? value.toExponential(3) : String(Number(value.toPrecision(4)))).replace("-", "\u2212");

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, Wind, refuse_no_seas
@@ -371,3 +372,4 @@ class BreakwaterCase(Block):
     settings: Settings = Field(default_factory=Settings, description="How the analyses are run.")
     measured: Measured | None = Field(default=None, description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
+    app: App = Field(default_factory=App, description=APP)

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
@@ -176,3 +177,4 @@ class CageCase(Block):
     settings: CageSettings = Field(default_factory=CageSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
+    app: App = Field(default_factory=App, description=APP)

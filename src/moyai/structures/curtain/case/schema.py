@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import Current, SeaState, Site, refuse_no_seas
@@ -563,3 +564,4 @@ class CurtainCase(Block):
     settings: CurtainSettings = Field(default_factory=CurtainSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
+    app: App = Field(default_factory=App, description=APP)

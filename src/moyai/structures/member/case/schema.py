@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
+from moyai.case.schema_app import APP, App
 from moyai.case.schema_criteria import CRITERIA
 from moyai.case.schema_display import DISPLAY, Display
 from moyai.case.schema_environment import (
@@ -332,3 +333,4 @@ class MemberCase(Block):
     settings: MemberSettings = Field(default_factory=MemberSettings, description="How the analyses are run.")
     measured: MeasuredSets = Field(default=(), description=MEASURED)
     display: Display = Field(default_factory=Display, description=DISPLAY)
+    app: App = Field(default_factory=App, description=APP)

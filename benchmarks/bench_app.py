@@ -1,0 +1,120 @@
+"""Latency of ``moyai app``: from a moved slider to the figures drawn again, in headless Chromium.
+
+    python benchmarks/bench_app.py [--moves 20] [--only member]
+
+Prints JSON lines: median and 95th percentile in milliseconds over single moves with a rest between them, the first one
+of each structure (which fills caches) left out. On a machine that does other things the numbers are theirs too.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+from moyai.case.templates import template
+
+CASES = {
+    "member": ("member", "", "structure.section.diameter"),
+    "rigid cage statics": ("rigid_cage", "statics", "structure.net.twine_diameter"),
+    "cage statics": ("cage", "statics", "current.speed"),
+    "breakwater statics": ("breakwater", "statics", "structure.length"),
+    "breakwater frequency, mass": ("breakwater", "statics, mooring, frequency", "structure.roll_gyradius"),
+    "breakwater frequency, section": ("breakwater", "statics, mooring, frequency", "structure.section.beam"),
+    "network statics": ("network", "statics", "current.speed"),
+    "curtain statics": ("curtain", "statics", "current.speed"),
+}
+IDLE = "document.querySelector('.state') && !document.querySelector('.state.working')"
+MOVE = """((path, share) => {
+  const label = [...document.querySelectorAll('.slider label')].find((one) => one.title === path);
+  const range = document.getElementById(label.getAttribute('for'));
+  const low = Number(range.min), high = Number(range.max);
+  delete document.querySelector('.report').dataset.latency;
+  range.value = low + (high - low) * share;
+  for (const name of ['input', 'change']) range.dispatchEvent(new Event(name, { bubbles: true }));
+})"""
+
+
+def driver() -> Any:
+    """Return the module that drives Chromium, which stands with the tests of the reports."""
+    path = Path(__file__).parents[1] / "tests" / "unit" / "report" / "chromium_pipe.py"
+    spec = importlib.util.spec_from_file_location("chromium_pipe", path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def until(page: Any, expression: str, seconds: float = 180.0) -> None:
+    """Wait for an expression of the page to hold."""
+    end = time.monotonic() + seconds
+    while page.evaluate(f"Boolean({expression})") is not True:
+        if time.monotonic() > end:
+            raise TimeoutError(f"{expression}: {page.errors}")
+        time.sleep(0.02)
+
+
+def text_of(name: str, analyses: str, path: str) -> str:
+    """Return the template of a structure with these analyses and a slider of this number."""
+    text = template(name)
+    if analyses:
+        text = re.sub(r"^analyses:.*$", f"analyses: [{analyses}]", text, flags=re.MULTILINE)
+    return f"{text.rstrip()}\napp: {{sliders: ['{path}']}}\n"
+
+
+def measured(page: Any, file: str, path: str, moves: int) -> list[float]:
+    """Return the milliseconds of every move, the first left out."""
+    page.evaluate("location.hash = '#/'")
+    card = f"[...document.querySelectorAll('.card')].find((one) => one.textContent.endsWith({file!r}))"
+    until(page, card)
+    page.evaluate(f"{card}.click()")
+    until(page, f"{IDLE} && document.querySelector('.report').dataset.sequence && document.querySelector('.slider')")
+    found = []
+    for number in range(moves + 1):
+        page.evaluate(f"{MOVE}({path!r}, {0.4 + 0.2 * ((number * 7) % 11) / 11.0})")
+        until(page, f"{IDLE} && document.querySelector('.report').dataset.latency")
+        found.append(float(page.evaluate("document.querySelector('.report').dataset.latency")))
+        time.sleep(0.1)
+    return found[1:]
+
+
+def main() -> None:
+    """Measure every structure."""
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--moves", type=int, default=20)
+    options.add_argument("--only", default="")
+    given = options.parse_args()
+    chosen = {name: case for name, case in CASES.items() if given.only in name}
+    with tempfile.TemporaryDirectory() as held:
+        for name, case in chosen.items():
+            Path(held, f"{name.replace(' ', '_').replace(',', '')}.yaml").write_text(text_of(*case), encoding="utf-8")
+        command = [sys.executable, "-m", "moyai", "app", held, "--no-browser"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        try:
+            assert process.stdout is not None
+            found = re.search(r"http://127\.0\.0\.1:\d+/\?token=\S+", process.stdout.readline())
+            assert found is not None
+            module = driver()
+            with module.Chromium(module.find_chromium(), 1400, 900) as page:
+                page.send("Page.navigate", url=found[0])
+                for name, (_, _, path) in chosen.items():
+                    file = f"{name.replace(' ', '_').replace(',', '')}.yaml"
+                    times = sorted(measured(page, file, path, given.moves))
+                    high = times[min(len(times) - 1, round(0.95 * (len(times) - 1)))]
+                    record = {"case": name, "moves": len(times), "median_ms": statistics.median(times), "p95_ms": high}
+                    print(json.dumps(record), flush=True)
+        finally:
+            process.terminate()
+            process.wait(20)
+
+
+if __name__ == "__main__":
+    main()
