@@ -162,7 +162,7 @@ def sommerfeld(k: float, x: Array, y: Array) -> ComplexArray:
         return np.asarray(0.5 * (1.0 - 1.0j) * ((0.5 + cosine) + 1.0j * (0.5 + sine)))
 
     one = np.ones_like(x)
-    return part(one, x) * np.exp(1j * k * x) + part(-one, -x) * np.exp(-1j * k * x)
+    return np.asarray(part(one, x) * np.exp(1j * k * x) + part(-one, -x) * np.exp(-1j * k * x))
 
 
 def _upright(plan: Array, depth: float, layers: int) -> PanelMesh:

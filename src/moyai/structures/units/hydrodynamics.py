@@ -72,13 +72,13 @@ class RowHydrodynamics:
     def added_mass(self) -> Array:
         """(f, m, m), the symmetric part."""
         values = np.array([item.added_mass for item in self.solutions])
-        return 0.5 * (values + values.transpose(0, 2, 1))
+        return np.asarray(0.5 * (values + values.transpose(0, 2, 1)))
 
     @property
     def damping(self) -> Array:
         """(f, m, m), the symmetric part."""
         values = np.array([item.damping for item in self.solutions])
-        return 0.5 * (values + values.transpose(0, 2, 1))
+        return np.asarray(0.5 * (values + values.transpose(0, 2, 1)))
 
     @property
     def excitation(self) -> ComplexArray:

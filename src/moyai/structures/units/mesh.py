@@ -64,7 +64,7 @@ class PanelMesh:
     @property
     def area(self) -> Array:
         """Areas (n,) [m2]."""
-        return np.linalg.norm(self.area_vector, axis=1)
+        return np.asarray(np.linalg.norm(self.area_vector, axis=1))
 
     @property
     def normal(self) -> Array:
@@ -77,7 +77,7 @@ class PanelMesh:
         a, b, c, d = (self.corners[:, index] for index in range(4))
         first = np.linalg.norm(np.cross(b - a, c - a), axis=1)[:, None]
         second = np.linalg.norm(np.cross(c - a, d - a), axis=1)[:, None]
-        return (first * (a + b + c) + second * (a + c + d)) / (3.0 * (first + second))
+        return np.asarray((first * (a + b + c) + second * (a + c + d)) / (3.0 * (first + second)))
 
     @property
     def longest_side(self) -> float:

@@ -42,7 +42,7 @@ class Placement:
 
     def to_row(self, points: Array) -> Array:
         """Return points (..., 3) [m] of the unit in the frame of the row."""
-        return np.asarray(points, dtype=float) @ self.rotation.T + np.array([self.x, self.y, 0.0])
+        return np.asarray(np.asarray(points, dtype=float) @ self.rotation.T + np.array([self.x, self.y, 0.0]))
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,9 @@ class Curve:
         first, last = (f[1] - f[0]) / (x[1] - x[0]), (f[-1] - f[-2]) / (x[-1] - x[-2])
         e = np.asarray(elongation, dtype=float)
         inside = np.interp(e, x, f)
-        return np.where(e < x[0], f[0] + first * (e - x[0]), np.where(e > x[-1], f[-1] + last * (e - x[-1]), inside))
+        return np.asarray(
+            np.where(e < x[0], f[0] + first * (e - x[0]), np.where(e > x[-1], f[-1] + last * (e - x[-1]), inside))
+        )
 
     def rounded(self, elongation: float, width: float) -> tuple[float, float]:
         """Return force [N] and slope [N/m], the mean over ``width`` [m] to either side: a curve without corners."""

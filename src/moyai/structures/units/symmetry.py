@@ -30,7 +30,7 @@ class Symmetry:
     @property
     def part(self) -> IntArray:
         """Panels of the part that is solved."""
-        return self.images[0]
+        return np.asarray(self.images[0])
 
     @property
     def parities(self) -> Array:

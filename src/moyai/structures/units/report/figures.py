@@ -162,7 +162,7 @@ def _inside_units(sketch: Sketch, statics: Group, corners: Array, x: Array, y: A
 def _of_points(sea: Group, period: int | None) -> Array:
     if period is None:
         return sea.require("wave_height_ratio_of_point", "point")
-    return sea.require("wave_height_ratio_of_point", "period", "point")[period]
+    return np.asarray(sea.require("wave_height_ratio_of_point", "period", "point")[period])
 
 
 def _incident(sketch: Sketch, heading: float, x: Array, y: Array) -> None:
